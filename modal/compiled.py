@@ -1,0 +1,60 @@
+"""The one decorator for compiled kernels: numba with a cache that cannot go stale.
+
+Numba keys its cache on the file that holds a function, not on the files of the functions it calls, so a
+change in one module would leave old machine code in use in another. Here the cache folder is named after
+a digest of all sources of both packages instead: any change starts a fresh one.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+@cache
+def cache_folder() -> Path:
+    """Folder of the machine code that belongs to exactly these sources."""
+    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+        return Path(chosen)
+    import platformdirs
+
+    here = Path(__file__).resolve().parent
+    digest = hashlib.sha256()
+    for package in (here, here.parent / "towercrane"):
+        for source in sorted(package.rglob("*.py")):
+            digest.update(source.read_bytes())
+    return Path(platformdirs.user_cache_dir("towercrane", appauthor=False)) / digest.hexdigest()[:16]
+
+
+def is_compiled(module: str) -> bool:
+    """Whether machine code of the named module's kernels is in the cache already."""
+    stem = module.rpartition(".")[2]
+    return any(cache_folder().rglob(f"{stem}.*.nbi"))
+
+
+def kernel(signature: Any = None) -> Callable[[Callable[..., Any]], Any]:
+    """Compile a function with numba, cached; with a signature at once, without one at its first call.
+
+    Parameters
+    ----------
+    signature : numba signature, optional
+        A function with a signature can be passed to other kernels as a function pointer.
+    """
+    import numba
+    from numba.core import config
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
+        try:
+            arguments = () if signature is None else (signature,)
+            return numba.njit(*arguments, cache=True, error_model="numpy")(function)
+        finally:
+            config.CACHE_DIR = before
+
+    return decorate

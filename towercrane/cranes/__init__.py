@@ -1,0 +1,1 @@
+"""Crane models: parameters and a structure each."""

@@ -1,0 +1,367 @@
+"""Crane in radial motion: tower, jib, trolley and load in the vertical plane of the jib.
+
+Source: Gao et al. (2023); the equations are derived anew, see :mod:`towercrane.cranes.radial_kernel`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import factorial
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from modal.beam import Beam, EndBody
+from modal.shapes import Modes, cantilever_modes
+from towercrane.cranes import radial_kernel as kernel
+from towercrane.payload import FORCE, JACOBIAN, MASS, Load, restore, work_shape
+from towercrane.system import System
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.motion import Phases
+
+    Floats = NDArray[np.float64]
+
+SLACK_ROPE = "slack rope"
+TROLLEY_OFF_JIB = "trolley off the jib"
+TOWER_BUCKLED = "tower buckled"
+
+TILT_LIMIT = 0.5
+"""Tilt of the tower top at which a run ends as buckled [rad]: far beyond what a beam theory of small slopes holds."""
+
+TABLE_POWERS = 8
+"""Coefficients per cell of the tabulated jib shapes."""
+
+TABLE_REACH = 0.04
+"""Largest wave number times half a cell: the next Taylor term is then below 0.04^8/8! = 2e-16."""
+
+
+class TowerBuckles(ArithmeticError):
+    """The crane has no stable equilibrium under its weight."""
+
+
+@dataclass(frozen=True, slots=True)
+class RadialCrane:
+    """Parameters of a tower crane with a flexible tower and jib and a rigid counter-jib.
+
+    Parameters
+    ----------
+    name : str
+    tower, jib : Beam
+        Their lengths are the tower's height and the jib's radius.
+    counter_jib_length : float
+        Distance of the counterweight from the tower axis [m].
+    counter_jib_mass_per_length : float
+        Mass per unit length of the counter-jib [kg/m].
+    counterweight : float
+        Mass at the end of the counter-jib [kg].
+    trolley_mass : float
+        Mass of the trolley [kg].
+    gravity : float
+        Acceleration of gravity [m/s^2].
+    """
+
+    name: str
+    tower: Beam
+    jib: Beam
+    counter_jib_length: float
+    counter_jib_mass_per_length: float
+    counterweight: float
+    trolley_mass: float
+    gravity: float = 9.81
+
+    @property
+    def counter_mass(self) -> float:
+        """Mass of counter-jib and counterweight [kg]."""
+        return self.counter_jib_mass_per_length * self.counter_jib_length + self.counterweight
+
+    @property
+    def counter_inertia(self) -> float:
+        """Moment of inertia of counter-jib and counterweight about the tower top [kg m^2]."""
+        length = self.counter_jib_length
+        return self.counter_jib_mass_per_length * length**3 / 3 + self.counterweight * length**2
+
+    @property
+    def slewing_mass(self) -> float:
+        """Mass m_r of everything that turns, without trolley and load [kg]."""
+        return self.jib.mass + self.counter_mass
+
+    @property
+    def slewing_inertia(self) -> float:
+        """Moment of inertia J_r of everything that turns about the tower top [kg m^2].
+
+        Full integrals; the additional factors 1/2 of Gao et al. (2023), Eq. 8 and 10, are misprints.
+        """
+        return self.jib.mass * self.jib.length**2 / 3 + self.counter_inertia
+
+    @property
+    def static_moment(self) -> float:
+        """First moment S_r of everything that turns about the tower axis, positive towards the jib [kg m]."""
+        counter = self.counter_jib_mass_per_length * self.counter_jib_length / 2 + self.counterweight
+        return self.jib.mass * self.jib.length / 2 - counter * self.counter_jib_length
+
+    @property
+    def end_body(self) -> EndBody:
+        """The slewing part as the tower's end body: what Gao et al. (2023), Eq. 26, calls m_r and J_r."""
+        return EndBody(self.slewing_mass, self.slewing_inertia)
+
+
+@dataclass(frozen=True, eq=False)
+class RadialModel:
+    """Equations of motion in chosen coordinates: any numbers of tower and jib modes, 0 meaning rigid.
+
+    Parameters
+    ----------
+    crane : RadialCrane
+    load : Load
+    tower_modes, jib_modes : int
+        Numbers of modes.
+    weight_softening : bool
+        Include the geometric stiffness of the weight above each section of the tower.
+    tower_damping_ratio, jib_damping_ratio : float
+        Modal damping as a fraction of critical.
+    self_weight : bool
+        Whether the structure has weight; without it, as in Gao et al. (2023), Eq. 15, only trolley and load do.
+    rope_as_rod : bool
+        Let the rope push, as most published models do. Without it a slack rope ends the run.
+    axes : int
+        2 for motion in the plane of the jib, 3 for a load that may swing out of it.
+    """
+
+    crane: RadialCrane
+    load: Load
+    tower_modes: int = 2
+    jib_modes: int = 3
+    weight_softening: bool = False
+    tower_damping_ratio: float = 0.0
+    jib_damping_ratio: float = 0.0
+    self_weight: bool = True
+    rope_as_rod: bool = False
+    axes: Literal[2, 3] = 2
+
+    def __post_init__(self) -> None:
+        for name in ("tower_modes", "jib_modes"):
+            if getattr(self, name) < 0:
+                raise ValueError(f"RadialModel.{name}: wanted zero or more, got {getattr(self, name)!r}")
+
+    @property
+    def coordinates(self) -> int:
+        """Number of modal coordinates."""
+        return self.tower_modes + self.jib_modes
+
+    @property
+    def size(self) -> int:
+        """Number of states: coordinates and rope direction with their rates, and the work done."""
+        return 2 * (self.coordinates + self.axes) + 1
+
+    @cached_property
+    def tower(self) -> Modes:
+        """Modes of the tower with the slewing part on its end."""
+        return cantilever_modes(self.crane.tower, self.tower_modes, self.crane.end_body)
+
+    @cached_property
+    def jib(self) -> Modes:
+        """Modes of the jib, clamped at the tower top and free at its end."""
+        return cantilever_modes(self.crane.jib, self.jib_modes)
+
+    @cached_property
+    def geometric_stiffness(self) -> Floats:
+        """Stiffness that the weight takes from the tower modes, int N phi' phi' (tower, tower) [1/s^2].
+
+        N(s) = (m_r + m_c + m_p + m_t (l_t - s)) g at the height s.
+        """
+        crane = self.crane
+        above = crane.slewing_mass + crane.trolley_mass + self.load.mass
+        along = crane.tower.mass_per_length * self.tower.weighted_slope_matrix()
+        return crane.gravity * (above * self.tower.slope_matrix() + along)
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        crane, load = self.crane, self.load
+        n, tower = self.coordinates, self.tower_modes
+        vectors = np.zeros((5, n))
+        vectors[kernel.TIP, :tower] = self.tower(crane.tower.length)
+        vectors[kernel.SLOPE, :tower] = self.tower(crane.tower.length, 1)
+        vectors[kernel.JIB_MASS, tower:], vectors[kernel.JIB_MOMENT, tower:] = self.jib.mass_moments()
+        tip, slope = vectors[kernel.TIP], vectors[kernel.SLOPE]
+        omega = np.concatenate([self.tower.angular_frequencies, self.jib.angular_frequencies])
+        ratio = np.repeat([self.tower_damping_ratio, self.jib_damping_ratio], [tower, self.jib_modes])
+        vectors[kernel.DAMPING] = 2.0 * ratio * omega
+
+        base = np.zeros((n, n))
+        base[:tower, :tower] = self.tower.mass_matrix()
+        base += crane.slewing_mass * np.outer(tip, tip) + crane.slewing_inertia * np.outer(slope, slope)
+        base[tower:, tower:] = self.jib.mass_matrix()
+        # Tilting the tower top moves the clamped jib through -gamma x: first order, absent in the source.
+        base[:tower, tower:] = -np.outer(slope[:tower], vectors[kernel.JIB_MOMENT, tower:])
+        base[tower:, :tower] = base[:tower, tower:].T
+        stiffness = np.diag(omega**2)
+        if self.weight_softening:
+            stiffness[:tower, :tower] -= self.geometric_stiffness
+
+        numbers = np.zeros(10)
+        numbers[kernel.TOWER_MODES] = tower
+        numbers[kernel.TROLLEY_MASS] = crane.trolley_mass
+        numbers[kernel.GRAVITY] = crane.gravity
+        numbers[kernel.SELF_GRAVITY] = crane.gravity if self.self_weight else 0.0
+        numbers[kernel.STATIC_MOMENT] = crane.static_moment
+        numbers[kernel.JIB_LENGTH] = crane.jib.length
+        numbers[kernel.TILT_LIMIT] = TILT_LIMIT
+        numbers[kernel.LOAD_MASS] = load.mass
+        numbers[kernel.DRAG] = load.drag
+        numbers[kernel.HINGE_DAMPING] = load.rope_damping
+        return System(
+            rhs=kernel.rhs,
+            size=self.size,
+            guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED),
+            floors=np.array([-np.inf if self.rope_as_rod else 0.0, 0.0, 0.0, 0.0]),
+            scale=self._scale(vectors[kernel.TIP]),
+            numbers=numbers,
+            vectors=vectors,
+            matrices=np.array([base, stiffness]),
+            tables=self._shape_table(),
+            work_shape=work_shape(n),
+            restore=lambda state: restore(state, n, self.axes),
+        )
+
+    def _scale(self, tip: Floats) -> Floats:
+        """Tolerances are metres at the tips, radians of swing; the work steers nothing."""
+        amplitude = np.concatenate([tip[: self.tower_modes], self.jib(self.crane.jib.length)])
+        scale = np.concatenate([1.0 / np.maximum(abs(amplitude), 1e-12), np.ones(self.axes)])
+        return np.concatenate([scale, scale, [np.inf]])
+
+    def _shape_table(self) -> Floats:
+        """Jib shapes as Taylor polynomials about the middle of equal cells; shape (cells, modes, powers)."""
+        length = self.crane.jib.length
+        highest = self.jib.roots[-1] if self.jib_modes else 0.0
+        cells = max(1, int(np.ceil(highest / (2.0 * TABLE_REACH))))
+        middles = (np.arange(cells) + 0.5) * length / cells
+        shapes = [self.jib(middles, derivative).T / factorial(derivative) for derivative in range(TABLE_POWERS)]
+        return np.ascontiguousarray(np.stack(shapes, axis=-1).reshape(cells, self.jib_modes, TABLE_POWERS))
+
+    def start(
+        self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0
+    ) -> Floats:
+        """State at rest at the start.
+
+        Parameters
+        ----------
+        inputs : ndarray
+            Polynomials of the first phase.
+        state : str
+            "equilibrium" (the static solution) or "zero" (undeformed, all weights on).
+        swing_angle : float
+            Angle of the rope from the vertical, positive outward [rad].
+
+        Returns
+        -------
+        ndarray, shape (size,)
+
+        Raises
+        ------
+        TowerBuckles
+            If there is no stable equilibrium.
+        ValueError
+            If the state is not one of the two.
+        """
+        if state not in ("equilibrium", "zero"):
+            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+        y = np.zeros(self.size)
+        if state == "equilibrium":
+            y[: self.coordinates] = self.equilibrium(inputs)
+        y[self.coordinates] = np.sin(swing_angle)
+        y[self.coordinates + self.axes - 1] = -np.cos(swing_angle)
+        return y
+
+    def equilibrium(self, inputs: Floats) -> Floats:
+        """Coordinates at rest under all weights, load hanging straight down; shape (coordinates,).
+
+        Newton's method from the undeformed crane on f(q) - m_p g J_D^T e_z = 0. The rope's direction is known, so
+        the inverted pendulum cannot be found; the solution is refused unless it is stable.
+
+        Raises
+        ------
+        TowerBuckles
+            If the stiffness is not positive definite, or no equilibrium is found.
+        """
+        n = self.coordinates
+        q = np.zeros(n)
+        if n == 0:
+            return q
+        scale = self.system.scale[:n]
+
+        def residual(at: Floats) -> Floats:
+            work = self._at_rest(at, inputs)
+            up = work[JACOBIAN + self.axes - 1, :n]
+            return work[FORCE, :n] - self.load.mass * self.crane.gravity * up
+
+        def stiffness(at: Floats) -> Floats:
+            step = 1e-5 * scale
+            columns = [
+                (residual(at - d) - residual(at + d)) / (2.0 * h)
+                for h, d in zip(step, np.diag(step), strict=True)
+            ]
+            return np.array(columns).T
+
+        for _ in range(50):
+            tangent = stiffness(q)
+            if np.linalg.eigvalsh(tangent + tangent.T).min() <= 0.0:
+                raise TowerBuckles(self._buckling_message())
+            step = np.linalg.solve(tangent, residual(q))
+            q = q + step
+            if np.max(abs(step) / scale) < 1e-13 * (1.0 + np.max(abs(q) / scale)):
+                return q
+        raise TowerBuckles(self._buckling_message())
+
+    def _buckling_message(self) -> str:
+        if not self.tower_modes:
+            return "the crane has no stable equilibrium"
+        geometric = np.linalg.eigvals(self.geometric_stiffness / self.tower.angular_frequencies**2)
+        return (
+            "the tower has no stable equilibrium under its weight: "
+            f"it would carry {1.0 / geometric.real.max():.3g} times that weight"
+        )
+
+    def _at_rest(self, q: Floats, inputs: Floats) -> Floats:
+        """Scratch array of the structure at rest at these coordinates."""
+        y = np.zeros(self.size)
+        y[: self.coordinates] = q
+        fixed = np.zeros_like(inputs)
+        fixed[:, 0] = inputs[:, 0]
+        work = np.zeros(self.system.work_shape)
+        kernel.structure(self.axes, 0.0, y, fixed, *self.system.constants, work)
+        return work
+
+    def linear_matrices(self, trolley_position: float, rope_length: float) -> tuple[Floats, Floats]:
+        """Mass and stiffness of small motions about the undeformed crane; shapes (n + 1, n + 1).
+
+        The last coordinate is the load's horizontal distance from the trolley [m]. The second-order effect of the
+        static deflection is not in it, as in any linear frame.
+        """
+        n, load = self.coordinates, self.load.mass
+        inputs = np.array([[trolley_position, 0.0, 0.0], [rope_length, 0.0, 0.0]])
+        work = self._at_rest(np.zeros(n), inputs)
+        lower = np.tril(work[MASS : MASS + n, :n])
+        forward, up = work[JACOBIAN, :n], work[JACOBIAN + self.axes - 1, :n]
+        mass = np.zeros((n + 1, n + 1))
+        mass[:n, :n] = lower + np.tril(lower, -1).T
+        mass[:n, :n] += load * (np.outer(forward, forward) + np.outer(up, up))
+        mass[n, :n] = mass[:n, n] = load * forward
+        mass[n, n] = load
+        stiffness = np.zeros((n + 1, n + 1))
+        stiffness[:n, :n] = self.system.matrices[kernel.STIFFNESS]
+        stiffness[n, n] = load * self.crane.gravity / rope_length
+        return mass, stiffness
+
+    def natural_frequencies(self, trolley_position: float, rope_length: float) -> Floats:
+        """Angular frequencies of small motions, pendulum included; shape (coordinates + 1,) [rad/s]."""
+        from scipy.linalg import eigh
+
+        mass, stiffness = self.linear_matrices(trolley_position, rope_length)
+        # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is.
+        reciprocal = eigh(mass, stiffness, eigvals_only=True)
+        return np.sort(1.0 / np.sqrt(reciprocal))

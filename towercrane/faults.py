@@ -1,0 +1,85 @@
+"""What is wrong with a case file, said so that its author can mend it."""
+
+from __future__ import annotations
+
+import difflib
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One fault of an input file.
+
+    Parameters
+    ----------
+    file : str
+        File, or ``--set key=value``, that the fault is in.
+    key : str
+        Dotted key within that file, or the line; empty: the file as a whole.
+    wanted, got : str
+        What belongs there and what stands there.
+    hint : str
+        Likely cause or closest known key; empty if there is none.
+    """
+
+    file: str
+    key: str
+    wanted: str
+    got: str
+    hint: str = ""
+
+    def __str__(self) -> str:
+        lines = [f"{self.file}: {self.key}" if self.key else self.file]
+        lines += [f"  wanted: {self.wanted}", f"  got:    {self.got}"]
+        if self.hint:
+            lines.append(f"  hint:   {self.hint}")
+        return "\n".join(lines)
+
+
+class CaseError(ValueError):
+    """A case that cannot be used; lists every fault found.
+
+    Parameters
+    ----------
+    faults : iterable of Fault
+    """
+
+    def __init__(self, faults: Iterable[Fault]) -> None:
+        self.faults = list(faults)
+        count = len(self.faults)
+        heading = f"{count} fault{'' if count == 1 else 's'} in the input"
+        super().__init__("\n\n".join([heading, *map(str, self.faults)]))
+
+
+def closest(word: str, known: Iterable[str]) -> str | None:
+    """The known word most like ``word``, or None if none is near; case does not matter."""
+    by_lower = {k.lower(): k for k in known}
+    found = difflib.get_close_matches(word.lower(), by_lower, n=1)
+    return by_lower[found[0]] if found else None
+
+
+def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:
+    """Hint that names the closest known word, or ``otherwise`` if none is near."""
+    near = closest(word, known)
+    return f'did you mean "{near}"?' if near else otherwise
+
+
+def shown(value: object) -> str:
+    """A TOML value as its author would write it, shortened to one line."""
+    if isinstance(value, dict):
+        return f"a table with {', '.join(value)}" if value else "an empty table"
+    if isinstance(value, list):
+        return f"a list of {len(value)}"
+    if isinstance(value, str | bool):
+        text = json.dumps(value, ensure_ascii=False)
+    elif isinstance(value, float):
+        text = repr(value)
+    else:
+        # Python refuses to print integers of more than 4300 digits.
+        text = hex(value) if isinstance(value, int) and abs(value) > 10**40 else str(value)
+    return text if len(text) <= 80 else text[:77] + "..."

@@ -1,0 +1,301 @@
+"""Solving a system phase by phase: restart at every switch point, sample, stop at a guard."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.motion import SAME_INSTANT
+from towercrane.tableaus import TABLEAUS, Tableau
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from towercrane.motion import Phases
+    from towercrane.system import System
+
+    Floats = NDArray[np.float64]
+    Progress = Callable[[float], None]
+
+SCIPY_METHODS = {
+    "scipy-dop853": "DOP853",
+    "scipy-rk45": "RK45",
+    "scipy-radau": "Radau",
+    "scipy-lsoda": "LSODA",
+}
+METHODS = (*TABLEAUS, *SCIPY_METHODS)
+"""Names of all methods; those of SciPy run the same right-hand side as a cross-check."""
+
+FINISHED = "finished"
+INTERRUPTED = "interrupted"
+COLLAPSED = "step size collapsed"
+NOT_FINITE = "state not finite"
+
+STEPS_PER_CALL = 20_000
+"""Steps between two looks at progress and the keyboard."""
+
+ACCEPTED, REJECTED, EVALUATIONS, WRITTEN = range(4)
+"""Entries of a run's counts, as in :mod:`towercrane.stepper`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """States at the sample times that were reached, and how the run ended.
+
+    Parameters
+    ----------
+    times : ndarray, shape (p,)
+        Sample times [s].
+    states : ndarray, shape (p, size)
+    outcome : str
+        "finished", the name of a guard, "step size collapsed", "state not finite" or "interrupted".
+    end_time : float
+        Time at which the run ended [s].
+    end_state : ndarray, shape (size,)
+    evaluations, accepted, rejected : int
+        Right-hand sides; steps taken; steps tried again.
+    smallest_step : float
+        Smallest step [s].
+    cpu_seconds, wall_seconds : float
+        Time in the solver [s].
+    """
+
+    times: Floats
+    states: Floats
+    outcome: str
+    end_time: float
+    end_state: Floats
+    evaluations: int
+    accepted: int
+    rejected: int
+    smallest_step: float
+    cpu_seconds: float
+    wall_seconds: float
+
+
+def integrate(
+    system: System,
+    phases: Phases,
+    start: Floats,
+    sample_times: Floats,
+    *,
+    method: str = "dop853",
+    rtol: float = 1e-8,
+    atol: float = 1e-10,
+    split: bool = True,
+    progress: Progress | None = None,
+) -> Trajectory:
+    """Solve a system over its phases.
+
+    Parameters
+    ----------
+    system : System
+    phases : Phases
+        Times and input polynomials.
+    start : ndarray, shape (size,)
+        State at the first time.
+    sample_times : ndarray, shape (p,)
+        Increasing times at which states are wanted [s].
+    method : str
+        One of METHODS.
+    rtol, atol : float
+        Tolerances per step; atol is multiplied by ``system.scale``.
+    split : bool
+        Restart the step control at switch points. Without it (SciPy's methods only) the error is erratic; it
+        is offered to show that.
+    progress : callable, optional
+        Called with the time reached [s].
+
+    Raises
+    ------
+    ValueError
+        If the method is unknown or the combination is not offered.
+    """
+    if method not in METHODS:
+        raise ValueError(f"method: wanted one of {', '.join(METHODS)}, got {method!r}")
+    if len(start) != system.size:
+        raise ValueError(f"start: wanted {system.size} states, got {len(start)}")
+    began, began_cpu = time.perf_counter(), time.process_time()
+    run = _Run(system, rtol, atol, np.array(start, dtype=float), np.empty((len(sample_times), system.size)))
+    if method not in TABLEAUS:
+        outcome = _scipy(run, phases, sample_times, SCIPY_METHODS[method], split, progress)
+    elif split:
+        outcome = _compiled(run, phases, sample_times, TABLEAUS[method], progress)
+    else:
+        raise ValueError(f"split=False: wanted one of {', '.join(SCIPY_METHODS)}, got {method!r}")
+    written = int(run.counts[WRITTEN])
+    if written == 0 and len(sample_times) and sample_times[0] == run.time:
+        run.samples[0], written = run.state, 1
+    return Trajectory(
+        times=np.array(sample_times[:written]),
+        states=run.samples[:written],
+        outcome=outcome,
+        end_time=run.time,
+        end_state=run.state,
+        evaluations=int(run.counts[EVALUATIONS]),
+        accepted=int(run.counts[ACCEPTED]),
+        rejected=int(run.counts[REJECTED]),
+        smallest_step=run.smallest_step,
+        cpu_seconds=time.process_time() - began_cpu,
+        wall_seconds=time.perf_counter() - began,
+    )
+
+
+class _Run:
+    """What a run has reached: both kinds of solver carry it on."""
+
+    def __init__(self, system: System, rtol: float, atol: float, state: Floats, samples: Floats) -> None:
+        self.system, self.rtol, self.atol = system, rtol, atol * system.scale
+        self.state, self.samples = state, samples
+        self.time, self.smallest_step = 0.0, np.inf
+        self.counts = np.zeros(5, dtype=np.int64)
+
+    def restart(self, phases: Phases, phase: int) -> None:
+        """Begin a phase: its start time, and the state back on its constraints."""
+        self.time = float(phases.times[phase])
+        if self.system.restore is not None:
+            self.system.restore(self.state)
+
+
+def _compiled(
+    run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau, progress: Progress | None
+) -> str:
+    from towercrane import stepper
+
+    system = run.system
+    guards, guards_before = np.empty(len(system.guards)), np.empty(len(system.guards))
+    k, scratch = np.empty((len(tableau.a), system.size)), np.empty((2, system.size))
+    work, step = np.zeros(system.work_shape), 0.0
+    owner = _phase_of(sample_times, phases)
+    for phase, inputs in enumerate(phases.inputs):
+        run.restart(phases, phase)
+        begin, t_end = run.time, float(phases.times[phase + 1] - phases.times[phase])
+        clock = np.array([0.0, step, run.smallest_step])
+        mine = owner == phase
+        first = int(np.count_nonzero(owner < phase))
+        counts = np.zeros_like(run.counts)
+        arguments = (
+            system.rhs, tableau.stages, tableau.a, tableau.b, tableau.c, tableau.error, tableau.dense,
+            tableau.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, k, scratch,
+            np.minimum(sample_times[mine] - begin, t_end), run.samples[first : first + np.count_nonzero(mine)],
+            STEPS_PER_CALL, inputs, *system.constants, work, guards, guards_before, system.floors,
+        )  # fmt: skip
+        status, interrupted = stepper.PAUSED, False
+        while status == stepper.PAUSED and not interrupted:
+            try:
+                status = stepper.advance(*arguments)
+                if progress is not None:
+                    progress(begin + clock[stepper.TIME])
+            except KeyboardInterrupt:
+                interrupted = True
+        run.counts += counts
+        run.time, run.smallest_step = begin + float(clock[stepper.TIME]), float(clock[stepper.SMALLEST])
+        step = float(clock[stepper.STEP])
+        if interrupted:
+            return INTERRUPTED
+        if status == stepper.GUARD:
+            return system.guards[counts[stepper.GUARD_INDEX]]
+        if status == stepper.COLLAPSED:
+            return COLLAPSED
+        if status == stepper.NOT_FINITE:
+            return NOT_FINITE
+    return FINISHED
+
+
+def _scipy(
+    run: _Run,
+    phases: Phases,
+    sample_times: Floats,
+    method: str,
+    split: bool,
+    progress: Progress | None,
+) -> str:
+    from scipy.integrate import solve_ivp
+
+    system = run.system
+    slope, guards, work = np.empty(system.size), np.empty(len(system.guards)), np.zeros(system.work_shape)
+    current = 0
+
+    def rhs(t: float, y: Floats) -> Floats:
+        phase = current if split else int(_phase_of(np.array([t]), phases)[0])
+        local = t - phases.times[phase]
+        system.rhs(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards)
+        return slope.copy()
+
+    def watch(index: int) -> Any:
+        def guard(t: float, y: Floats) -> float:
+            rhs(t, y)
+            return float(guards[index] - system.floors[index])
+
+        guard.terminal, guard.direction = True, -1.0  # type: ignore[attr-defined]
+        return guard
+
+    # A state that must not steer the step gets a tolerance that it always meets.
+    atol = np.where(np.isinf(run.atol), 1e300, run.atol)
+    watched = np.flatnonzero(np.isfinite(system.floors))
+    owner = _phase_of(sample_times, phases)
+    legs = range(len(phases.inputs)) if split else range(1)
+    for current in legs:
+        run.restart(phases, current)
+        stop = float(phases.times[current + 1] if split else phases.times[-1])
+        wanted = sample_times[owner == current] if split else sample_times
+        try:
+            solution = solve_ivp(
+                rhs, (run.time, stop), run.state, method=method, rtol=run.rtol, atol=atol, dense_output=True,
+                events=[watch(index) for index in watched],
+            )  # fmt: skip
+        except KeyboardInterrupt:
+            return INTERRUPTED
+        reached = wanted[wanted <= solution.t[-1]]
+        first = int(run.counts[WRITTEN])
+        run.samples[first : first + len(reached)] = solution.sol(reached).T
+        run.counts[[ACCEPTED, EVALUATIONS, WRITTEN]] += (len(solution.t) - 1, solution.nfev, len(reached))
+        run.smallest_step = min(run.smallest_step, float(np.diff(solution.t).min()))
+        run.time, run.state = float(solution.t[-1]), solution.y[:, -1].copy()
+        if progress is not None:
+            progress(run.time)
+        for index, times in zip(watched, solution.t_events or (), strict=True):
+            if len(times):
+                return system.guards[index]
+        if not solution.success:
+            return COLLAPSED
+    return FINISHED
+
+
+def _phase_of(times: Floats, phases: Phases) -> NDArray[np.int64]:
+    """Index of the phase that each time belongs to; a switch time belongs to the phase it begins."""
+    index = np.searchsorted(phases.times, times + SAME_INSTANT, side="right") - 1
+    return np.clip(index, 0, len(phases.inputs) - 1)
+
+
+def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> tuple[Floats, Floats]:
+    """Slopes and guards at known states; at a switch time the right limits.
+
+    Parameters
+    ----------
+    system, phases
+        As in :func:`integrate`.
+    times, states : ndarray, shapes (p,) and (p, size)
+
+    Returns
+    -------
+    slopes, guards : ndarray, shapes (p, size) and (p, len(system.guards))
+    """
+    from towercrane import stepper
+
+    slopes, guards = np.empty_like(states), np.empty((len(times), len(system.guards)))
+    work, owner = np.zeros(system.work_shape), _phase_of(times, phases)
+    for phase in np.unique(owner):
+        mine = np.flatnonzero(owner == phase)
+        part = slice(mine[0], mine[-1] + 1)
+        local = times[part] - phases.times[phase]
+        stepper.evaluate(
+            system.rhs, local, states[part], slopes[part], guards[part],
+            phases.inputs[phase], *system.constants, work,
+        )  # fmt: skip
+    return slopes, guards

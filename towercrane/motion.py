@@ -1,0 +1,270 @@
+"""Prescribed motions as piecewise polynomials that know their switch points.
+
+A motion is a value over time (a trolley's position, a rope's length) with continuous first derivative. Its
+pieces are polynomials, so the solver can restart exactly where acceleration or jerk jumps and evaluate the
+right piece on each side.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float64]
+
+SAME_INSTANT = 1e-9
+"""Switch times closer than this [s] are one: two profiles may differ by rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Piecewise polynomial motion; before its first and after its last switch time it rests.
+
+    Parameters
+    ----------
+    switch_times : ndarray, shape (p + 1,)
+        Start of each piece and end of the last [s]; the first is 0.
+    coefficients : ndarray, shape (p, k)
+        Ascending powers of the time since the piece's start.
+    """
+
+    switch_times: Floats
+    coefficients: Floats
+
+    def __post_init__(self) -> None:
+        times, coefficients = self.switch_times, self.coefficients
+        if times.ndim != 1 or coefficients.ndim != 2 or len(times) != len(coefficients) + 1:
+            raise ValueError(
+                f"Motion: wanted p + 1 switch times for p pieces, got {times.shape}, {coefficients.shape}"
+            )
+        if times[0] != 0.0 or np.any(np.diff(times) < 0.0) or not np.all(np.isfinite(times)):
+            raise ValueError("Motion.switch_times: wanted finite, increasing times from 0")
+        if not np.all(np.isfinite(coefficients)):
+            raise ValueError("Motion.coefficients: wanted finite numbers")
+
+    @property
+    def duration(self) -> float:
+        """Time after which the motion rests [s]."""
+        return float(self.switch_times[-1])
+
+    @property
+    def end(self) -> float:
+        """Value at which the motion comes to rest."""
+        return _polynomial(self.coefficients[-1], self.switch_times[-1] - self.switch_times[-2])
+
+    def piece(self, time: float) -> Floats:
+        """Coefficients of the motion about ``time``, valid until the next switch time; shape (k,)."""
+        if time >= self.duration - SAME_INSTANT:
+            return _padded(self.end, self.coefficients.shape[1])
+        if time < 0.0:
+            return _padded(float(self.coefficients[0, 0]), self.coefficients.shape[1])
+        index = int(np.searchsorted(self.switch_times, time + SAME_INSTANT, side="right")) - 1
+        return _shifted(self.coefficients[index], max(time - self.switch_times[index], 0.0))
+
+    def __call__(self, time: ArrayLike, derivative: int = 0) -> Floats:
+        """Value or derivative at ``time`` [s]; at a switch time the right limit. Shape as ``time``."""
+        t = np.asarray(time, dtype=float)
+        rests = (t < 0.0) | (t >= self.duration - SAME_INSTANT)
+        index = np.searchsorted(self.switch_times, t + SAME_INSTANT, side="right") - 1
+        index = np.clip(index, 0, len(self.coefficients) - 1)
+        pieces = np.polynomial.polynomial.polyder(self.coefficients, derivative, axis=1)
+        local = np.maximum(t - self.switch_times[index], 0.0)
+        value = np.zeros_like(t)
+        for column in pieces.T[::-1]:
+            value = value * local + column[index]
+        resting = np.where(t < 0.0, self.coefficients[0, 0], self.end) if derivative == 0 else 0.0
+        return np.where(rests, resting, value)
+
+    def range(self) -> tuple[float, float]:
+        """Smallest and largest value that the motion ever takes."""
+        values = [float(self.coefficients[0, 0]), self.end]
+        for start, stop, piece in zip(
+            self.switch_times[:-1], self.switch_times[1:], self.coefficients, strict=True
+        ):
+            rate = np.polynomial.polynomial.polytrim(np.polynomial.polynomial.polyder(piece))
+            turns = np.polynomial.polynomial.polyroots(rate) if len(rate) > 1 else np.empty(0)
+            inside = turns.real[(abs(turns.imag) < 1e-12) & (turns.real > 0) & (turns.real < stop - start)]
+            values += [_polynomial(piece, t) for t in (0.0, stop - start, *inside)]
+        return min(values), max(values)
+
+
+def rest(value: float, duration: float = 0.0) -> Motion:
+    """Motion that stays at ``value`` for ``duration`` [s] (and after)."""
+    if not duration >= 0.0:
+        raise ValueError(f"rest: duration wants zero or more seconds, got {duration!r}")
+    return Motion(np.array([0.0, duration]), np.array([[float(value)]]))
+
+
+def trapezoid(start: float, end: float, speed: float, acceleration: float) -> Motion:
+    """Constant acceleration, constant speed, constant deceleration; a triangle where the way is short.
+
+    Parameters
+    ----------
+    start, end : float
+        First and last value [m].
+    speed, acceleration : float
+        Largest rate [m/s] and acceleration [m/s^2], both positive.
+    """
+    return _ramped(start, end, speed, acceleration, float("inf"))
+
+
+def s_curve(start: float, end: float, speed: float, acceleration: float, jerk: float) -> Motion:
+    """Motion with limited jerk: seven pieces of constant jerk, fewer where a limit is not reached.
+
+    Parameters
+    ----------
+    start, end : float
+        First and last value [m].
+    speed, acceleration, jerk : float
+        Largest rate [m/s], acceleration [m/s^2] and jerk [m/s^3], all positive.
+    """
+    return _ramped(start, end, speed, acceleration, jerk)
+
+
+def sequence(*motions: Motion) -> Motion:
+    """Motions one after the other; each begins where the one before ends.
+
+    Raises
+    ------
+    ValueError
+        If a motion begins elsewhere.
+    """
+    if not motions:
+        raise ValueError("sequence: wanted at least one motion, got none")
+    width = max(m.coefficients.shape[1] for m in motions)
+    times, pieces, now, value = [0.0], [], 0.0, float(motions[0].coefficients[0, 0])
+    for number, motion in enumerate(motions, start=1):
+        begin = float(motion.coefficients[0, 0])
+        if abs(begin - value) > 1e-9 * max(1.0, abs(value)):
+            raise ValueError(
+                f"sequence: motion {number} begins at {begin:g}, the one before ends at {value:g}"
+            )
+        times += list(now + motion.switch_times[1:])
+        pieces += [np.pad(p, (0, width - len(p))) for p in motion.coefficients]
+        now, value = times[-1], motion.end
+    return Motion(np.array(times), np.array(pieces))
+
+
+def table(times: ArrayLike, values: ArrayLike) -> Motion:
+    """Smooth motion through points: the cubic spline that starts and ends at rest.
+
+    Parameters
+    ----------
+    times : array_like, shape (p,)
+        Increasing times from 0 [s].
+    values : array_like, shape (p,)
+        Values at those times.
+    """
+    from scipy.interpolate import CubicSpline
+
+    t, x = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
+    if t.ndim != 1 or t.shape != x.shape or len(t) < 2:
+        raise ValueError(f"table: wanted two or more times and as many values, got {t.shape} and {x.shape}")
+    if t[0] != 0.0 or np.any(np.diff(t) <= 0.0):
+        raise ValueError("table: wanted times that start at 0 and increase")
+    spline = CubicSpline(t, x, bc_type="clamped")
+    return Motion(t, np.ascontiguousarray(spline.c[::-1].T))
+
+
+def read_csv(path: str | PathLike[str]) -> Motion:
+    """Motion through the points of a CSV file: one header line, then time [s] and value per line."""
+    points = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    if points.shape[1] != 2:
+        raise ValueError(f"{path}: wanted two columns, time and value, got {points.shape[1]}")
+    return table(points[:, 0], points[:, 1])
+
+
+@dataclass(frozen=True, eq=False)
+class Phases:
+    """Several motions cut at the union of their switch times.
+
+    Parameters
+    ----------
+    times : ndarray, shape (p + 1,)
+        Start of each phase and end of the last [s].
+    inputs : ndarray, shape (p, channels, k)
+        For each phase and motion the ascending coefficients in the time since the phase began.
+    """
+
+    times: Floats
+    inputs: Floats
+
+
+def phases(motions: tuple[Motion, ...], duration: float) -> Phases:
+    """Cut ``duration`` [s] into the phases in which every motion is one polynomial."""
+    switches = np.concatenate([[0.0, duration], *(m.switch_times for m in motions)])
+    switches = np.unique(switches[(switches >= 0.0) & (switches <= duration)])
+    keep = np.concatenate([[True], np.diff(switches) > SAME_INSTANT])
+    times = switches[keep]
+    times[-1] = duration
+    width = max((m.coefficients.shape[1] for m in motions), default=1)
+    inputs = np.zeros((len(times) - 1, len(motions), max(width, 3)))
+    for p, start in enumerate(times[:-1]):
+        for channel, motion in enumerate(motions):
+            piece = motion.piece(float(start))
+            inputs[p, channel, : len(piece)] = piece
+    return Phases(times, inputs)
+
+
+def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: float) -> Motion:
+    for name, value in (("speed", speed), ("acceleration", acceleration), ("jerk", jerk)):
+        if not value > 0.0:
+            raise ValueError(f"{name}: wanted a positive number, got {value!r}")
+    way = abs(end - start)
+    if way == 0.0:
+        return rest(start)
+    a, j = acceleration, jerk
+    if way < speed * _ramp_time(speed, a, j):
+        # Without a cruise: the peak speed v solves v * ramp_time(v) = way on the branch that is reached.
+        speed = a / 2 * (np.sqrt((a / j) ** 2 + 4 * way / a) - a / j)
+        if speed * j < a * a:
+            speed = np.cbrt(way * way * j / 4)
+    rounding = min(a / j, np.sqrt(speed / j))
+    steady = max(_ramp_time(speed, a, j) - 2 * rounding, 0.0)
+    cruise = max(way / speed - _ramp_time(speed, a, j), 0.0)
+    peak = min(a, np.sqrt(speed * j))
+    slope = 0.0 if np.isinf(j) else j
+    ramp = [(rounding, slope, 0.0), (steady, 0.0, peak), (rounding, -slope, peak)]
+    brake = [(time, -jerk_, -acceleration_) for time, jerk_, acceleration_ in ramp]
+    times, pieces, x, v, sign = [0.0], [], float(start), 0.0, np.sign(end - start)
+    for time, s, acc in [*ramp, (cruise, 0.0, 0.0), *brake]:
+        if time <= SAME_INSTANT:
+            continue
+        pieces.append([x, v, sign * acc / 2, sign * s / 6])
+        x += time * (v + time * (sign * acc / 2 + time * sign * s / 6))
+        v += time * (sign * acc + time * sign * s / 2)
+        times.append(times[-1] + time)
+    return Motion(np.array(times), np.array(pieces)[:, : 3 if np.isinf(j) else 4])
+
+
+def _ramp_time(speed: float, acceleration: float, jerk: float) -> float:
+    if speed * jerk >= acceleration**2:
+        return speed / acceleration + acceleration / jerk
+    return float(2 * np.sqrt(speed / jerk))
+
+
+def _polynomial(coefficients: Floats, time: float) -> float:
+    value = 0.0
+    for c in coefficients[::-1]:
+        value = value * time + c
+    return float(value)
+
+
+def _shifted(coefficients: Floats, time: float) -> Floats:
+    """Coefficients about ``time`` instead of 0, by repeated synthetic division."""
+    shifted = np.array(coefficients, dtype=float)
+    for first in range(len(shifted) - 1):
+        for k in range(len(shifted) - 2, first - 1, -1):
+            shifted[k] += time * shifted[k + 1]
+    return shifted
+
+
+def _padded(value: float, width: int) -> Floats:
+    return np.pad(np.array([value]), (0, width - 1))

@@ -1,0 +1,213 @@
+"""The load on its rope: one compiled kernel that every crane shares.
+
+A crane states only its structure without the load: mass matrix, forces, and the motion of the point D that the
+rope hangs from. The kernel adds a rope of prescribed length and a point load. The rope's direction is a unit
+vector, so there is no angle chart and no singular position; angles are outputs.
+
+Vectors have ``d`` inertial components, the vertical last: (x, z) in a plane, (x, y, z) in space. The state is
+``y = (q, n, q', p, work)``: coordinates, unit vector from D to the load, rates, rate of the unit vector, and the
+work [J] that inputs and dissipation have put into the crane since the start.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modal.compiled import kernel
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+AIR_DENSITY = 1.225
+"""Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""
+
+FORCE, VELOCITY, BIAS, ACCELERATION, DIRECTION, HINGE, ALONG, JACOBIAN = range(8)
+"""Rows of the scratch array: forces without the load (n), velocity, bias acceleration and acceleration of D (d),
+rope direction (d), hinge force on the load (d), direction seen by the coordinates (n), and from here on
+d rows of the Jacobian of D."""
+
+MASS = JACOBIAN + 3
+"""First of the n rows of the mass matrix, of which only the lower triangle is used."""
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """The load and its rope's losses.
+
+    Parameters
+    ----------
+    mass : float
+        Mass of the load with hook [kg].
+    rope_damping : float
+        Damping where the rope hangs, a torque per rate of swing [N m s/rad].
+    drag_area : float
+        Drag coefficient times area [m^2], in still air.
+
+    Raises
+    ------
+    ValueError
+        If the mass is not positive or another value is negative.
+    """
+
+    mass: float
+    rope_damping: float = 0.0
+    drag_area: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.mass < np.inf:
+            raise ValueError(f"Load.mass: wanted a positive finite number, got {self.mass!r}")
+        for name in ("rope_damping", "drag_area"):
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(f"Load.{name}: wanted zero or more, got {getattr(self, name)!r}")
+
+    @property
+    def drag(self) -> float:
+        """Drag force per squared speed, rho C_d A / 2 [kg/m]."""
+        return 0.5 * AIR_DENSITY * self.drag_area
+
+
+def work_shape(coordinates: int) -> tuple[int, int]:
+    """Shape of the scratch array of a crane with so many coordinates."""
+    return MASS + coordinates, max(coordinates, 3)
+
+
+def restore(state: Floats, coordinates: int, axes: int) -> None:
+    """Put the rope's direction back to unit length and its rate at right angles, in place."""
+    n = state[coordinates : coordinates + axes]
+    p = state[2 * coordinates + axes : 2 * (coordinates + axes)]
+    n /= np.linalg.norm(n)
+    p -= (n @ p) * n
+
+
+@kernel()
+def hang_load(
+    y: Any,
+    dy: Any,
+    n: int,
+    d: int,
+    length: float,
+    rate: float,
+    acceleration: float,
+    mass: float,
+    gravity: float,
+    drag: float,
+    hinge: float,
+    work: Any,
+) -> float:
+    """Solve for all accelerations, given the structure in ``work``, and write dy.
+
+    Parameters
+    ----------
+    y, dy : ndarray, shape (2 n + 2 d + 1,)
+        State and its derivative; the last entry of dy becomes the power of winch, drag and hinge [W].
+    n, d : int
+        Coordinates of the structure and axes of space.
+    length, rate, acceleration : float
+        Rope length and its time derivatives [m, m/s, m/s^2].
+    mass, gravity, drag, hinge : float
+        Load [kg], gravity [m/s^2], drag per squared speed [kg/m], hinge damping [N m s/rad].
+    work : ndarray
+        FORCE, VELOCITY, BIAS, JACOBIAN and MASS filled by the structure; ACCELERATION, DIRECTION and HINGE are
+        left for it.
+
+    Returns
+    -------
+    float
+        Rope tension [N].
+
+    Notes
+    -----
+    With j = J^T n, w the tangential rate and s the rope force if the structure did not accelerate,
+    (M + m j j^T) q'' = f - J^T H + j s and T = s - m j.q''. The matrix is symmetric positive definite whenever M
+    is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration.
+    """
+    direction, sway = n, 2 * n + d
+    norm, along = 0.0, 0.0
+    for k in range(d):
+        norm += y[direction + k] * y[direction + k]
+    norm = np.sqrt(norm)
+    for k in range(d):
+        work[DIRECTION, k] = y[direction + k] / norm
+        along += work[DIRECTION, k] * y[sway + k]
+    ww, speed, outward = 0.0, 0.0, 0.0
+    for k in range(d):
+        w = y[sway + k] - along * work[DIRECTION, k]
+        ww += w * w
+        v = work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w
+        speed += v * v
+    speed = np.sqrt(speed)
+    power = -hinge * ww
+    s = mass * (length * ww - acceleration - gravity * work[DIRECTION, d - 1])
+    for k in range(d):
+        w = y[sway + k] - along * work[DIRECTION, k]
+        air = -drag * speed * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w)
+        power += air * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w)
+        work[HINGE, k] = -hinge / length * w
+        s += work[DIRECTION, k] * (air - mass * work[BIAS, k])
+
+    for i in range(n):
+        j = 0.0
+        hinged = 0.0
+        for k in range(d):
+            j += work[JACOBIAN + k, i] * work[DIRECTION, k]
+            hinged += work[JACOBIAN + k, i] * work[HINGE, k]
+        work[ALONG, i] = j
+        dy[n + d + i] = work[FORCE, i] - hinged + j * s
+        for m in range(i + 1):
+            work[MASS + i, m] += mass * j * work[ALONG, m]
+    _solve(work, dy, n, n + d)
+
+    tension = s
+    for i in range(n):
+        tension -= mass * work[ALONG, i] * dy[n + d + i]
+        dy[i] = y[n + d + i]
+    for k in range(d):
+        a = work[BIAS, k]
+        for i in range(n):
+            a += work[JACOBIAN + k, i] * dy[n + d + i]
+        work[ACCELERATION, k] = a
+    for k in range(d):
+        w = y[sway + k] - along * work[DIRECTION, k]
+        air = -drag * speed * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w)
+        b = work[ACCELERATION, k] - (air + work[HINGE, k]) / mass
+        if k == d - 1:
+            b += gravity
+        dy[sway + k] = b
+        outward += b * work[DIRECTION, k]
+    for k in range(d):
+        w = y[sway + k] - along * work[DIRECTION, k]
+        across = dy[sway + k] - outward * work[DIRECTION, k] + 2.0 * rate * w
+        dy[sway + k] = -ww * work[DIRECTION, k] - across / length
+        dy[direction + k] = y[sway + k]
+    dy[sway + d] = power - tension * rate
+    return tension
+
+
+@kernel()
+def _solve(work: Any, x: Any, n: int, first: int) -> None:
+    """Solve M x = b in place by Cholesky; b and x are n entries of x from ``first``, M is overwritten."""
+    for i in range(n):
+        for j in range(i):
+            value = work[MASS + i, j]
+            for m in range(j):
+                value -= work[MASS + i, m] * work[MASS + j, m]
+            work[MASS + i, j] = value * work[MASS + j, j]
+        value = work[MASS + i, i]
+        for m in range(i):
+            value -= work[MASS + i, m] * work[MASS + i, m]
+        # The inverse of the diagonal is stored: each entry is divided by once and multiplied by often.
+        work[MASS + i, i] = 1.0 / np.sqrt(value)
+        value = x[first + i]
+        for m in range(i):
+            value -= work[MASS + i, m] * x[first + m]
+        x[first + i] = value * work[MASS + i, i]
+    for i in range(n - 1, -1, -1):
+        value = x[first + i]
+        for m in range(i + 1, n):
+            value -= work[MASS + m, i] * x[first + m]
+        x[first + i] = value * work[MASS + i, i]

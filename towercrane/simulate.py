@@ -1,0 +1,166 @@
+"""From a model, its motions and a duration to a labelled result."""
+
+from __future__ import annotations
+
+import json
+import platform
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane import __version__
+from towercrane.cranes.radial import TOWER_BUCKLED, RadialModel, TowerBuckles
+from towercrane.cranes.radial_outputs import observe
+from towercrane.integrate import Trajectory, evaluate, integrate
+from towercrane.motion import Motion, phases
+from towercrane.results import dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from towercrane.case import Case
+    from towercrane.integrate import Progress
+
+TENSION = 0
+"""Index of the rope tension among a crane's guards."""
+
+
+def simulate(
+    model: RadialModel,
+    motions: dict[str, Motion],
+    duration: float,
+    *,
+    output_step: float = 0.05,
+    state: str = "equilibrium",
+    swing_angle: float = 0.0,
+    method: str = "dop853",
+    rtol: float = 1e-8,
+    atol: float = 1e-10,
+    split: bool = True,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Simulate a crane.
+
+    Parameters
+    ----------
+    model : RadialModel
+    motions : dict of str to Motion
+        "trolley": position along the jib [m]; "rope": length [m].
+    duration : float
+        Simulated time [s].
+    output_step : float
+        Time between two rows of the result [s].
+    state : {"equilibrium", "zero"}
+        Start from the static solution, or undeformed with all weights on.
+    swing_angle : float
+        Rope's angle from the vertical at the start, positive outward [rad].
+    method, rtol, atol, split, progress
+        As in :func:`towercrane.integrate.integrate`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables over ``time`` with units; the attribute ``outcome`` is "finished" or names what ended the run,
+        with ``end_time`` [s].
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range.
+    """
+    if not 0.0 < output_step <= duration < np.inf:
+        raise ValueError(f"output_step, duration: wanted 0 < step <= duration, got {output_step}, {duration}")
+    began = time.perf_counter()
+    cut = phases((motions["trolley"], motions["rope"]), duration)
+    rows = int(np.floor(duration / output_step * (1.0 + 1e-12))) + 1
+    sample_times = np.minimum(np.arange(rows) * output_step, duration)
+    message = ""
+    try:
+        start = model.start(cut.inputs[0], state, swing_angle)
+    except TowerBuckles as failure:
+        message = str(failure)
+        run = _nothing(model.start(cut.inputs[0], "zero", swing_angle), TOWER_BUCKLED)
+    else:
+        run = integrate(
+            model.system, cut, start, sample_times,
+            method=method, rtol=rtol, atol=atol, split=split, progress=progress,
+        )  # fmt: skip
+    _, guards = evaluate(model.system, cut, run.times, run.states)
+    quantities = observe(model, motions, run.times, run.states, guards[:, TENSION])
+    provenance = {
+        "crane": model.crane.name,
+        "outcome": run.outcome,
+        "message": message,
+        "end_time": run.end_time,
+        "end_state": run.end_state,
+        "tower_modes": model.tower_modes,
+        "jib_modes": model.jib_modes,
+        "payload_mass": model.load.mass,
+        "gravity": model.crane.gravity,
+        "method": method,
+        "rtol": rtol,
+        "atol": atol,
+        "evaluations": run.evaluations,
+        "steps_accepted": run.accepted,
+        "steps_rejected": run.rejected,
+        "smallest_step": run.smallest_step if np.isfinite(run.smallest_step) else 0.0,
+        "solver_cpu_seconds": run.cpu_seconds,
+        "solver_wall_seconds": run.wall_seconds,
+        "wall_seconds": time.perf_counter() - began,
+        "versions": json.dumps(versions()),
+    }
+    return dataset(run.times, quantities, provenance)
+
+
+def case_model(case: Case, **changes: Any) -> RadialModel:
+    """Model of a case; keyword arguments replace what the case chose."""
+    chosen = {
+        "tower_modes": case.model.tower_modes,
+        "jib_modes": case.model.jib_modes,
+        "weight_softening": case.model.weight_softening,
+        "tower_damping_ratio": case.model.tower_damping_ratio,
+        "jib_damping_ratio": case.model.jib_damping_ratio,
+        "self_weight": case.start.state != "zero-no-self-weight",
+    }
+    return RadialModel(case.radial_crane(), case.load(), **{**chosen, **changes})
+
+
+def run_case(case: Case, *, progress: Progress | None = None) -> xr.Dataset:
+    """Simulate a case; its text and its assumed values go into the result's attributes."""
+    result = simulate(
+        case_model(case),
+        {"trolley": case.trolley_motion(), "rope": case.rope_motion()},
+        case.run.duration,
+        output_step=case.run.output_step,
+        state="equilibrium" if case.start.state == "equilibrium" else "zero",
+        swing_angle=case.start.swing_angle,
+        method=case.solver.method,
+        rtol=case.solver.rtol,
+        atol=case.solver.atol,
+        progress=progress,
+    )
+    result.attrs["title"] = case.title
+    result.attrs["case"] = case.name
+    result.attrs["case_text"] = json.dumps(case.as_written)
+    result.attrs["assumed"] = json.dumps([[a.key, str(a.value), a.why] for a in case.assumed])
+    return result
+
+
+def versions() -> dict[str, str]:
+    """Versions of this package and of what its numbers rest on."""
+    import numba
+    import scipy
+
+    return {
+        "towercrane": __version__,
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "numba": numba.__version__,
+        "scipy": scipy.__version__,
+    }
+
+
+def _nothing(start: np.ndarray[Any, np.dtype[np.float64]], outcome: str) -> Trajectory:
+    """Run that ended before its first step."""
+    return Trajectory(np.zeros(1), start[None], outcome, 0.0, start, 0, 0, 0, np.inf, 0.0, 0.0)

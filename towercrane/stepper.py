@@ -1,0 +1,278 @@
+"""The compiled loop of steps: one explicit Runge-Kutta pair with step control, dense output and guards.
+
+It works through one phase, inside which the inputs are smooth, and allocates nothing. The step control is
+that of Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I (1993), section II.4.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import types
+
+from modal.compiled import kernel
+from towercrane.system import rhs_signature
+
+FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
+"""What :func:`advance` returns."""
+
+TIME, STEP, SMALLEST = range(3)
+"""Entries of its clock: time since the phase began, next step, smallest step taken [s]."""
+
+ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
+"""Entries of its counts."""
+
+SAFETY, SHRINK, GROW = 0.9, 0.2, 10.0
+
+_one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+_rhs = types.FunctionType(rhs_signature())
+_constants = (_two, _one, _two, _three, _three, _two)
+
+
+@kernel()
+def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, atol: Any) -> float:
+    """Norm of the error estimate; at most 1 is accepted. Two rows are combined as in dop853.f."""
+    first, second, active = 0.0, 0.0, 0
+    rows, stages = error.shape
+    for m in range(y.size):
+        if np.isinf(atol[m]):
+            continue
+        active += 1
+        scale = atol[m] + rtol * max(abs(y[m]), abs(new[m]))
+        estimate = 0.0
+        for i in range(stages):
+            estimate += error[0, i] * k[i, m]
+        first += (estimate / scale) ** 2
+        if rows == 2:
+            estimate = 0.0
+            for i in range(stages):
+                estimate += error[1, i] * k[i, m]
+            second += (estimate / scale) ** 2
+    if first == 0.0:
+        return 0.0
+    if rows == 2:
+        return h * first / np.sqrt((first + 0.01 * second) * active)
+    return h * np.sqrt(first / active)
+
+
+@kernel()
+def _stage(y: Any, a: Any, k: Any, count: int, h: float, out: Any) -> None:
+    """out = y + h sum_(j < count) a_j k_j."""
+    for m in range(y.size):
+        out[m] = 0.0
+    for j in range(count):
+        weight = a[j]
+        if weight != 0.0:
+            for m in range(y.size):
+                out[m] += weight * k[j, m]
+    for m in range(y.size):
+        out[m] = y[m] + h * out[m]
+
+
+@kernel()
+def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
+    """State at the fraction x of the step that began at y."""
+    for m in range(y.size):
+        out[m] = 0.0
+    for i in range(dense.shape[0]):
+        weight = 0.0
+        for d in range(dense.shape[1] - 1, -1, -1):
+            weight = (weight + dense[i, d]) * x
+        if weight != 0.0:
+            for m in range(y.size):
+                out[m] += weight * k[i, m]
+    for m in range(y.size):
+        out[m] = y[m] + h * out[m]
+
+
+@kernel()
+def _first_step(y: Any, slope: Any, order: int, rtol: float, atol: Any, limit: float) -> float:
+    """First guess of a step, from the size of state and slope."""
+    size, speed = 0.0, 0.0
+    for m in range(y.size):
+        if not np.isinf(atol[m]):
+            scale = atol[m] + rtol * abs(y[m])
+            size += (y[m] / scale) ** 2
+            speed += (slope[m] / scale) ** 2
+    if speed == 0.0:
+        return limit
+    # A state at rest says nothing of its scale; the slope alone then gives a cautious step.
+    guess = 0.01 * np.sqrt(size / speed) if size > 1e-10 else 0.0
+    cautious = (0.01 / np.sqrt(speed)) ** (1.0 / (order + 1))
+    return min(limit, max(min(guess, cautious), 1e-6 * limit))
+
+
+@kernel(
+    types.int64(
+        _rhs, types.int64, _two, _one, _one, _two, _two, types.int64, types.float64, _one, types.int64[::1],
+        types.float64, _one, _one, _two, _two, _one, _two, types.int64, *_constants, _one, _one, _one,
+    )
+)  # fmt: skip
+def advance(
+    rhs: Any,
+    stages: int,
+    a: Any,
+    b: Any,
+    c: Any,
+    error: Any,
+    dense: Any,
+    error_order: int,
+    t_end: float,
+    clock: Any,
+    counts: Any,
+    rtol: float,
+    atol: Any,
+    y: Any,
+    k: Any,
+    scratch: Any,
+    sample_times: Any,
+    samples: Any,
+    max_steps: int,
+    inputs: Any,
+    numbers: Any,
+    vectors: Any,
+    matrices: Any,
+    tables: Any,
+    work: Any,
+    guards: Any,
+    guards_before: Any,
+    floors: Any,
+) -> int:
+    """Carry y from clock[TIME] towards t_end, at most max_steps accepted steps.
+
+    Parameters
+    ----------
+    rhs, inputs, numbers, vectors, matrices, tables, work
+        As in :func:`towercrane.system.rhs_signature`.
+    stages, a, b, c, error, dense, error_order
+        As in :class:`towercrane.tableaus.Tableau`.
+    clock, counts : ndarray, shapes (3,) and (5,)
+        Read and written; a step of zero or less asks for a first guess.
+    y : ndarray, shape (size,)
+        State, carried on in place.
+    k, scratch : ndarray, shapes (m, size) and (2, size)
+        Stages; the first must not be touched between two calls of one phase.
+    sample_times, samples : ndarray, shapes (p,) and (p, size)
+        Times since the phase began at which the state is wanted, increasing; the states.
+    guards, guards_before, floors : ndarray, shape (g,)
+        Guards now and one step earlier, and the values they must not fall below.
+
+    Returns
+    -------
+    int
+        One of FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE.
+    """
+    new, trial = scratch[0], scratch[1]
+    t, h = clock[TIME], clock[STEP]
+    all_stages = a.shape[0]
+    if t == 0.0:
+        rhs(t, y, k[0], inputs, numbers, vectors, matrices, tables, work, guards)
+        counts[EVALUATIONS] += 1
+        for m in range(y.size):
+            if not np.isfinite(k[0, m]):
+                return NOT_FINITE
+        for g in range(guards.size):
+            guards_before[g] = guards[g]
+            if guards[g] < floors[g]:
+                counts[GUARD_INDEX] = g
+                return GUARD
+    if h <= 0.0:
+        h = _first_step(y, k[0], error_order, rtol, atol, t_end)
+    shortest = 16.0 * np.finfo(np.float64).eps * t_end
+    taken = 0
+    grow = GROW
+    while t < t_end:
+        if taken == max_steps:
+            clock[TIME], clock[STEP] = t, h
+            return PAUSED
+        if h < shortest:
+            clock[TIME], clock[STEP] = t, h
+            return COLLAPSED
+        last = t + h >= t_end - shortest
+        step = t_end - t if last else h
+        for i in range(1, stages):
+            _stage(y, a[i], k, i, step, trial)
+            rhs(t + c[i] * step, trial, k[i], inputs, numbers, vectors, matrices, tables, work, guards)
+        _stage(y, b, k, stages, step, new)
+        t_new = t_end if last else t + step
+        rhs(t_new, new, k[stages], inputs, numbers, vectors, matrices, tables, work, guards)
+        counts[EVALUATIONS] += stages
+        norm = _error_norm(error, k, y, new, step, rtol, atol)
+        if not norm <= 1.0:
+            counts[REJECTED] += 1
+            # A norm that is not a number (a trial left the model's domain) shrinks the step as far as allowed.
+            factor = SAFETY * norm ** (-1.0 / (error_order + 1)) if np.isfinite(norm) else SHRINK
+            h = step * max(SHRINK, factor)
+            grow = 1.0
+            continue
+
+        crossed = -1
+        for g in range(guards.size):
+            if crossed < 0 and guards[g] < floors[g] <= guards_before[g]:
+                crossed = g
+        wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
+        if crossed >= 0 or wanted:
+            for i in range(stages + 1, all_stages):
+                _stage(y, a[i], k, i, step, trial)
+                rhs(t + c[i] * step, trial, k[i], inputs, numbers, vectors, matrices, tables, work, guards)
+            counts[EVALUATIONS] += all_stages - stages - 1
+        stop = t_new
+        if crossed >= 0:
+            low, high = 0.0, 1.0
+            while high - low > 1e-12:
+                middle = 0.5 * (low + high)
+                _dense(y, dense, k, step, middle, trial)
+                rhs(t + middle * step, trial, new, inputs, numbers, vectors, matrices, tables, work, guards)
+                counts[EVALUATIONS] += 1
+                if guards[crossed] < floors[crossed]:
+                    high = middle
+                else:
+                    low = middle
+            stop = t + high * step
+            _dense(y, dense, k, step, high, new)
+        while counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= stop:
+            row = counts[WRITTEN]
+            _dense(y, dense, k, step, (sample_times[row] - t) / step, samples[row])
+            counts[WRITTEN] += 1
+        for m in range(y.size):
+            y[m] = new[m]
+            k[0, m] = k[stages, m]
+        for g in range(guards.size):
+            guards_before[g] = guards[g]
+        t = stop
+        taken += 1
+        counts[ACCEPTED] += 1
+        clock[SMALLEST] = min(clock[SMALLEST], step)
+        if crossed >= 0:
+            clock[TIME], clock[STEP] = t, step
+            counts[GUARD_INDEX] = crossed
+            return GUARD
+        factor = GROW if norm == 0.0 else SAFETY * norm ** (-1.0 / (error_order + 1))
+        # The cut last step of a phase says nothing about the next one's length.
+        h = max(h, step * min(grow, factor)) if last else step * min(grow, max(SHRINK, factor))
+        grow = GROW
+    clock[TIME], clock[STEP] = t, h
+    return FINISHED
+
+
+@kernel(types.void(_rhs, _one, _two, _two, _two, *_constants))
+def evaluate(
+    rhs: Any,
+    times: Any,
+    states: Any,
+    slopes: Any,
+    guards: Any,
+    inputs: Any,
+    numbers: Any,
+    vectors: Any,
+    matrices: Any,
+    tables: Any,
+    work: Any,
+) -> None:
+    """Right-hand side and guards at many states of one phase; slopes and guards have a row per state."""
+    for row in range(times.size):
+        rhs(
+            times[row], states[row], slopes[row], inputs,
+            numbers, vectors, matrices, tables, work, guards[row],
+        )  # fmt: skip

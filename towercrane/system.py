@@ -1,0 +1,99 @@
+"""What the solver knows of a crane: a compiled right-hand side, its data and its guards."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+
+def rhs_signature() -> Any:
+    """Numba signature of every right-hand side, so that one compiled integrator serves all models.
+
+    ``rhs(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards)``: t is the time since the phase
+    began [s]; inputs holds the polynomials of that phase, one row per channel; dy and guards are written;
+    work is scratch. The other arrays are the model's constants, laid out as each model likes.
+    """
+    from numba import types
+
+    one, two, three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+    return types.void(types.float64, one, one, two, one, two, three, three, two, one)
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """Ordinary differential equation y' = f(t, y) with constants, and guards that must not fall below their floors.
+
+    Parameters
+    ----------
+    rhs : compiled function
+        As in :func:`rhs_signature`.
+    size : int
+        Number of states.
+    guards : tuple of str
+        Name of the outcome when the guard of that index falls below its floor.
+    floors : ndarray, shape (len(guards),)
+        Minus infinity where a guard is only recorded.
+    scale : ndarray, shape (size,)
+        Absolute tolerance per unit of ``atol``; infinite where a state must not steer the step.
+    numbers, vectors, matrices, tables : ndarray
+        Constants of the model, with 1, 2, 3 and 3 dimensions.
+    work_shape : tuple of int
+        Shape of the scratch array.
+    restore : callable, optional
+        Puts a state back on its constraints in place; called where the solver restarts.
+    """
+
+    rhs: Any
+    size: int
+    guards: tuple[str, ...]
+    floors: Floats
+    scale: Floats
+    numbers: Floats
+    vectors: Floats
+    matrices: Floats
+    tables: Floats
+    work_shape: tuple[int, int]
+    restore: Callable[[Floats], None] | None = None
+
+    @property
+    def constants(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """The model's constants in the order of the right-hand side's arguments."""
+        return self.numbers, self.vectors, self.matrices, self.tables
+
+    def slope(self, time: float, state: Floats, inputs: Floats) -> tuple[Floats, Floats]:
+        """Right-hand side and guards at a time since the phase with these inputs began.
+
+        Returns
+        -------
+        slope : ndarray, shape (size,)
+        guards : ndarray, shape (len(guards),)
+        """
+        slope, guards = np.empty(self.size), np.empty(len(self.guards))
+        work = np.zeros(self.work_shape)
+        self.rhs(time, np.ascontiguousarray(state), slope, inputs, *self.constants, work, guards)
+        return slope, guards
+
+
+def plain_system(rhs: Any, size: int, numbers: tuple[float, ...] = ()) -> System:
+    """System without guards or scratch, for equations that are not cranes."""
+    return System(
+        rhs=rhs,
+        size=size,
+        guards=(),
+        floors=np.empty(0),
+        scale=np.ones(size),
+        numbers=np.array(numbers, dtype=float),
+        vectors=np.empty((0, 0)),
+        matrices=np.empty((0, 0, 0)),
+        tables=np.empty((0, 0, 0)),
+        work_shape=(0, 0),
+    )
