@@ -47,13 +47,17 @@ def kernel(signature: Any = None) -> Callable[[Callable[..., Any]], Any]:
         A function with a signature can be passed to other kernels as a function pointer.
     """
     import numba
-    from numba.core import config
+    from numba.core import config as numba_config
+
+    # Both are typed more narrowly than they are used here, or not at all.
+    config: Any = numba_config
+    compile_: Any = numba.njit
 
     def decorate(function: Callable[..., Any]) -> Any:
         before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
         try:
             arguments = () if signature is None else (signature,)
-            return numba.njit(*arguments, cache=True, error_model="numpy")(function)
+            return compile_(*arguments, cache=True, error_model="numpy")(function)
         finally:
             config.CACHE_DIR = before
 
