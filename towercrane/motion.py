@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+SHORTEST_WAY = 1e-12
+"""Ways shorter than this [m] are none."""
+
 SAME_INSTANT = 1e-9
 """Switch times closer than this [s] are one: two profiles may differ by rounding."""
 
@@ -218,8 +221,8 @@ def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: f
         if not value > 0.0:
             raise ValueError(f"{name}: wanted a positive number, got {value!r}")
     way = abs(end - start)
-    if way == 0.0:
-        return rest(start)
+    if way < SHORTEST_WAY:
+        return rest(end)
     a, j = acceleration, jerk
     if way < speed * _ramp_time(speed, a, j):
         # Without a cruise: the peak speed v solves v * ramp_time(v) = way on the branch that is reached.
@@ -235,7 +238,7 @@ def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: f
     brake = [(time, -jerk_, -acceleration_) for time, jerk_, acceleration_ in ramp]
     times, pieces, x, v, sign = [0.0], [], float(start), 0.0, np.sign(end - start)
     for time, s, acc in [*ramp, (cruise, 0.0, 0.0), *brake]:
-        if time <= SAME_INSTANT:
+        if time == 0.0:
             continue
         pieces.append([x, v, sign * acc / 2, sign * s / 6])
         x += time * (v + time * (sign * acc / 2 + time * sign * s / 6))

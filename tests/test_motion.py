@@ -1,0 +1,126 @@
+"""Motions: limits kept, ways travelled exactly, switch points where they belong."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from towercrane.motion import Motion, phases, read_csv, rest, s_curve, sequence, table, trapezoid
+
+positive = st.floats(0.01, 10.0)
+place = st.floats(-50.0, 50.0)
+
+
+def sampled(motion: Motion) -> np.ndarray:
+    inside = np.linspace(0.0, motion.duration, 501)
+    return np.unique(np.r_[inside, motion.switch_times])
+
+
+@given(place, place, positive, positive)
+def test_trapezoid_travels_exactly_within_its_limits(start, end, speed, acceleration):
+    motion = trapezoid(start, end, speed, acceleration)
+    t = sampled(motion)
+    assert_allclose([motion(0.0), motion.end], [start, end], atol=1e-11)
+    assert np.max(abs(motion(t, 1))) <= speed * (1 + 1e-12)
+    assert np.max(abs(motion(t, 2))) <= acceleration * (1 + 1e-12)
+    way = abs(end - start)
+    shortest = way / speed + speed / acceleration if way > speed**2 / acceleration else 2 * np.sqrt(way / acceleration)
+    assert_allclose(motion.duration, shortest, atol=4e-9, rtol=1e-12)
+
+
+@given(place, place, positive, positive, positive)
+def test_s_curve_travels_exactly_within_its_limits(start, end, speed, acceleration, jerk):
+    motion = s_curve(start, end, speed, acceleration, jerk)
+    t = sampled(motion)
+    assert_allclose([motion(0.0), motion.end], [start, end], atol=1e-10)
+    assert np.max(abs(motion(t, 1))) <= speed * (1 + 1e-9)
+    assert np.max(abs(motion(t, 2))) <= acceleration * (1 + 1e-9)
+    assert np.max(abs(motion(t, 3))) <= jerk * (1 + 1e-9)
+    # At rest at both ends, whichever limits were reached.
+    last = motion.coefficients[-1]
+    span = motion.switch_times[-1] - motion.switch_times[-2]
+    assert abs(np.polyval(np.polyder(last[::-1]), span)) < 1e-7
+
+
+@given(place, place, positive, positive)
+def test_s_curve_with_endless_jerk_is_the_trapezoid(start, end, speed, acceleration):
+    ramp, curve = trapezoid(start, end, speed, acceleration), s_curve(start, end, speed, acceleration, 1e9)
+    t = np.linspace(0.0, ramp.duration + 1.0, 50)
+    assert_allclose(curve(t), ramp(t), atol=1e-6)
+
+
+def test_conditions_of_the_source_reach_speed_at_4_and_8_seconds():
+    assert_allclose(trapezoid(5, 41, 0.4, 0.1).switch_times, [0, 4, 90, 94])
+    assert_allclose(trapezoid(5, 41, 0.8, 0.1).switch_times, [0, 8, 45, 53])
+
+
+def test_value_and_rate_are_continuous_and_derivatives_match():
+    motion = sequence(rest(3.0, 2.0), s_curve(3, 9, 1.0, 0.5, 0.4), rest(9.0, 1.0), trapezoid(9, 1, 2, 1))
+    for t in motion.switch_times:
+        assert_allclose(motion(t - 1e-7), motion(t + 1e-7), atol=5e-7)
+        assert_allclose(motion(t - 1e-7, 1), motion(t + 1e-7, 1), atol=5e-7)
+    middle = 0.5 * (motion.switch_times[:-1] + motion.switch_times[1:])
+    for order in (0, 1, 2):
+        slope = (motion(middle + 1e-5, order) - motion(middle - 1e-5, order)) / 2e-5
+        assert_allclose(motion(middle, order + 1), slope, atol=1e-5)
+
+
+def test_before_and_after_it_rests():
+    motion = trapezoid(5, 41, 0.8, 0.1)
+    assert_allclose(motion([-3.0, 99.0]), [5.0, 41.0])
+    assert_allclose(motion([-3.0, 99.0, motion.duration], 1), 0.0)
+    assert_allclose(motion(0.0, 2), 0.1)
+    assert motion(np.zeros((2, 3))).shape == (2, 3)
+
+
+def test_range_finds_the_turning_points_between_samples():
+    assert_allclose(table([0, 1, 2], [0, 1, 0]).range(), (0, 1))
+    low, high = table([0, 1, 2, 3], [0, 1, 1, 0]).range()
+    t = np.linspace(0, 3, 100_001)
+    assert_allclose([low, high], [0.0, table([0, 1, 2, 3], [0, 1, 1, 0])(t).max()], atol=1e-9)
+
+
+def test_table_passes_its_points_and_starts_and_ends_at_rest(tmp_path):
+    file = tmp_path / "trolley.csv"
+    file.write_text("time [s],position [m]\n0,5\n10,9\n25,30\n40,41\n", encoding="utf-8")
+    motion = read_csv(file)
+    assert_allclose(motion([0, 10, 25, 40]), [5, 9, 30, 41])
+    assert_allclose(motion([0.0, 40.0], 1), 0.0, atol=1e-12)
+    assert_allclose(motion(10 - 1e-9, 2), motion(10 + 1e-9, 2), atol=1e-6)
+
+
+def test_phases_cut_at_the_union_and_merge_rounding():
+    trolley = sequence(rest(0.0, 0.1 + 0.2), trapezoid(0, 3, 1, 1))
+    rope = sequence(rest(9.0, 0.3), trapezoid(9, 7, 1, 1))
+    cut = phases((trolley, rope), 4.0)
+    assert_allclose(cut.times, [0, 0.3, 1.3, 2.3, 3.3, 4.0])
+    assert cut.inputs.shape == (5, 2, 3)
+    for phase, (start, stop) in enumerate(zip(cut.times[:-1], cut.times[1:], strict=True)):
+        for local in (0.1 * (stop - start), 0.9 * (stop - start)):
+            for channel, motion in enumerate((trolley, rope)):
+                value = np.polyval(cut.inputs[phase, channel, ::-1], local)
+                assert_allclose(value, motion(start + local), atol=1e-9)
+
+
+def test_phases_stop_at_the_duration():
+    assert_allclose(phases((trapezoid(5, 41, 0.8, 0.1),), 20.0).times, [0, 8, 20])
+    assert_allclose(phases((rest(1.0),), 20.0).times, [0, 20])
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: trapezoid(0, 1, 0.0, 1.0), "speed: wanted a positive number, got 0.0"),
+        (lambda: s_curve(0, 1, 1.0, 1.0, -2.0), "jerk: wanted a positive number"),
+        (lambda: sequence(rest(1.0, 1.0), rest(2.0)), "motion 2 begins at 2, the one before ends at 1"),
+        (lambda: sequence(), "at least one motion"),
+        (lambda: table([0, 2, 1], [0, 1, 2]), "start at 0 and increase"),
+        (lambda: table([0.0], [1.0]), "two or more"),
+        (lambda: rest(0.0, -1.0), "zero or more seconds"),
+        (lambda: Motion(np.array([0.0, 1.0]), np.array([[np.nan]])), "finite numbers"),
+    ],
+)
+def test_nonsense_is_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()

@@ -1,0 +1,73 @@
+"""Results: units and provenance in the file, written whole or not at all."""
+
+import json
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from qtz5613 import model, motions
+
+from towercrane import results
+from towercrane.simulate import simulate
+
+
+@pytest.fixture(scope="module")
+def result():
+    return simulate(model(2, 3), motions(), 10.0)
+
+
+def test_every_variable_has_a_unit_and_a_name(result):
+    import pint
+
+    registry = pint.UnitRegistry()
+    wanted = {
+        "trolley_position", "tower_tip_displacement", "tower_tip_tilt", "jib_tip_deflection", "swing_angle",
+        "rope_tension", "tower_coordinate", "jib_coordinate", "total_energy",
+    }  # fmt: skip
+    assert wanted <= set(result.data_vars)
+    for variable in result.data_vars.values():
+        assert variable.attrs["long_name"]
+        registry.parse_units(variable.attrs["units"])
+        assert variable.dims[0] == "time"
+
+
+def test_file_gives_back_every_number_and_the_provenance(result, tmp_path):
+    path = tmp_path / "new" / "result.nc"
+    results.save(result, path)
+    again = results.load(path)
+    for name, variable in result.data_vars.items():
+        assert np.array_equal(again[name].values, variable.values)
+        assert again[name].attrs["units"] == variable.attrs["units"]
+    assert again.attrs["method"] == "dop853"
+    assert again.attrs["outcome"] == "finished"
+    assert again.attrs["wall_seconds"] > 0.0
+    assert "numpy" in json.loads(again.attrs["versions"])
+    assert [p.name for p in path.parent.iterdir()] == ["result.nc"]
+
+
+def test_csv_has_units_in_its_header_and_the_same_numbers(result, tmp_path):
+    path = tmp_path / "result.csv"
+    results.save_csv(result, path)
+    lines = path.read_text(encoding="utf-8").splitlines()
+    header = next(line for line in lines if not line.startswith("#")).split(",")
+    assert header[0] == "time [s]"
+    assert "tower_tip_displacement [m]" in header
+    assert "payload_position outward [m]" in header
+    table = np.loadtxt(path, delimiter=",", skiprows=sum(line.startswith("#") for line in lines) + 1)
+    assert table.shape == (len(result.time), len(header))
+    assert_allclose(table[:, header.index("swing_angle [rad]")], result["swing_angle"], rtol=1e-11, atol=1e-15)
+
+
+def test_failed_write_leaves_the_old_file_and_no_half_one(tmp_path):
+    path = tmp_path / "result.nc"
+    path.write_text("old", encoding="utf-8")
+    with pytest.raises(RuntimeError), results.replacing(path) as temporary:
+        temporary.write_text("half", encoding="utf-8")
+        raise RuntimeError
+    assert path.read_text(encoding="utf-8") == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["result.nc"]
+
+
+def test_simulation_refuses_an_absurd_grid():
+    with pytest.raises(ValueError, match="0 < step <= duration"):
+        simulate(model(0, 0), motions(), 10.0, output_step=20.0)

@@ -1,0 +1,33 @@
+"""Peaks and periods of signals whose frequencies are known."""
+
+import numpy as np
+from numpy.testing import assert_allclose
+
+from towercrane.spectrum import amplitude_spectrum, spectrum_peaks, swing_period
+
+TIMES = np.arange(2401) * 0.05
+
+
+def test_two_sines_on_a_drift():
+    signal = 3 * np.sin(2 * np.pi * 0.3118 * TIMES) + 0.5 * np.cos(2 * np.pi * 0.7945 * TIMES) + 0.2 * TIMES
+    assert_allclose(spectrum_peaks(TIMES, signal), [0.3118, 0.7945], atol=2e-4)
+    frequencies, amplitudes = amplitude_spectrum(TIMES, signal)
+    assert_allclose(amplitudes.max(), 3.0, rtol=5e-3)
+    assert_allclose(frequencies[np.argmax(amplitudes)], 0.3118, atol=1e-3)
+
+
+def test_weak_peaks_and_side_lobes_are_left_out():
+    signal = np.sin(2 * np.pi * 0.45 * TIMES) + 0.01 * np.sin(2 * np.pi * 2.0 * TIMES)
+    assert len(spectrum_peaks(TIMES, signal)) == 1
+
+
+def test_too_short_a_signal_has_no_peaks():
+    assert spectrum_peaks(TIMES[:5], TIMES[:5]) == []
+    assert spectrum_peaks(TIMES, np.zeros_like(TIMES)) == []
+
+
+def test_period_of_a_swing_off_centre():
+    angle = 0.02 * np.sin(2 * np.pi * TIMES / 8.514 + 1.0) + 0.001
+    assert_allclose(swing_period(TIMES, angle), 8.514, rtol=1e-4)
+    assert swing_period(TIMES[:20], angle[:20]) is None
+    assert swing_period(TIMES, np.zeros_like(TIMES)) is None

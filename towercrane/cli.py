@@ -1,0 +1,302 @@
+"""The command line: thin doors to the package. Heavy imports happen inside the commands."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+
+    from towercrane.case import Case
+
+BAD_INPUT, ENDED_EARLY, INTERRUPTED = 2, 3, 130
+"""Exit codes besides 0: bad input; the run ended before its time with a named outcome; Ctrl-C."""
+
+app = typer.Typer(
+    help="How a tower crane vibrates and how its load swings.",
+    epilog="Start with: towercrane cases",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+cases_app = typer.Typer(help="List the cases that ship with the program, or copy them.", no_args_is_help=False)
+app.add_typer(cases_app, name="cases")
+
+CaseName = Annotated[str, typer.Argument(metavar="CASE", help="A case file, or the name of a shipped case.")]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help='Change a key, e.g. --set payload.mass="1200 kg".'),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
+
+
+def main() -> None:
+    """Entry point: bad input becomes a message and exit code 2, Ctrl-C exit code 130."""
+    from towercrane.faults import CaseError
+
+    try:
+        app()
+    except CaseError as error:
+        _fail(str(error))
+    except KeyboardInterrupt:
+        _say("interrupted")
+        sys.exit(INTERRUPTED)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from towercrane import __version__
+
+        typer.echo(f"towercrane {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+@cases_app.callback(invoke_without_command=True)
+def cases(context: typer.Context) -> None:
+    """List the cases that ship with the program."""
+    if context.invoked_subcommand is not None:
+        return
+    from towercrane.case import list_cases
+
+    found = list_cases()
+    width = max(len(name) for name, _ in found)
+    for name, title in found:
+        typer.echo(f"{name:<{width}}  {title}")
+    _next(f"towercrane modes {found[0][0]}")
+
+
+@cases_app.command("copy")
+def copy_cases(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder to copy into; it must not hold them yet.")],
+) -> None:
+    """Copy the shipped cases to a folder of yours, to change them."""
+    import shutil
+
+    from towercrane.case import case_folder
+
+    source = case_folder()
+    clashes = [folder / path.relative_to(source) for path in sorted(source.rglob("*.toml"))]
+    if existing := [str(path) for path in clashes if path.exists()]:
+        _fail(f"{folder}: nothing copied, {existing[0]} and {len(existing) - 1} more would be overwritten")
+    try:
+        shutil.copytree(source, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__"))
+    except OSError as error:
+        _fail(f"{folder}: cannot copy the cases there: {error.strerror or error}")
+    typer.echo(f"{len(clashes)} files in {folder}")
+    _next(f"towercrane run {folder / 'qtz5613' / 'condition-3.toml'}")
+
+
+@app.command()
+def modes(
+    case: CaseName,
+    changes: Changes = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="DIR", help="Folder for the picture of the mode shapes.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Natural frequencies of tower, jib and crane, each beside finite elements."""
+    loaded = _load(case, changes)
+    _announce_compilation("modal.roots")
+    from towercrane.natural import natural_frequencies
+
+    report = natural_frequencies(loaded)
+    if out is not None:
+        _write(out, {"modes.png": lambda: _mode_picture(loaded)})
+    if as_json:
+        typer.echo(json.dumps(report, indent=2))
+        return
+    from towercrane.tables import modes_tables
+
+    modes_tables(report)
+    _next(f"towercrane run {case}")
+
+
+@app.command()
+def run(
+    case: CaseName,
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+    csv: Annotated[bool, typer.Option("--csv", help="Write result.csv as well.")] = False,
+) -> None:
+    """Simulate a case; write result.nc, summary.json and pictures."""
+    loaded = _load(case, changes)
+    folder = out if out is not None else Path("results") / loaded.name
+    _check_folder(folder)
+    _announce_compilation("towercrane.stepper")
+    from towercrane.simulate import run_case
+    from towercrane.summary import summarise
+
+    result = _with_progress(loaded, run_case)
+    summary = summarise(loaded, result)
+    text = json.dumps(summary, indent=2, allow_nan=False)
+    files: dict[str, Callable[[], Any]] = {"result.nc": lambda: result, "summary.json": lambda: text + "\n"}
+    if csv:
+        files["result.csv"] = lambda: result
+    if pictures:
+        from towercrane import plots
+
+        files |= {name: lambda figure=figure: figure for name, figure in plots.run_pictures(result).items()}
+        files["modes.png"] = lambda: _mode_picture(loaded)
+    _write(folder, files)
+    if as_json:
+        typer.echo(text)
+    else:
+        from towercrane.tables import run_tables
+
+        run_tables(summary)
+        typer.echo(f"written to {folder}: {', '.join(files)}")
+        _next(f"towercrane run {case} --set rope.length=\"10 m\" --out {folder}-short")
+    if summary["outcome"] == "interrupted":
+        raise typer.Exit(INTERRUPTED)
+    if summary["outcome"] != "finished":
+        _say(f"the run ended at {summary['end_time_s']:.6g} s: {summary['outcome']}")
+        raise typer.Exit(ENDED_EARLY)
+
+
+@app.command()
+def figures(
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for the pictures.")] = Path(
+        "results/figures"
+    ),
+    changes: Changes = None,
+) -> None:
+    """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
+    _check_folder(out)
+    _announce_compilation("towercrane.stepper")
+    from towercrane import plots
+    from towercrane.simulate import run_case
+
+    conditions = {
+        number: _with_progress(_load(f"qtz5613/condition-{number}", changes), run_case)
+        for number in (1, 2, 3, 4)
+    }
+    drawn = plots.source_figures(conditions)
+    _write(out, {name: lambda figure=figure: figure for name, figure in drawn.items()})
+    typer.echo(f"written to {out}: {', '.join(drawn)}")
+    _next("towercrane run qtz5613/condition-4-zero")
+
+
+@app.command()
+def bench(
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer repeats; under a minute.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Measure speed against error on this machine."""
+    _announce_compilation("towercrane.stepper")
+    from towercrane.bench import measure
+    from towercrane.tables import bench_tables
+
+    report = measure(quick=quick, say=_say)
+    if as_json:
+        typer.echo(json.dumps(report, indent=2))
+        return
+    bench_tables(report)
+    _next("towercrane run qtz5613/condition-3 --set solver.rtol=1e-4")
+
+
+def _load(name: str, changes: list[str] | None) -> Case:
+    from towercrane.case import load_case
+
+    return load_case(name, changes or [])
+
+
+def _mode_picture(case: Case) -> Any:
+    from modal import cantilever_modes
+    from towercrane import plots
+
+    crane, count = case.radial_crane(), case.modes.count
+    notes = [(a.key, str(a.value), a.why) for a in case.assumed if a.key.startswith("crane.")]
+    return plots.modes(
+        cantilever_modes(crane.tower, count, crane.end_body), cantilever_modes(crane.jib, count), notes
+    )
+
+
+def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Dataset:
+    """Run with a progress bar if somebody is looking; Ctrl-C ends the run and keeps what is finished."""
+    if not sys.stderr.isatty():
+        return simulate(case)
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:.0f} s"))
+    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(case.name, total=case.run.duration)
+        return simulate(case, progress=lambda time: bar.update(task, completed=time))
+
+
+def _announce_compilation(module: str) -> None:
+    from modal.compiled import is_compiled
+
+    if not is_compiled(module):
+        _say("compiling for the first time, about ten seconds; later runs start at once ...")
+
+
+def _check_folder(folder: Path) -> None:
+    """Refuse before the work, not after it."""
+    import os
+
+    existing = folder
+    while not existing.exists():
+        existing = existing.parent
+    if not existing.is_dir():
+        _fail(f"--out {folder}: wanted a folder, {existing} is a file")
+    if not os.access(existing, os.W_OK):
+        _fail(f"--out {folder}: no right to write in {existing}")
+
+
+def _write(folder: Path, files: dict[str, Callable[[], Any]]) -> None:
+    """Make each file and put it in place whole."""
+    from towercrane import results
+
+    _check_folder(folder)
+    for name, make in files.items():
+        made, path = make(), folder / name
+        try:
+            if name.endswith(".nc"):
+                results.save(made, path)
+            elif name.endswith(".csv"):
+                results.save_csv(made, path)
+            elif name.endswith(".png"):
+                from towercrane import plots
+
+                plots.save(made, path)
+            else:
+                results.write_text(made, path)
+        except OSError as error:
+            _fail(f"{path}: cannot be written: {error.strerror or error}")
+
+
+def _say(text: str) -> None:
+    typer.echo(text, err=True)
+
+
+def _next(command: str) -> None:
+    typer.echo(f"next: {command}")
+
+
+def _fail(message: str) -> None:
+    _say(message)
+    sys.exit(BAD_INPUT)
+
+
+if __name__ == "__main__":
+    main()

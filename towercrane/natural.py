@@ -1,0 +1,122 @@
+"""Natural frequencies of a case: tower, jib and the coupled crane, each beside its finite elements."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.simulate import case_model
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from modal import LacedColumn
+    from towercrane.case import Case
+
+FRAME_MODES = 5
+"""Frequencies of the coupled crane that are shown: the pendulum's and four of the structure."""
+
+
+def natural_frequencies(case: Case) -> dict[str, Any]:
+    """Roots and frequencies of a case, ready for JSON.
+
+    Returns
+    -------
+    dict
+        ``tower`` (roots, frequencies_hz, seconds), ``jib`` (roots, frequencies_hz), ``finite_elements``
+        (frequencies_hz, relative_difference, elements, seconds), ``crane`` (a list with trolley_position_m,
+        frequencies_hz, finite_elements_hz, relative_difference), ``lattice`` where the case describes one,
+        ``assumed``.
+    """
+    from modal import cantilever_modes, finite_element_frequencies
+
+    crane = case.radial_crane()
+    count, elements = case.modes.count, case.modes.elements
+    modes, seconds = _timed(lambda: cantilever_modes(crane.tower, count, crane.end_body))
+    jib = cantilever_modes(crane.jib, count)
+    checked, check_seconds = _timed(
+        lambda: finite_element_frequencies(crane.tower, count, crane.end_body, elements=elements)
+    )
+    report: dict[str, Any] = {
+        "case": case.name,
+        "name": crane.name,
+        "tower": {
+            "roots": modes.roots.tolist(),
+            "frequencies_hz": modes.frequencies_hz.tolist(),
+            "seconds": seconds,
+        },
+        "jib": {"roots": jib.roots.tolist(), "frequencies_hz": jib.frequencies_hz.tolist()},
+        "finite_elements": {
+            "frequencies_hz": (checked / (2 * np.pi)).tolist(),
+            "relative_difference": (checked / modes.angular_frequencies - 1.0).tolist(),
+            "elements": elements,
+            "seconds": check_seconds,
+        },
+        "crane_model": {"tower_modes": case.model.tower_modes, "jib_modes": case.model.jib_modes},
+        "rope_length_m": case.rope.length,
+        "payload_mass_kg": case.payload.mass,
+    }
+    report["crane"] = [_coupled(case, position) for position in case.modes.trolley_positions]
+    if case.crane.tower.published_roots:
+        report["tower"]["published_roots"] = list(case.crane.tower.published_roots)
+    if (lattice := case.lattice()) is not None:
+        report["lattice"] = _lattice(lattice, crane.tower.length)
+    report["assumed"] = [{"key": a.key, "value": str(a.value), "why": a.why} for a in case.assumed]
+    return report
+
+
+def _coupled(case: Case, position: float) -> dict[str, Any]:
+    """Frequencies of the coupled crane with the trolley at a position [m]."""
+    from modal import frame_frequencies
+
+    crane, model = case.radial_crane(), case_model(case)
+    found = model.natural_frequencies(position, case.rope.length)[:FRAME_MODES]
+    row: dict[str, Any] = {
+        "trolley_position_m": position,
+        "frequencies_hz": (found / (2 * np.pi)).tolist(),
+    }
+    if model.tower_modes and model.jib_modes and not model.weight_softening:
+        frame = frame_frequencies(
+            crane.tower,
+            crane.jib,
+            head_mass=crane.counter_mass,
+            head_inertia=crane.counter_inertia,
+            trolley_position=position,
+            trolley_mass=crane.trolley_mass,
+            payload_mass=case.payload.mass,
+            rope_length=case.rope.length,
+            gravity=crane.gravity,
+            count=len(found),
+        )
+        row["finite_elements_hz"] = (frame / (2 * np.pi)).tolist()
+        row["relative_difference"] = (found / frame - 1.0).tolist()
+    return row
+
+
+def _lattice(column: LacedColumn, height: float) -> dict[str, dict[str, Any]]:
+    """Section properties of the lattice, each with what it may be used for."""
+    properties = {
+        "chord_second_moment_of_area": column.chord_second_moment_of_area,
+        "stiffening_factor": column.stiffening_factor,
+        "bending_stiffness": column.bending_stiffness,
+        "shear_stiffness": column.shear_stiffness,
+        "equivalent_slenderness": column.equivalent_slenderness(height),
+        "equivalent_second_moment_of_area": column.equivalent_second_moment_of_area(height),
+    }
+    return {name: dataclasses.asdict(found) for name, found in properties.items()}
+
+
+def _timed(function: Callable[[], Any], repeats: int = 5) -> tuple[Any, float]:
+    """Result and median time of a few calls [s]; the first, which loads code, is not counted."""
+    result = function()
+    seconds = []
+    for _ in range(repeats):
+        began = time.perf_counter()
+        function()
+        seconds.append(time.perf_counter() - began)
+    return result, float(np.median(seconds))
+
+

@@ -1,0 +1,92 @@
+"""Frequencies read off a time series: amplitude spectrum, its peaks, the period of a swing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+PADDING = 8
+"""Zero padding, so that a peak is seen between two bins."""
+
+SHORTEST = 16
+"""Samples below which a spectrum says nothing."""
+
+
+def amplitude_spectrum(times: Floats, values: Floats) -> tuple[Floats, Floats]:
+    """One-sided amplitude spectrum of a uniformly sampled signal.
+
+    The straight line through the signal is taken off and a Hann window applied (Gao et al. 2023, Eq. 29, uses
+    neither, which smears the slow drift of a travelling trolley over all frequencies). A sine of amplitude a gives
+    a peak of height a.
+
+    Parameters
+    ----------
+    times, values : ndarray, shape (p,)
+
+    Returns
+    -------
+    frequencies : ndarray, shape (k,)
+        [Hz]
+    amplitudes : ndarray, shape (k,)
+        In the unit of the values; empty if the signal is too short.
+    """
+    if len(times) < SHORTEST:
+        return np.empty(0), np.empty(0)
+    line = np.polynomial.Polynomial.fit(times, values, 1)
+    window = np.hanning(len(times))
+    padded = PADDING * len(times)
+    amplitudes = 2.0 / window.sum() * abs(np.fft.rfft(window * (values - line(times)), padded))
+    return np.fft.rfftfreq(padded, (times[-1] - times[0]) / (len(times) - 1)), amplitudes
+
+
+def spectrum_peaks(times: Floats, values: Floats, *, most: int = 5, floor: float = 0.02) -> list[float]:
+    """Frequencies of the highest peaks, ascending [Hz].
+
+    Parameters
+    ----------
+    times, values : ndarray, shape (p,)
+    most : int
+        Number of peaks at most.
+    floor : float
+        Peaks lower than this fraction of the highest are left out.
+    """
+    frequencies, amplitudes = amplitude_spectrum(times, values)
+    if len(amplitudes) < 3:
+        return []
+    middle = amplitudes[1:-1]
+    tops = np.flatnonzero((middle > amplitudes[:-2]) & (middle >= amplitudes[2:])) + 1
+    # Below three periods in the record a "peak" is the drift that the window has bent.
+    tops = tops[frequencies[tops] > 3.0 / (times[-1] - times[0])]
+    if not len(tops):
+        return []
+    # The window's own side lobes reach 2.7 % of their peak; a true peak is the highest within its main lobe.
+    reach = 4 * PADDING
+    tops = np.array([k for k in tops if amplitudes[k] >= amplitudes[max(0, k - reach) : k + reach + 1].max()])
+    tops = tops[amplitudes[tops] >= floor * amplitudes[tops].max()]
+    highest = sorted(tops[np.argsort(amplitudes[tops])[::-1]][:most])
+    return [_vertex(frequencies[k - 1 : k + 2], amplitudes[k - 1 : k + 2]) for k in highest]
+
+
+def _vertex(x: Floats, y: Floats) -> float:
+    """Abscissa of the parabola's top through three equidistant points."""
+    curve = y[0] - 2.0 * y[1] + y[2]
+    return float(x[1] if curve == 0.0 else x[1] + 0.5 * (x[1] - x[0]) * (y[0] - y[2]) / curve)
+
+
+def swing_period(times: Floats, angle: Floats) -> float | None:
+    """Mean time between upward passages through the middle [s]; None without two passages."""
+    if len(times) < 3:
+        return None
+    centred = angle - 0.5 * (angle.max() + angle.min())
+    up = np.flatnonzero((centred[:-1] < 0.0) & (centred[1:] >= 0.0))
+    if len(up) < 2:
+        return None
+    fraction = -centred[up] / (centred[up + 1] - centred[up])
+    passages = times[up] + fraction * (times[up + 1] - times[up])
+    return float((passages[-1] - passages[0]) / (len(passages) - 1))

@@ -1,0 +1,127 @@
+"""Reports as tables on the terminal."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+WIDTH_OF_A_PIPE = 120
+"""Columns where no terminal tells its width."""
+
+
+def _console() -> Console:
+    console = Console()
+    return console if console.is_terminal else Console(width=WIDTH_OF_A_PIPE)
+
+
+def _table(title: str, *columns: str, left: int = 1) -> Table:
+    table = Table(title=title, title_justify="left", title_style="bold", header_style="bold")
+    for number, column in enumerate(columns):
+        table.add_column(column, justify="left" if number < left else "right", overflow="fold")
+    return table
+
+
+def modes_tables(report: dict[str, Any]) -> None:
+    """Natural frequencies beside finite elements, as :func:`towercrane.natural.natural_frequencies` gives them."""
+    console = _console()
+    tower, jib, check = report["tower"], report["jib"], report["finite_elements"]
+    printed = tower.get("published_roots", [])
+    columns = ["mode", "root", "frequency [Hz]", f"{check['elements']} elements [Hz]", "difference"]
+    if printed:
+        columns += ["published root", "ours - published"]
+    table = _table(f"{report['name']}: tower with the slewing part on its end", *columns)
+    rows = zip(
+        tower["roots"], tower["frequencies_hz"], check["frequencies_hz"], check["relative_difference"], strict=True
+    )
+    for i, (root, frequency, element, difference) in enumerate(rows):
+        cells = [str(i + 1), f"{root:.6f}", f"{frequency:.6f}", f"{element:.6f}", f"{difference:.1e}"]
+        if i < len(printed):
+            gap = root - printed[i]
+            cells += [f"{printed[i]:.3f}", f"{gap:+.4f}" + (" discrepancy" if abs(gap) > 0.005 else "")]
+        table.add_row(*cells)
+    console.print(table)
+    console.print(
+        f"closed form {1e3 * tower['seconds']:.2f} ms, finite elements {1e3 * check['seconds']:.1f} ms (median of 5)"
+    )
+
+    table = _table(f"{report['name']}: jib, clamped at the tower", "mode", "root", "frequency [Hz]")
+    for i, (root, frequency) in enumerate(zip(jib["roots"], jib["frequencies_hz"], strict=True)):
+        table.add_row(str(i + 1), f"{root:.6f}", f"{frequency:.6f}")
+    console.print(table)
+
+    model = report["crane_model"]
+    title = (
+        f"{report['name']}: coupled crane, {model['tower_modes']} tower and {model['jib_modes']} jib modes, "
+        f"load {report['payload_mass_kg']:g} kg on {report['rope_length_m']:g} m; first the load's swing"
+    )
+    most = max((len(row["frequencies_hz"]) for row in report["crane"]), default=0)
+    table = _table(title, "trolley [m]", *(f"f{i} [Hz]" for i in range(1, most + 1)))
+    for row in report["crane"]:
+        table.add_row(f"{row['trolley_position_m']:g}", *(f"{f:.6f}" for f in row["frequencies_hz"]))
+        if "relative_difference" in row:
+            table.add_row("  - FE frame", *(f"{d:+.1e}" for d in row["relative_difference"]), style="dim")
+    console.print(table)
+
+    if "lattice" in report:
+        table = _table(f"{report['name']}: tower lattice as a beam", "property", "value", "unit", "use", left=1)
+        table.columns[3].justify = "left"
+        for name, found in report["lattice"].items():
+            table.add_row(name.replace("_", " "), f"{found['value']:.5g}", found["unit"], found["use"])
+        console.print(table)
+    _assumed(console, report["assumed"])
+
+
+def run_tables(summary: dict[str, Any]) -> None:
+    """Summary of a run, as :func:`towercrane.summary.summarise` gives it."""
+    console = _console()
+    table = _table(
+        f"{summary['crane']}: {summary['title']}", "variable", "maximum", "at [s]", "minimum", "at [s]", "unit"
+    )
+    for name, peak in summary["peaks"].items():
+        table.add_row(
+            name.replace("_", " "),
+            f"{peak['maximum']:.5g}",
+            f"{peak['maximum_time_s']:.2f}",
+            f"{peak['minimum']:.5g}",
+            f"{peak['minimum_time_s']:.2f}",
+            peak["units"],
+        )
+    console.print(table)
+    period = summary["swing_period_s"]
+    console.print(f"swing period          {f'{period:.4f} s' if period else 'no two passages'}")
+    shown = ", ".join(f"{f:.4f}" for f in summary["spectrum_peaks_hz"]) or "none"
+    console.print(f"tower spectrum peaks  {shown} Hz")
+    natural = ", ".join(f"{f:.4f}" for f in summary["natural_frequencies_hz"][:5])
+    console.print(f"natural frequencies   {natural} Hz at the last trolley position")
+    balance, solver = summary["energy_balance"], summary["solver"]
+    console.print(
+        f"energy balance        {balance['largest_gap_j']:.2g} J off, {balance['relative_gap']:.1e} of the change"
+    )
+    console.print(
+        f"solver                {solver['method']}, rtol {solver['rtol']:g}, {solver['evaluations']} evaluations, "
+        f"{solver['solver_wall_seconds']:.3f} s of {summary['wall_seconds']:.3f} s wall"
+    )
+    for notice in summary["notices"]:
+        console.print(f"[bold]note[/bold]  {notice}", highlight=False)
+    _assumed(console, summary["assumed"])
+
+
+def bench_tables(report: dict[str, Any]) -> None:
+    """Speed against error, as :func:`towercrane.bench.measure` gives it."""
+    console = _console()
+    for subject in report["subjects"]:
+        table = _table(subject["title"], *subject["columns"])
+        for row in subject["rows"]:
+            table.add_row(*row)
+        console.print(table)
+        for note in subject["notes"]:
+            console.print(f"  {note}", style="dim", highlight=False)
+
+
+def _assumed(console: Console, assumed: list[dict[str, str]]) -> None:
+    for entry in assumed:
+        console.print(
+            f"[bold]assumed[/bold]  {entry['key']} = {entry['value']}: {entry['why']}", highlight=False
+        )
