@@ -27,7 +27,7 @@ class Exact:
 @kernel(rhs_signature())
 def _oscillator(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
     dy[0] = y[1]
-    dy[1] = -numbers[0] ** 2 * y[0]
+    dy[1] = -(numbers[0] ** 2) * y[0]
 
 
 @kernel(rhs_signature())
@@ -53,7 +53,7 @@ def _driven(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
     for c in range(inputs.shape[1] - 1, 1, -1):
         acceleration = acceleration * t + c * (c - 1) * inputs[0, c]
     dy[0] = y[1]
-    dy[1] = -numbers[0] ** 2 * y[0] - acceleration
+    dy[1] = -(numbers[0] ** 2) * y[0] - acceleration
 
 
 def oscillator(omega: float = 3.0, duration: float = 10.0) -> Exact:

@@ -1,11 +1,12 @@
 """The crane of the tests, without a case file: QTZ5613 of Gao et al. (2023), Table 2."""
 
 from modal.beam import Beam
-from towercrane.cranes.radial import RadialCrane, RadialModel
+from towercrane.cranes.radial import RadialModel
+from towercrane.cranes.tower_crane import TowerCrane
 from towercrane.motion import rest, trapezoid
 from towercrane.payload import Load
 
-CRANE = RadialCrane(
+CRANE = TowerCrane(
     name="QTZ5613",
     tower=Beam(23.8, 350.0, 206e9, 0.014),
     jib=Beam(55.6, 123.8, 206e9, 0.0035),

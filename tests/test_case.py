@@ -2,7 +2,10 @@
 
 import json
 import math
+import subprocess
+import sys
 import tomllib
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 import pytest
@@ -197,9 +200,7 @@ def test_assumed_values_are_listed_as_written_the_cranes_first(write):
     assert case.as_written["crane"]["jib"]["length"] == {"value": "40 m", "source": "data sheet"}
     assert json.loads(json.dumps(case.as_written)) == case.as_written
     # A value given on the command line is no longer the file's assumption.
-    assert [a.key for a in load_case(path, ["payload.mass=900 kg"]).assumed] == [
-        "crane.jib.second_moment_of_area"
-    ]
+    assert [a.key for a in load_case(path, ["payload.mass=900 kg"]).assumed] == ["crane.jib.second_moment_of_area"]
 
 
 @pytest.mark.parametrize(
@@ -228,9 +229,7 @@ def with_motion(text, hoist=""):
 
 
 def test_s_curve_and_delay(write):
-    text = (
-        'shape = "s-curve"\nstart = 5\nend = 20\nspeed = 0.8\nacceleration = 0.1\njerk = 0.05\ndelay = "4 s"'
-    )
+    text = 'shape = "s-curve"\nstart = 5\nend = 20\nspeed = 0.8\nacceleration = 0.1\njerk = 0.05\ndelay = "4 s"'
     motion = load_case(write(case_text=with_motion(text))).trolley_motion()
     assert float(motion(3.9)) == 5.0
     assert float(motion(5.0, 2)) == pytest.approx(0.05)
@@ -470,8 +469,6 @@ def test_the_table_of_ranges_is_sound():
         assert 0.0 < row.low < row.high, row
         for unit in row.likely:
             to_si(f"1 {unit}", row.unit)
-        from fnmatch import fnmatchcase
-
         assert any(fnmatchcase(k, row.key) for k in known), row
 
 
@@ -513,9 +510,7 @@ def test_faults_in_steps_name_the_step(write):
     assert (fault.key, fault.wanted) == ("motion.trolley.steps", "a list of tables, one per step")
 
 
-@pytest.mark.parametrize(
-    ("end", "words"), [("0 m", "above 0"), ("31 m", "30 m (the height"), ("-2 m", "above 0")]
-)
+@pytest.mark.parametrize(("end", "words"), [("0 m", "above 0"), ("31 m", "30 m (the height"), ("-2 m", "above 0")])
 def test_hoist_keeps_the_load_between_trolley_and_ground(write, end, words):
     hoist = f'\n[motion.hoist]\nshape = "trapezoid"\nend = "{end}"\nspeed = 1\nacceleration = 1\n'
     fault = only_fault(write(case_text=with_motion('shape = "rest"\nstart = "7 m"', hoist)))
@@ -692,14 +687,13 @@ def test_shipped_cases_load_anywhere(tmp_path, monkeypatch):
         assert case.path == case_folder() / f"{name}.toml"
 
 
-@pytest.mark.parametrize(
-    ("number", "speed", "mass", "rope"),
-    [(1, 0.4, 400.0, 18.0), (2, 0.8, 400.0, 18.0), (3, 0.8, 800.0, 18.0), (4, 0.8, 800.0, 10.0)],
-)
-@pytest.mark.parametrize("variant", ["", "-paper", "-zero"])
-def test_shipped_conditions(number, speed, mass, rope, variant):
-    if variant == "-zero" and number != 4:
-        pytest.skip("only condition 4 is shipped so")
+CONDITIONS = {1: (0.4, 400.0, 18.0), 2: (0.8, 400.0, 18.0), 3: (0.8, 800.0, 18.0), 4: (0.8, 800.0, 10.0)}
+SHIPPED = [*((n, variant) for n in CONDITIONS for variant in ("", "-paper")), (4, "-zero")]
+
+
+@pytest.mark.parametrize(("number", "variant"), SHIPPED)
+def test_shipped_conditions(number, variant):
+    speed, mass, rope = CONDITIONS[number]
     case = load_case(f"qtz5613/condition-{number}{variant}")
     assert case.payload.mass == mass
     assert case.rope_motion().range() == (rope, rope)
@@ -743,6 +737,12 @@ def test_a_misspelt_case_name_gets_the_closest(name):
 
 def test_a_name_like_no_case_lists_them():
     assert "qtz5613/condition-1, " in only_fault("zzzzzz").hint
+
+
+def test_importing_the_door_loads_neither_units_nor_schema():
+    code = "import sys, towercrane.case; print({'pint', 'pydantic', 'numpy'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
 
 
 def test_installed_cases_come_first(tmp_path, monkeypatch):

@@ -42,9 +42,7 @@ def fixed_steps(tableau: Tableau, exact: Exact, steps: int, x: float = 1.0) -> f
     return worst
 
 
-@pytest.mark.parametrize(
-    ("name", "coarse", "bound"), [("dop853", 8, 1.2e-8), ("dopri5", 48, 1.5e-9)]
-)
+@pytest.mark.parametrize(("name", "coarse", "bound"), [("dop853", 8, 1.2e-8), ("dopri5", 48, 1.5e-9)])
 def test_declared_order_is_reached_and_not_exceeded(name, coarse, bound):
     tableau, exact = TABLEAUS[name], growth_and_decay(duration=4.0)
     errors = [fixed_steps(tableau, exact, coarse * 2**level) for level in range(3)]
@@ -166,8 +164,14 @@ def _blows_up(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards
 
 
 def _system(rhs, size, guards=()):
-    return dataclasses.replace(oscillator().system, rhs=rhs, size=size, guards=guards,
-                               floors=np.zeros(len(guards)), scale=np.ones(size))
+    return dataclasses.replace(
+        oscillator().system,
+        rhs=rhs,
+        size=size,
+        guards=guards,
+        floors=np.zeros(len(guards)),
+        scale=np.ones(size),
+    )
 
 
 @pytest.mark.parametrize("method", ["dop853", "dopri5", "scipy-dop853"])
@@ -183,7 +187,10 @@ def test_guard_stops_at_its_zero(method):
 
 def test_guard_below_zero_at_the_start_is_an_outcome_at_once():
     run = integrate(
-        _system(_falling, 2, ("never", "landed")), phases((rest(0.0),), 1.0), np.array([-1.0, 0.0]), np.zeros(1)
+        _system(_falling, 2, ("never", "landed")),
+        phases((rest(0.0),), 1.0),
+        np.array([-1.0, 0.0]),
+        np.zeros(1),
     )
     assert (run.outcome, run.end_time, len(run.times)) == ("landed", 0.0, 1)
 
@@ -207,5 +214,5 @@ def test_state_without_weight_does_not_steer_the_step():
 
 
 def test_unknown_method_is_refused():
-    with pytest.raises(ValueError, match="method: wanted one of dop853.*got 'euler'"):
+    with pytest.raises(ValueError, match=r"method: wanted one of dop853.*got 'euler'"):
         solve(kepler(), method="euler")

@@ -1,5 +1,7 @@
 """The radial crane over time: limits with known answers, balance, the source's conditions, hard starts."""
 
+import itertools
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -48,7 +50,7 @@ def test_rigid_crane_is_the_nonlinear_pendulum_on_a_moving_winch(angle):
     )
     switches = np.unique(np.r_[0.0, drives["trolley"].switch_times, drives["rope"].switch_times, 60.0])
     y, expected = np.array([angle, 0.0]), [[0.0, angle]]
-    for start, stop in zip(switches[:-1], switches[1:], strict=True):
+    for start, stop in itertools.pairwise(switches):
         times = result.time.values[(result.time > start) & (result.time <= stop)]
         middle = 0.5 * (start + stop)
 
@@ -102,9 +104,7 @@ def test_planar_run_in_space_stays_planar_exactly():
 def test_energy_balance_with_every_drive_and_every_loss_over_600_seconds():
     back_and_forth = sequence(trapezoid(5, 41, 0.8, 0.1), rest(41, 40), s_curve(41, 12, 1.0, 0.2, 0.1))
     hoist = sequence(rest(18, 20), trapezoid(18, 6, 0.5, 0.2), rest(6, 60), trapezoid(6, 16, 0.5, 0.1))
-    lossy = RadialModel(
-        CRANE, Load(800.0, rope_damping=500.0, drag_area=3.0), 2, 3, True, 0.005, 0.01
-    )
+    lossy = RadialModel(CRANE, Load(800.0, rope_damping=500.0, drag_area=3.0), 2, 3, True, 0.005, 0.01)
     result = simulate(
         lossy, {"trolley": back_and_forth, "rope": hoist}, 600.0, output_step=0.5, rtol=1e-11, atol=1e-13
     )
@@ -168,9 +168,7 @@ def test_buckling_tower_is_named_with_its_load_factor():
     import dataclasses
 
     weak = dataclasses.replace(CRANE.tower, second_moment_of_area=0.014 / 400)
-    slender = RadialModel(
-        dataclasses.replace(CRANE, tower=weak), Load(800.0), 2, 2, weight_softening=True
-    )
+    slender = RadialModel(dataclasses.replace(CRANE, tower=weak), Load(800.0), 2, 2, weight_softening=True)
     inputs = np.array([[20.0, 0.0, 0.0], [18.0, 0.0, 0.0]])
     with pytest.raises(TowerBuckles, match=r"it would carry 0\.\d+ times that weight"):
         slender.equilibrium(inputs)
@@ -195,7 +193,9 @@ def test_condition_1_swings_more_while_braking_and_condition_2_less():
         speed = CONDITIONS[number][0]
         ramp, brake = speed / 0.1, 36.0 / speed
         angle = abs(result["swing_angle"])
-        return float(angle.sel(time=slice(0, ramp + 8.5)).max()), float(angle.sel(time=slice(brake, 120)).max())
+        return float(angle.sel(time=slice(0, ramp + 8.5)).max()), float(
+            angle.sel(time=slice(brake, 120)).max()
+        )
 
     starting, braking = ramps(1)
     assert braking > 1.5 * starting
@@ -283,12 +283,19 @@ def test_tower_frequency_falls_as_the_trolley_travels():
 
 
 def test_linear_frequencies_of_the_rigid_jib():
-    assert_allclose(model(8, 0).natural_frequencies(5.0, 18.0)[1:4] / 2 / np.pi, [0.4757, 1.8356, 18.574], rtol=2e-4)
+    assert_allclose(
+        model(8, 0).natural_frequencies(5.0, 18.0)[1:4] / 2 / np.pi, [0.4757, 1.8356, 18.574], rtol=2e-4
+    )
 
 
 def test_small_swing_has_the_linear_frequency():
     result = simulate(
-        model(2, 3, self_weight=False), standing(20.0, 18.0), 200.0, swing_angle=1e-4, output_step=0.01, rtol=1e-11
+        model(2, 3, self_weight=False),
+        standing(20.0, 18.0),
+        200.0,
+        swing_angle=1e-4,
+        output_step=0.01,
+        rtol=1e-11,
     )
     angle, time = result["swing_angle"].values, result.time.values
     angle = angle - angle.mean()

@@ -1,3 +1,40 @@
-"""How a tower crane vibrates and how its load swings."""
+"""How a tower crane vibrates and how its load swings.
+
+``load_case`` reads a case file and ``run_case`` simulates it. ``TowerCrane``, ``Load`` and ``RadialModel`` with
+:func:`towercrane.simulate.simulate` and the motions of :mod:`towercrane.motion` do the same without files.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from towercrane.case import load_case
+    from towercrane.cranes.radial import RadialModel
+    from towercrane.cranes.tower_crane import TowerCrane
+    from towercrane.payload import Load
+    from towercrane.simulate import run_case
+
+__all__ = ["Load", "RadialModel", "TowerCrane", "load_case", "run_case"]
 
 __version__ = "0.1.0"
+
+_HOME = {
+    "Load": "payload",
+    "RadialModel": "cranes.radial",
+    "TowerCrane": "cranes.tower_crane",
+    "load_case": "case",
+    "run_case": "simulate",
+}
+
+
+def __getattr__(name: str) -> Any:
+    # Importing the package stays cheap: compiler and file formats load with the first name that needs them.
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

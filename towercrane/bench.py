@@ -6,6 +6,7 @@ import dataclasses
 import os
 import platform
 import time
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from towercrane.motion import phases
 from towercrane.simulate import case_model, versions
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -90,7 +91,7 @@ def roots(repeats: int) -> dict[str, Any]:
     }
     values, seconds, _ = _interleaved(contestants, repeats)
     reference, note = _exact_roots(ratios, 500)
-    records = []
+    records: list[dict[str, Any]] = []
     for name, found in values.items():
         error = None
         if reference is not None:
@@ -101,24 +102,29 @@ def roots(repeats: int) -> dict[str, Any]:
         "columns": ["method", "error", "median [ms]"],
         "rows": [[r["method"], _short(r["error"]), f"{r['milliseconds']:.3f}"] for r in records],
         "records": records,
-        "notes": [note, "the closed form is compiled; its first call of a process, which loads code, is not counted"],
+        "notes": [
+            note,
+            "the closed form is compiled; its first call of a process, which loads code, is not counted",
+        ],
     }
 
 
 def right_hand_side(repeats: int) -> dict[str, Any]:
     """One evaluation of the radial right-hand side."""
     count = 20_000
-    contestants, models = {}, {}
+    contestants: dict[str, Callable[[], Any]] = {}
+    models: dict[str, int] = {}
     for modes in ((0, 0), (2, 2), (2, 3), (4, 4)):
         model = case_model(load_case(CASE), tower_modes=modes[0], jib_modes=modes[1])
         cut, start = _scene(model)
         times, states = np.full(count, 10.0), np.repeat(start[None], count, axis=0)
         name = f"{modes[0]} tower + {modes[1]} jib modes"
         models[name] = model.size
-        contestants[name] = lambda m=model, c=cut, t=times, s=states: evaluate(m.system, c, t, s)[0]
+        contestants[name] = partial(evaluate, model.system, cut, times, states)
     _, _, cpu = _interleaved(contestants, repeats)
     records = [
-        {"model": name, "states": size, "nanoseconds": 1e9 * cpu[name] / count} for name, size in models.items()
+        {"model": name, "states": size, "nanoseconds": 1e9 * cpu[name] / count}
+        for name, size in models.items()
     ]
     return {
         "title": "Right-hand side of the radial crane",
@@ -135,7 +141,7 @@ def radial_run(repeats: int) -> dict[str, Any]:
     cut, start = _scene(model)
     # SciPy would evaluate every watched guard at every step; nothing is watched here, for either side.
     system = dataclasses.replace(model.system, floors=np.full(len(model.system.floors), -np.inf))
-    grid = np.arange(2401) * 0.05
+    grid = np.linspace(0.0, 120.0, 2401)
 
     def solve(method: str, rtol: float, split: bool) -> Trajectory:
         return integrate(system, cut, start, grid, method=method, rtol=rtol, atol=1e-2 * rtol, split=split)
@@ -143,7 +149,7 @@ def radial_run(repeats: int) -> dict[str, Any]:
     reference = _outputs(model, solve("dop853", 1e-12, True))
     second = _outputs(model, solve("scipy-lsoda", 1e-12, True))
     contestants = {
-        _name(method, rtol, split): (lambda m=method, r=rtol, s=split: solve(m, r, s))
+        _name(method, rtol, split): partial(solve, method, rtol, split)
         for method, rtol, split in CONTESTANTS
     }
     values, _, cpu = _interleaved(contestants, repeats)
@@ -161,7 +167,8 @@ def radial_run(repeats: int) -> dict[str, Any]:
         "title": "120 s of condition 3 (2+3 modes, from equilibrium): error of the worst output against CPU time",
         "columns": ["method", "error", "median CPU [ms]", "evaluations"],
         "rows": [
-            [r["method"], _short(r["error"]), f"{1e3 * r['cpu_seconds']:.1f}", str(r["evaluations"])] for r in records
+            [r["method"], _short(r["error"]), f"{1e3 * r['cpu_seconds']:.1f}", str(r["evaluations"])]
+            for r in records
         ],
         "records": records,
         "notes": [
@@ -195,7 +202,7 @@ def _difference(found: Floats, reference: Floats) -> float:
 
 
 def _interleaved(
-    contestants: dict[str, Callable[[], Any]], repeats: int
+    contestants: Mapping[str, Callable[[], Any]], repeats: int
 ) -> tuple[dict[str, Any], dict[str, float], dict[str, float]]:
     """Result, median wall and median CPU seconds of each; all in turn, the first round not counted."""
     results = {name: call() for name, call in contestants.items()}
@@ -207,8 +214,11 @@ def _interleaved(
             call()
             wall[name].append(time.perf_counter() - began)
             cpu[name].append(time.process_time() - began_cpu)
-    medians = ({name: float(np.median(t)) for name, t in times.items()} for times in (wall, cpu))
-    return (results, *medians)
+
+    def medians(times: dict[str, list[float]]) -> dict[str, float]:
+        return {name: float(np.median(t)) for name, t in times.items()}
+
+    return results, medians(wall), medians(cpu)
 
 
 def _exact_roots(ratios: tuple[float, float], count: int) -> tuple[Floats | None, str]:
@@ -226,8 +236,10 @@ def _exact_roots(ratios: tuple[float, float], count: int) -> tuple[Floats | None
             # Gao et al. (2023), Eq. 26 with the boundary conditions' signs as printed, divided by cosh x.
             c, s, th, sech = mp.cos(x), mp.sin(x), mp.tanh(x), mp.sech(x)
             return (
-                sech + c - a * x * (s - c * th) - j * x**3 * (s + c * th) + a * j * x**4 * (sech - c)
-            ) / (1 + a * x) / (1 + j * x**3)
+                (sech + c - a * x * (s - c * th) - j * x**3 * (s + c * th) + a * j * x**4 * (sech - c))
+                / (1 + a * x)
+                / (1 + j * x**3)
+            )
 
         exact = [float(mp.findroot(scaled, mp.mpf(x))) for x in characteristic_roots(*ratios, count)]
     return np.array(exact), "reference: the same roots in 50-digit arithmetic"

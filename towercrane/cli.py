@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     import xarray as xr
 
@@ -26,7 +26,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-cases_app = typer.Typer(help="List the cases that ship with the program, or copy them.", no_args_is_help=False)
+cases_app = typer.Typer(
+    help="List the cases that ship with the program, or copy them.", no_args_is_help=False
+)
 app.add_typer(cases_app, name="cases")
 
 CaseName = Annotated[str, typer.Argument(metavar="CASE", help="A case file, or the name of a shipped case.")]
@@ -83,7 +85,9 @@ def cases(context: typer.Context) -> None:
 
 @cases_app.command("copy")
 def copy_cases(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder to copy into; it must not hold them yet.")],
+    folder: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Folder to copy into; it must not hold them yet.")
+    ],
 ) -> None:
     """Copy the shipped cases to a folder of yours, to change them."""
     import shutil
@@ -118,7 +122,7 @@ def modes(
 
     report = natural_frequencies(loaded)
     if out is not None:
-        _write(out, {"modes.png": lambda: _mode_picture(loaded)})
+        _write(out, {"modes.png": _mode_picture(loaded)})
     if as_json:
         typer.echo(json.dumps(report, indent=2))
         return
@@ -148,14 +152,13 @@ def run(
     result = _with_progress(loaded, run_case)
     summary = summarise(loaded, result)
     text = json.dumps(summary, indent=2, allow_nan=False)
-    files: dict[str, Callable[[], Any]] = {"result.nc": lambda: result, "summary.json": lambda: text + "\n"}
+    files: dict[str, Any] = {"result.nc": result, "summary.json": text + "\n"}
     if csv:
-        files["result.csv"] = lambda: result
+        files["result.csv"] = result
     if pictures:
         from towercrane import plots
 
-        files |= {name: lambda figure=figure: figure for name, figure in plots.run_pictures(result).items()}
-        files["modes.png"] = lambda: _mode_picture(loaded)
+        files |= plots.run_pictures(result) | {"modes.png": _mode_picture(loaded)}
     _write(folder, files)
     if as_json:
         typer.echo(text)
@@ -164,7 +167,7 @@ def run(
 
         run_tables(summary)
         typer.echo(f"written to {folder}: {', '.join(files)}")
-        _next(f"towercrane run {case} --set rope.length=\"10 m\" --out {folder}-short")
+        _next(f'towercrane run {case} --set rope.length="10 m" --out {folder}-short')
     if summary["outcome"] == "interrupted":
         raise typer.Exit(INTERRUPTED)
     if summary["outcome"] != "finished":
@@ -190,7 +193,7 @@ def figures(
         for number in (1, 2, 3, 4)
     }
     drawn = plots.source_figures(conditions)
-    _write(out, {name: lambda figure=figure: figure for name, figure in drawn.items()})
+    _write(out, drawn)
     typer.echo(f"written to {out}: {', '.join(drawn)}")
     _next("towercrane run qtz5613/condition-4-zero")
 
@@ -263,13 +266,13 @@ def _check_folder(folder: Path) -> None:
         _fail(f"--out {folder}: no right to write in {existing}")
 
 
-def _write(folder: Path, files: dict[str, Callable[[], Any]]) -> None:
-    """Make each file and put it in place whole."""
+def _write(folder: Path, files: Mapping[str, Any]) -> None:
+    """Put results, text and pictures in place, each file whole."""
     from towercrane import results
 
     _check_folder(folder)
-    for name, make in files.items():
-        made, path = make(), folder / name
+    for name, made in files.items():
+        path = folder / name
         try:
             if name.endswith(".nc"):
                 results.save(made, path)

@@ -74,7 +74,7 @@ def shown(value: object) -> str:
     if isinstance(value, dict):
         return f"a table with {', '.join(value)}" if value else "an empty table"
     if isinstance(value, list):
-        return f"a list of {len(value)}"
+        return f"a list of {len(value)}" if value else "an empty list"
     if isinstance(value, str | bool):
         text = json.dumps(value, ensure_ascii=False)
     elif isinstance(value, float):

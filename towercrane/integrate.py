@@ -199,7 +199,7 @@ def _compiled(
         if interrupted:
             return INTERRUPTED
         if status == stepper.GUARD:
-            return system.guards[counts[stepper.GUARD_INDEX]]
+            return system.guards[int(counts[stepper.GUARD_INDEX])]
         if status == stepper.COLLAPSED:
             return COLLAPSED
         if status == stepper.NOT_FINITE:
@@ -224,7 +224,9 @@ def _scipy(
     def rhs(t: float, y: Floats) -> Floats:
         phase = current if split else int(_phase_of(np.array([t]), phases)[0])
         local = t - phases.times[phase]
-        system.rhs(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards)
+        system.rhs(
+            local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards
+        )
         return slope.copy()
 
     def watch(index: int) -> Any:
@@ -237,7 +239,7 @@ def _scipy(
 
     # A state that must not steer the step gets a tolerance that it always meets.
     atol = np.where(np.isinf(run.atol), 1e300, run.atol)
-    watched = np.flatnonzero(np.isfinite(system.floors))
+    watched = [index for index, floor in enumerate(system.floors) if np.isfinite(floor)]
     owner = _phase_of(sample_times, phases)
     legs = range(len(phases.inputs)) if split else range(1)
     for current in legs:

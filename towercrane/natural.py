@@ -118,5 +118,3 @@ def _timed(function: Callable[[], Any], repeats: int = 5) -> tuple[Any, float]:
         function()
         seconds.append(time.perf_counter() - began)
     return result, float(np.median(seconds))
-
-

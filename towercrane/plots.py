@@ -6,7 +6,7 @@ Values that no source gives are named under every figure that depends on them.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -52,7 +52,9 @@ def modes(tower: Modes, jib: Modes, notes: list[tuple[str, str, str]] | None = N
     right.axhline(0.0, color="0.6", lw=0.8)
     left.set(title="Tower with slewing part", xlabel="deflection / largest [1]", ylabel="height [m]")
     right.set(
-        title="Jib, clamped at the tower", xlabel="distance from tower axis [m]", ylabel="deflection / largest [1]"
+        title="Jib, clamped at the tower",
+        xlabel="distance from tower axis [m]",
+        ylabel="deflection / largest [1]",
     )
     _footnote(figure, notes or [])
     return figure
@@ -73,7 +75,7 @@ def overview(result: xr.Dataset) -> Figure:
     for i, (axes, (name, factor, label)) in enumerate(zip(rows, series, strict=True)):
         axes.plot(time, factor * result[name], color=COLOURS[i], label=result[name].attrs["long_name"])
         axes.set_ylabel(label)
-        axes.legend(loc="upper right", fontsize=8)
+        axes.legend(fontsize=8)
     rows[-1].set_xlabel("time [s]")
     figure.suptitle(_title([result]))
     _footnote(figure, assumed(result))
@@ -116,7 +118,7 @@ def jib(results: list[xr.Dataset]) -> Figure:
 def phase(results: list[xr.Dataset]) -> Figure:
     """Swing rate over swing angle with the ends of the drive's ramps marked (Fig. 6)."""
     figure = _figure(4.2 * len(results) + 1.0, 5.0)
-    panels = np.atleast_1d(figure.subplots(1, len(results), sharey=True, sharex=True))
+    panels = np.atleast_1d(figure.subplots(1, len(results)))
     degrees = 180.0 / np.pi
     for i, (axes, result) in enumerate(zip(panels, results, strict=True)):
         angle, rate = degrees * result["swing_angle"].values, degrees * result["swing_rate"].values
@@ -197,7 +199,7 @@ def _over_time(results: list[xr.Dataset], name: str, factor: float, label: str, 
     return _titled(figure, title, results)
 
 
-def _line(i: int, result: xr.Dataset) -> dict[str, object]:
+def _line(i: int, result: xr.Dataset) -> dict[str, Any]:
     return {"color": COLOURS[i % 6], "ls": DASHES[i % 4], "lw": 1.2, "label": _label(result)}
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Iterator, Mapping
 
     import xarray as xr
     from numpy.typing import NDArray
@@ -112,9 +112,3 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
-
-
-def replace_with(write: Callable[[Path], None], path: str | os.PathLike[str]) -> None:
-    """Let ``write`` make a file under a temporary name, then put it in place."""
-    with replacing(path) as temporary:
-        write(temporary)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, Union, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, StrictBool, StrictInt
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from modal.lattice import Lacing
+from modal.lattice import Lacing  # noqa: TC001 - pydantic reads annotations when the class is made
 from towercrane.faults import shown
 from towercrane.units import UnitError, to_si, wanted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,7 @@ Jerk = Annotated[float, Quantity("m/s^3", above=0)]
 Angle = Annotated[float, Quantity("rad")]
 HingeDamping = Annotated[float, Quantity("N m s/rad", least=0)]
 Ratio = Annotated[float, Quantity("1", least=0)]
+Root = Annotated[float, Quantity("1", above=0)]
 ModeCount = Annotated[StrictInt, Field(ge=0, le=14)]
 
 
@@ -112,12 +115,13 @@ class Jib(Table):
 
 
 class Tower(Table):
-    """Tower as a uniform beam."""
+    """Tower as a uniform beam; roots that its source prints are shown beside the computed ones."""
 
     height: Length
     mass_per_length: MassPerLength
     youngs_modulus: Modulus
     second_moment_of_area: SecondMoment
+    published_roots: tuple[Root, ...] = ()
     lattice: Lattice | None = None
 
 
@@ -199,7 +203,7 @@ class SCurve(Delayed):
     jerk: Jerk
 
 
-Step = Annotated[Union[Trapezoid, SCurve, Rest], Field(discriminator="shape")]  # noqa: UP007 - one style for all
+Step = Annotated[Trapezoid | SCurve | Rest, Field(discriminator="shape")]
 
 
 class Sequence(Delayed):
@@ -294,7 +298,6 @@ class CaseFile(Table):
     payload: Payload
     rope: Rope
     motion: Motions
-    # `model` would collide with nothing today, but pydantic warns about names that begin with "model_".
     model: Model = Model()
     start: Start = Start()
     run: Run

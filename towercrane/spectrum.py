@@ -45,7 +45,7 @@ def amplitude_spectrum(times: Floats, values: Floats) -> tuple[Floats, Floats]:
     return np.fft.rfftfreq(padded, (times[-1] - times[0]) / (len(times) - 1)), amplitudes
 
 
-def spectrum_peaks(times: Floats, values: Floats, *, most: int = 5, floor: float = 0.02) -> list[float]:
+def spectrum_peaks(times: Floats, values: Floats, *, most: int = 5, floor: float = 0.1) -> list[float]:
     """Frequencies of the highest peaks, ascending [Hz].
 
     Parameters
@@ -54,7 +54,7 @@ def spectrum_peaks(times: Floats, values: Floats, *, most: int = 5, floor: float
     most : int
         Number of peaks at most.
     floor : float
-        Peaks lower than this fraction of the highest are left out.
+        Peaks lower than this fraction of the highest are left out: the lobes of the travelling trolley's drift are.
     """
     frequencies, amplitudes = amplitude_spectrum(times, values)
     if len(amplitudes) < 3:
@@ -65,7 +65,7 @@ def spectrum_peaks(times: Floats, values: Floats, *, most: int = 5, floor: float
     tops = tops[frequencies[tops] > 3.0 / (times[-1] - times[0])]
     if not len(tops):
         return []
-    # The window's own side lobes reach 2.7 % of their peak; a true peak is the highest within its main lobe.
+    # A true peak is the highest within the main lobe of the window.
     reach = 4 * PADDING
     tops = np.array([k for k in tops if amplitudes[k] >= amplitudes[max(0, k - reach) : k + reach + 1].max()])
     tops = tops[amplitudes[tops] >= floor * amplitudes[tops].max()]

@@ -33,7 +33,11 @@ def modes_tables(report: dict[str, Any]) -> None:
         columns += ["published root", "ours - published"]
     table = _table(f"{report['name']}: tower with the slewing part on its end", *columns)
     rows = zip(
-        tower["roots"], tower["frequencies_hz"], check["frequencies_hz"], check["relative_difference"], strict=True
+        tower["roots"],
+        tower["frequencies_hz"],
+        check["frequencies_hz"],
+        check["relative_difference"],
+        strict=True,
     )
     for i, (root, frequency, element, difference) in enumerate(rows):
         cells = [str(i + 1), f"{root:.6f}", f"{frequency:.6f}", f"{element:.6f}", f"{difference:.1e}"]
@@ -65,7 +69,9 @@ def modes_tables(report: dict[str, Any]) -> None:
     console.print(table)
 
     if "lattice" in report:
-        table = _table(f"{report['name']}: tower lattice as a beam", "property", "value", "unit", "use", left=1)
+        table = _table(
+            f"{report['name']}: tower lattice as a beam", "property", "value", "unit", "use", left=1
+        )
         table.columns[3].justify = "left"
         for name, found in report["lattice"].items():
             table.add_row(name.replace("_", " "), f"{found['value']:.5g}", found["unit"], found["use"])
@@ -77,7 +83,13 @@ def run_tables(summary: dict[str, Any]) -> None:
     """Summary of a run, as :func:`towercrane.summary.summarise` gives it."""
     console = _console()
     table = _table(
-        f"{summary['crane']}: {summary['title']}", "variable", "maximum", "at [s]", "minimum", "at [s]", "unit"
+        f"{summary['crane']}: {summary['title']}",
+        "variable",
+        "maximum",
+        "at [s]",
+        "minimum",
+        "at [s]",
+        "unit",
     )
     for name, peak in summary["peaks"].items():
         table.add_row(

@@ -75,7 +75,7 @@ KINDS = {
 ALSO = {"N m s/rad": ("N m s",)}
 """Units accepted as equal to the wanted one."""
 
-FLOAT = r"[+-]?(?:\d[\d_]*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)\b"
+FLOAT = r"[+-]?(?:\d+(?:_\d+)*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)\b"
 NUMBER = re.compile(rf"\s*({FLOAT})\s*(.*?)\s*", re.ASCII)
 # Only what a unit needs reaches pint's expression parser: large or stacked powers could run for hours.
 UNIT = re.compile(r"(?:[^\W\d_]|[°%*/^().·\s²³⁴⁻-]|_|(?<![\d.])\d(?![\d.]))*")
@@ -108,9 +108,7 @@ def wanted(unit: str) -> str:
     """What a quantity in the SI unit ``unit`` is called, with an example."""
     kind, example = KINDS[unit]
     return (
-        f"{kind}, such as {example}"
-        if unit == "1"
-        else f'{kind}, such as "{example}" (a plain number is in {unit})'
+        f"{kind}, such as {example}" if unit == "1" else f'{kind}, such as "{example}" (a plain number is in {unit})'
     )
 
 

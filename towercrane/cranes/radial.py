@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from modal.beam import Beam, EndBody
 from modal.shapes import Modes, cantilever_modes
 from towercrane.cranes import radial_kernel as kernel
 from towercrane.payload import FORCE, JACOBIAN, MASS, Load, restore, work_shape
@@ -21,7 +20,7 @@ from towercrane.system import System
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.motion import Phases
+    from towercrane.cranes.tower_crane import TowerCrane
 
     Floats = NDArray[np.float64]
 
@@ -43,79 +42,13 @@ class TowerBuckles(ArithmeticError):
     """The crane has no stable equilibrium under its weight."""
 
 
-@dataclass(frozen=True, slots=True)
-class RadialCrane:
-    """Parameters of a tower crane with a flexible tower and jib and a rigid counter-jib.
-
-    Parameters
-    ----------
-    name : str
-    tower, jib : Beam
-        Their lengths are the tower's height and the jib's radius.
-    counter_jib_length : float
-        Distance of the counterweight from the tower axis [m].
-    counter_jib_mass_per_length : float
-        Mass per unit length of the counter-jib [kg/m].
-    counterweight : float
-        Mass at the end of the counter-jib [kg].
-    trolley_mass : float
-        Mass of the trolley [kg].
-    gravity : float
-        Acceleration of gravity [m/s^2].
-    """
-
-    name: str
-    tower: Beam
-    jib: Beam
-    counter_jib_length: float
-    counter_jib_mass_per_length: float
-    counterweight: float
-    trolley_mass: float
-    gravity: float = 9.81
-
-    @property
-    def counter_mass(self) -> float:
-        """Mass of counter-jib and counterweight [kg]."""
-        return self.counter_jib_mass_per_length * self.counter_jib_length + self.counterweight
-
-    @property
-    def counter_inertia(self) -> float:
-        """Moment of inertia of counter-jib and counterweight about the tower top [kg m^2]."""
-        length = self.counter_jib_length
-        return self.counter_jib_mass_per_length * length**3 / 3 + self.counterweight * length**2
-
-    @property
-    def slewing_mass(self) -> float:
-        """Mass m_r of everything that turns, without trolley and load [kg]."""
-        return self.jib.mass + self.counter_mass
-
-    @property
-    def slewing_inertia(self) -> float:
-        """Moment of inertia J_r of everything that turns about the tower top [kg m^2].
-
-        Full integrals; the additional factors 1/2 of Gao et al. (2023), Eq. 8 and 10, are misprints.
-        """
-        return self.jib.mass * self.jib.length**2 / 3 + self.counter_inertia
-
-    @property
-    def static_moment(self) -> float:
-        """First moment S_r of everything that turns about the tower axis, positive towards the jib [kg m]."""
-        counter = self.counter_jib_mass_per_length * self.counter_jib_length / 2 + self.counterweight
-        return self.jib.mass * self.jib.length / 2 - counter * self.counter_jib_length
-
-    @property
-    def end_body(self) -> EndBody:
-        """The slewing part as the tower's end body: what Gao et al. (2023), Eq. 26, calls m_r and J_r."""
-        return EndBody(self.slewing_mass, self.slewing_inertia)
-
-
 @dataclass(frozen=True, eq=False)
 class RadialModel:
     """Equations of motion in chosen coordinates: any numbers of tower and jib modes, 0 meaning rigid.
 
     Parameters
     ----------
-    crane : RadialCrane
+    crane : TowerCrane
     load : Load
     tower_modes, jib_modes : int
         Numbers of modes.
@@ -131,7 +64,7 @@ class RadialModel:
         2 for motion in the plane of the jib, 3 for a load that may swing out of it.
     """
 
-    crane: RadialCrane
+    crane: TowerCrane
     load: Load
     tower_modes: int = 2
     jib_modes: int = 3
@@ -240,12 +173,12 @@ class RadialModel:
         highest = self.jib.roots[-1] if self.jib_modes else 0.0
         cells = max(1, int(np.ceil(highest / (2.0 * TABLE_REACH))))
         middles = (np.arange(cells) + 0.5) * length / cells
-        shapes = [self.jib(middles, derivative).T / factorial(derivative) for derivative in range(TABLE_POWERS)]
+        shapes = [
+            self.jib(middles, derivative).T / factorial(derivative) for derivative in range(TABLE_POWERS)
+        ]
         return np.ascontiguousarray(np.stack(shapes, axis=-1).reshape(cells, self.jib_modes, TABLE_POWERS))
 
-    def start(
-        self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0
-    ) -> Floats:
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at rest at the start.
 
         Parameters

@@ -55,7 +55,9 @@ def polynomial(coefficients: Any, t: float) -> tuple[float, float, float]:
     return value, rate, 2.0 * half_second
 
 
-@kernel(types.UniTuple(types.float64, 3)(types.int64, types.float64, _one, _two, _one, _two, _three, _three, _two))
+@kernel(
+    types.UniTuple(types.float64, 3)(types.int64, types.float64, _one, _two, _one, _two, _three, _three, _two)
+)
 def structure(
     d: int,
     t: float,
@@ -185,9 +187,7 @@ def rhs(
     n = vectors.shape[1]
     d = (y.size - 1) // 2 - n
     up = d - 1
-    gamma, slope, damping_power = structure(
-        d, t, y, inputs, numbers, vectors, matrices, tables, work
-    )
+    gamma, slope, damping_power = structure(d, t, y, inputs, numbers, vectors, matrices, tables, work)
     length, rate, acceleration = polynomial(inputs[ROPE], t)
     gravity = numbers[GRAVITY]
     tension = hang_load(

@@ -100,9 +100,7 @@ def observe(
     return outputs
 
 
-def total_energy(
-    model: RadialModel, motions: dict[str, Motion], times: Floats, states: Floats
-) -> Floats:
+def total_energy(model: RadialModel, motions: dict[str, Motion], times: Floats, states: Floats) -> Floats:
     """Kinetic and potential energy of crane and load, zero level at the undeformed tower top; shape (p,) [J]."""
     n, tower, axes = model.coordinates, model.tower_modes, model.axes
     crane, system = model.crane, model.system

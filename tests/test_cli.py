@@ -1,0 +1,188 @@
+"""The command line as a newcomer meets it: answers, files, exit codes, and no traceback."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from towercrane import results
+
+
+def towercrane(*arguments: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "towercrane.cli", *arguments]
+    environment = {**os.environ, "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"}
+    return subprocess.run(command, capture_output=True, encoding="utf-8", cwd=cwd, env=environment, check=False)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    return tmp_path_factory.mktemp("run")
+
+
+@pytest.fixture(scope="module")
+def run(folder):
+    done = towercrane(
+        "run", "qtz5613/condition-3", "--out", str(folder), "--json", "--csv", "--set", "run.duration=60 s"
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_help_and_version_name_every_command():
+    text = towercrane("--help").stdout
+    for command in ("modes", "run", "figures", "bench", "cases"):
+        assert command in text
+    assert towercrane("--version").stdout.startswith("towercrane 0.")
+
+
+def test_help_loads_nothing_heavy():
+    check = "import sys, towercrane.cli; print([m for m in sys.modules if m in %r])" % (
+        ["numpy", "numba", "scipy", "skfem", "xarray", "pint", "pydantic", "matplotlib"],
+    )
+    done = subprocess.run([sys.executable, "-c", check], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_cases_are_listed_with_the_next_command():
+    lines = towercrane("cases").stdout.splitlines()
+    names = [line.split()[0] for line in lines[:-1]]
+    assert {f"qtz5613/condition-{n}{kind}" for n in (1, 2, 3, 4) for kind in ("", "-paper")} <= set(names)
+    assert "qtz5613/condition-4-zero" in names
+    assert lines[-1].startswith("next: towercrane modes ")
+
+
+def test_cases_are_handed_out_once_and_run_where_they_are(tmp_path):
+    assert towercrane("cases", "copy", str(tmp_path / "mine")).returncode == 0
+    case = tmp_path / "mine" / "qtz5613" / "condition-4.toml"
+    text = case.read_text(encoding="utf-8").replace('length = "10 m"', 'length = "12 m"')
+    case.write_text(text, encoding="utf-8")
+    again = towercrane("cases", "copy", str(tmp_path / "mine"))
+    assert again.returncode == 2
+    assert "would be overwritten" in again.stderr
+    assert case.read_text(encoding="utf-8") == text
+    done = towercrane("run", str(case), "--no-pictures", "--json", "--set", "run.duration=2 s", cwd=tmp_path)
+    assert done.returncode == 0
+    assert (tmp_path / "results" / "condition-4" / "result.nc").exists()
+
+
+def test_modes_answers_in_the_documented_json():
+    report = json.loads(towercrane("modes", "qtz5613/condition-3", "--json").stdout)
+    roots = report["tower"]["roots"]
+    assert_allclose(roots, [0.769077, 1.512129, 4.799683, 7.896404], atol=1e-6)
+    printed = np.array([0.765, 1.508, 4.780, 7.896])
+    assert_allclose(np.delete(roots, 2), np.delete(printed, 2), atol=0.005)
+    assert roots[2] - printed[2] > 0.015
+    assert_allclose(report["tower"]["frequencies_hz"][0], 0.477056, atol=1e-6)
+    assert_allclose(report["jib"]["frequencies_hz"][0], 0.436846, atol=1e-6)
+    # The worst of four at 32 elements.
+    differences = np.array(report["finite_elements"]["relative_difference"])
+    assert_allclose(report["finite_elements"]["frequencies_hz"], report["tower"]["frequencies_hz"], rtol=3e-6)
+    assert np.max(abs(differences[:3])) < 1e-6
+    assert [row["trolley_position_m"] for row in report["crane"]] == [5.0, 23.0, 41.0]
+    assert_allclose(report["crane"][2]["frequencies_hz"][:3], [0.117452, 0.311804, 0.794508], atol=1e-6)
+    assert np.max(np.abs(report["crane"][2]["relative_difference"][:3])) < 2e-5
+    assert report["lattice"]["equivalent_second_moment_of_area"]["use"]
+    assert any(entry["key"] == "crane.jib.second_moment_of_area" for entry in report["assumed"])
+
+
+def test_modes_table_names_the_discrepancy_and_the_assumed_values():
+    text = towercrane("modes", "qtz5613/condition-3").stdout
+    assert "discrepancy" in text
+    assert "assumed  crane.jib.second_moment_of_area = 0.0035 m^4" in text
+    assert "next: towercrane run qtz5613/condition-3" in text
+
+
+def test_run_answers_in_the_documented_json(run):
+    assert run["outcome"] == "finished"
+    assert_allclose(run["peaks"]["swing_angle"]["minimum"], -0.020412, atol=2e-6)
+    assert_allclose(run["peaks"]["swing_angle"]["minimum_time_s"], 4.25, atol=0.051)
+    assert run["peaks"]["rope_tension"]["units"] == "N"
+    assert run["wall_seconds"] > 0.0
+    assert run["swing_period_s"] is None or 8.0 < run["swing_period_s"] < 9.0
+    assert run["spectrum_peaks_hz"] == sorted(run["spectrum_peaks_hz"])
+    assert run["energy_balance"]["relative_gap"] < 1e-10
+    assert [entry["key"] for entry in run["assumed"]] == [
+        "crane.jib.youngs_modulus",
+        "crane.jib.second_moment_of_area",
+    ]
+
+
+def test_run_writes_result_summary_and_pictures(run, folder):
+    files = {path.name for path in folder.iterdir()}
+    pictures = {"overview", "motion", "swing", "phase", "tower", "jib", "spectrum", "modes"}
+    assert files == {"result.nc", "result.csv", "summary.json"} | {f"{name}.png" for name in pictures}
+    assert json.loads((folder / "summary.json").read_text(encoding="utf-8")) == run
+    data = results.load(folder / "result.nc")
+    assert len(data.time) == 1201
+    assert json.loads(data.attrs["case_text"])["payload"]["mass"] == "800 kg"
+
+
+def test_swing_period_of_the_source(tmp_path):
+    done = towercrane("run", "qtz5613/condition-3", "--out", str(tmp_path), "--json", "--no-pictures")
+    summary = json.loads(done.stdout)
+    # Printed: 8.52 s.
+    assert_allclose(summary["swing_period_s"], 8.514, atol=2e-3)
+    assert_allclose(summary["spectrum_peaks_hz"], [0.312, 0.804], atol=3e-3)
+
+
+def test_parametric_resonance_is_named(tmp_path):
+    done = towercrane("run", "qtz5613/condition-4-zero", "--out", str(tmp_path), "--json", "--no-pictures")
+    summary = json.loads(done.stdout)
+    assert_allclose(max(abs(summary["peaks"]["swing_angle"][k]) for k in ("maximum", "minimum")), 0.603, atol=5e-3)
+    notices = " ".join(summary["notices"])
+    assert "parametric resonance" in notices
+    assert "twice the swing" in notices
+    assert "the rope pushes" in notices
+
+
+def test_slack_rope_ends_the_run_with_exit_code_3_and_keeps_what_is_finished(tmp_path):
+    done = towercrane(
+        "run", "qtz5613/condition-4-zero", "--out", str(tmp_path), "--set", "rope.slack=stop", "--no-pictures"
+    )
+    assert done.returncode == 3
+    assert "slack rope" in done.stderr
+    data = results.load(tmp_path / "result.nc")
+    assert data.attrs["outcome"] == "slack rope"
+    assert float(data.time[-1]) <= data.attrs["end_time"] < 120.0
+
+
+BAD = {
+    "missing file": (["run", "condition-9"], ["condition-9", "wanted"]),
+    "misspelt key": (["run", "qtz5613/condition-3", "--set", "payload.mas=3 kg"], ["payload.mas", "payload.mass"]),
+    "wrong unit": (["modes", "qtz5613/condition-3", "--set", "rope.length=18 s"], ["rope.length", "18 s"]),
+    "absurd modulus": (
+        ["modes", "qtz5613/condition-3", "--set", "crane.tower.youngs_modulus=206"],
+        ["youngs_modulus", "206", "GPa"],
+    ),
+    "off the jib": (
+        ["run", "qtz5613/condition-3", "--set", "motion.trolley.end=60 m"],
+        ["motion.trolley", "60", "55.6"],
+    ),
+    "unknown method": (["run", "qtz5613/condition-3", "--set", "solver.method=euler"], ["solver.method", "dop853"]),
+    "unknown option": (["run", "qtz5613/condition-3", "--setx", "a=b"], ["--setx"]),
+}
+
+
+@pytest.mark.parametrize(("arguments", "words"), BAD.values(), ids=BAD)
+def test_bad_input_is_one_clear_message_and_exit_code_2(arguments, words, tmp_path):
+    done = towercrane(*arguments, cwd=tmp_path)
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr + done.stdout
+    assert done.stdout == ""
+    for word in words:
+        assert word in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_output_folder_that_is_a_file_is_refused_before_the_run(tmp_path):
+    target = tmp_path / "taken"
+    target.write_text("mine", encoding="utf-8")
+    done = towercrane("run", "qtz5613/condition-3", "--out", str(target))
+    assert done.returncode == 2
+    assert "wanted a folder" in done.stderr
+    assert target.read_text(encoding="utf-8") == "mine"

@@ -1,0 +1,233 @@
+"""Cases: from a TOML file to checked values in SI and to the objects of the model."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from towercrane.casefile import Assumption, is_file, read_case, read_toml, split_provenance
+from towercrane.faults import CaseError, Fault, closest
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from modal.beam import Beam
+    from modal.lattice import LacedColumn
+    from towercrane import schema
+    from towercrane.cranes.tower_crane import TowerCrane
+    from towercrane.motion import Motion
+    from towercrane.payload import Load
+
+__all__ = ["Assumption", "Case", "CaseError", "Fault", "case_folder", "list_cases", "load_case"]
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A checked case; all numbers are SI floats, angles in radians.
+
+    Parameters
+    ----------
+    name : str
+        Name of a shipped case, such as "qtz5613/condition-3", or the file's name without its ending.
+    path : Path
+        Case file.
+    title : str
+        One line for people.
+    checked : towercrane.schema.CaseFile
+        All tables; the properties below are its parts.
+    motions : tuple of Motion
+        Trolley position and rope length [m].
+    assumed : tuple of Assumption
+        Values that no source gives, the crane's first.
+    as_written : dict
+        The case's text with its crane in place and overrides applied, as plain JSON-able data.
+    """
+
+    name: str
+    path: Path
+    title: str
+    checked: schema.CaseFile
+    motions: tuple[Motion, Motion]
+    assumed: tuple[Assumption, ...]
+    as_written: dict[str, Any]
+
+    @property
+    def crane(self) -> schema.Crane:
+        """Crane."""
+        return self.checked.crane
+
+    @property
+    def payload(self) -> schema.Payload:
+        """Load on the rope."""
+        return self.checked.payload
+
+    @property
+    def rope(self) -> schema.Rope:
+        """Rope at the start."""
+        return self.checked.rope
+
+    @property
+    def model(self) -> schema.Model:
+        """What the model includes."""
+        return self.checked.model
+
+    @property
+    def start(self) -> schema.Start:
+        """Initial state."""
+        return self.checked.start
+
+    @property
+    def run(self) -> schema.Run:
+        """Span and output."""
+        return self.checked.run
+
+    @property
+    def solver(self) -> schema.Solver:
+        """Time integration."""
+        return self.checked.solver
+
+    @property
+    def modes(self) -> schema.ModesRequest:
+        """What to show of the modes; trolley positions default to both ends of its way."""
+        if self.checked.modes.trolley_positions:
+            return self.checked.modes
+        ends = tuple(dict.fromkeys(self.motions[0].range()))
+        return self.checked.modes.model_copy(update={"trolley_positions": ends})
+
+    def tower_beam(self) -> Beam:
+        """The tower as a uniform beam."""
+        from modal.beam import Beam
+
+        tower = self.crane.tower
+        return Beam(tower.height, tower.mass_per_length, tower.youngs_modulus, tower.second_moment_of_area)
+
+    def jib_beam(self) -> Beam:
+        """The jib as a uniform beam."""
+        from modal.beam import Beam
+
+        jib = self.crane.jib
+        return Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.second_moment_of_area)
+
+    def lattice(self) -> LacedColumn | None:
+        """The tower's members; None where the crane file has none."""
+        from modal.lattice import LacedColumn
+
+        lattice = self.crane.tower.lattice
+        if lattice is None:
+            return None
+        return LacedColumn(**dict(lattice), youngs_modulus=self.crane.tower.youngs_modulus)
+
+    def radial_crane(self) -> TowerCrane:
+        """The crane of the radial model."""
+        from towercrane.cranes.tower_crane import TowerCrane
+
+        counter = self.crane.counter_jib
+        return TowerCrane(
+            name=self.crane.name,
+            tower=self.tower_beam(),
+            jib=self.jib_beam(),
+            counter_jib_length=counter.length,
+            counter_jib_mass_per_length=counter.mass_per_length,
+            counterweight=counter.counterweight,
+            trolley_mass=self.crane.trolley.mass,
+            gravity=self.crane.gravity,
+        )
+
+    def load(self) -> Load:
+        """The load and its rope's losses."""
+        from towercrane.payload import Load
+
+        payload = self.payload
+        return Load(mass=payload.mass, rope_damping=payload.rope_damping, drag_area=payload.drag_area)
+
+    def trolley_motion(self) -> Motion:
+        """Position of the trolley along the jib [m]."""
+        return self.motions[0]
+
+    def rope_motion(self) -> Motion:
+        """Length of the rope [m]."""
+        return self.motions[1]
+
+
+def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Case:
+    """Read and check a case.
+
+    Parameters
+    ----------
+    path : path-like
+        Case file, or the name of a shipped case.
+    overrides : sequence of str
+        ``key=value`` with a dotted key from the case's root; ``crane.`` reaches into the crane file.
+
+    Raises
+    ------
+    CaseError
+        With every fault of the case, its crane file, its CSV files and the overrides.
+    """
+    from pydantic import ValidationError
+
+    from towercrane.explain import explain
+    from towercrane.plausibility import check_lattice, check_motions, check_output, implausible
+    from towercrane.schema import CaseFile
+
+    found = _find(Path(path))
+    text = read_case(found, overrides)
+    tree, assumed, faults = split_provenance(text.tree)
+    crane_unread = not isinstance(text.tree.get("crane", {}), dict)
+    checked = None
+    try:
+        checked = CaseFile.model_validate(tree)
+    except ValidationError as error:
+        faults += [f for f in explain(error) if not (crane_unread and f.key == "crane")]
+    allowed = tree.get("allow_implausible", [])
+    faults += implausible(tree, [k for k in allowed if isinstance(k, str)] if isinstance(allowed, list) else [])
+    faults += [*check_output(tree), *check_lattice(tree)]
+    motion_faults, trolley, rope = check_motions(tree, found.parent)
+    located = [text.located(f) for f in dict.fromkeys([*text.faults, *faults, *motion_faults])]
+    if located or checked is None or trolley is None or rope is None:
+        raise CaseError(located)
+    name = _name(found)
+    return Case(name, found, checked.title or name, checked, (trolley, rope), tuple(assumed), text.tree)
+
+
+def case_folder() -> Path:
+    """Folder of the shipped cases: inside the installed package, or beside it in a source checkout."""
+    package = Path(__file__).parent
+    installed = package / "_cases"
+    return installed if installed.is_dir() else package.parent / "cases"
+
+
+def list_cases() -> list[tuple[str, str]]:
+    """Name and title of every shipped case."""
+    cases = []
+    for path in case_folder().rglob("*.toml"):
+        content = read_toml(path)
+        if "crane" in content:
+            cases.append((_name(path), str(content.get("title", ""))))
+    return sorted(cases)
+
+
+def _find(path: Path) -> Path:
+    """The case file that a path or a shipped case's name means."""
+    shipped = case_folder() / path
+    for candidate in (path, shipped, Path(f"{shipped}.toml")):
+        if is_file(candidate):
+            return candidate
+    wanted = "a case file or the name of a shipped case"
+    if os.path.isdir(path):
+        inside = ", ".join(sorted(p.name for p in path.glob("*.toml")))
+        raise CaseError([Fault(str(path), "", wanted, "a folder", f"it holds {inside}" if inside else "")])
+    names = [name for name, _ in list_cases()]
+    by_end = {name.rpartition("/")[2]: name for name in names}
+    asked = path.as_posix().removesuffix(".toml")
+    near = closest(asked, names) or by_end.get(closest(path.stem, by_end) or "")
+    hint = f'closest shipped case: "{near}"' if near else f"shipped cases: {', '.join(names)}"
+    raise CaseError([Fault(str(path), "", wanted, "no such file", hint)])
+
+
+def _name(path: Path) -> str:
+    folder = case_folder().resolve()
+    full = path.resolve()
+    return (full.relative_to(folder) if full.is_relative_to(folder) else Path(full.name)).with_suffix("").as_posix()

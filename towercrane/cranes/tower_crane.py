@@ -1,0 +1,73 @@
+"""Parameters of a tower crane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from modal.beam import Beam, EndBody
+
+
+@dataclass(frozen=True, slots=True)
+class TowerCrane:
+    """Parameters of a tower crane with a flexible tower and jib and a rigid counter-jib.
+
+    Parameters
+    ----------
+    name : str
+    tower, jib : Beam
+        Their lengths are the tower's height and the jib's radius.
+    counter_jib_length : float
+        Distance of the counterweight from the tower axis [m].
+    counter_jib_mass_per_length : float
+        Mass per unit length of the counter-jib [kg/m].
+    counterweight : float
+        Mass at the end of the counter-jib [kg].
+    trolley_mass : float
+        Mass of the trolley [kg].
+    gravity : float
+        Acceleration of gravity [m/s^2].
+    """
+
+    name: str
+    tower: Beam
+    jib: Beam
+    counter_jib_length: float
+    counter_jib_mass_per_length: float
+    counterweight: float
+    trolley_mass: float
+    gravity: float = 9.81
+
+    @property
+    def counter_mass(self) -> float:
+        """Mass of counter-jib and counterweight [kg]."""
+        return self.counter_jib_mass_per_length * self.counter_jib_length + self.counterweight
+
+    @property
+    def counter_inertia(self) -> float:
+        """Moment of inertia of counter-jib and counterweight about the tower top [kg m^2]."""
+        length = self.counter_jib_length
+        return self.counter_jib_mass_per_length * length**3 / 3 + self.counterweight * length**2
+
+    @property
+    def slewing_mass(self) -> float:
+        """Mass m_r of everything that turns, without trolley and load [kg]."""
+        return self.jib.mass + self.counter_mass
+
+    @property
+    def slewing_inertia(self) -> float:
+        """Moment of inertia J_r of everything that turns about the tower top [kg m^2].
+
+        Full integrals; the additional factors 1/2 of Gao et al. (2023), Eq. 8 and 10, are misprints.
+        """
+        return self.jib.mass * self.jib.length**2 / 3 + self.counter_inertia
+
+    @property
+    def static_moment(self) -> float:
+        """First moment S_r of everything that turns about the tower axis, positive towards the jib [kg m]."""
+        counter = self.counter_jib_mass_per_length * self.counter_jib_length / 2 + self.counterweight
+        return self.jib.mass * self.jib.length / 2 - counter * self.counter_jib_length
+
+    @property
+    def end_body(self) -> EndBody:
+        """The slewing part as the tower's end body: what Gao et al. (2023), Eq. 26, calls m_r and J_r."""
+        return EndBody(self.slewing_mass, self.slewing_inertia)

@@ -1,0 +1,122 @@
+"""Motions as case files describe them, and the CSV tables they may come from."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from towercrane.faults import CaseError, Fault, shown
+from towercrane.schema import Points, Rest, SCurve, Sequence, Trapezoid
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from towercrane.motion import Motion
+    from towercrane.schema import AnyMotion
+
+SHOWN_FAULTS = 5
+"""At most so many faulty lines of one CSV file are reported."""
+
+
+def profile(described: AnyMotion, start: float, folder: Path) -> Motion:
+    """The motion that a case describes.
+
+    Parameters
+    ----------
+    described : table of the case
+    start : float
+        Value at which the motion begins [m]; a CSV table brings its own.
+    folder : Path
+        Where a CSV file's name is relative to.
+
+    Raises
+    ------
+    CaseError
+        If a CSV table cannot be used.
+    """
+    from towercrane.motion import rest, s_curve, sequence, table, trapezoid
+
+    moves: list[Motion] = []
+    match described:
+        case Points():
+            moves = [table(*read_points(folder / described.file))]
+            start = float(moves[0](0.0))
+        case Rest():
+            moves = [rest(start, described.duration)]
+        case Trapezoid():
+            moves = [trapezoid(start, described.end, described.speed, described.acceleration)]
+        case SCurve():
+            d = described
+            moves = [s_curve(start, d.end, d.speed, d.acceleration, d.jerk)]
+        case Sequence():
+            now = start
+            for step in described.steps:
+                moves.append(profile(step, now, folder))
+                now = moves[-1].end
+    if described.delay:
+        moves.insert(0, rest(start, described.delay))
+    return moves[0] if len(moves) == 1 else sequence(*moves)
+
+
+def read_points(path: Path) -> tuple[list[float], list[float]]:
+    """Times [s] and values [m] of a CSV file with one header line and two columns.
+
+    Raises
+    ------
+    CaseError
+        If the file cannot be read, or a line is not two numbers, or the times do not increase from 0.
+    """
+    wanted = "a CSV file: one header line, then time [s] and position or length [m] per line"
+    try:
+        lines = path.read_text("utf-8-sig").splitlines()
+    except (OSError, ValueError) as error:
+        got = "text that is not UTF-8" if isinstance(error, UnicodeDecodeError) else "no readable file"
+        raise CaseError([Fault(str(path), "", wanted, got, "the path is relative to the case file")]) from None
+    rows = [(number, line) for number, line in enumerate(lines, start=1) if line.strip()]
+    faults = []
+    if rows and len(_numbers(rows[0][1])) == 2:
+        faults.append(Fault(str(path), f"line {rows[0][0]}", "a header line", shown(rows[0][1])))
+    times: list[float] = []
+    values: list[float] = []
+    for number, line in rows[1:]:
+        fault = _row_fault(line, times)
+        if fault:
+            faults.append(Fault(str(path), f"line {number}", *fault))
+        pair = _numbers(line)
+        if len(pair) == 2:
+            times.append(pair[0])
+            values.append(pair[1])
+    if not faults and len(times) < 2:
+        faults.append(Fault(str(path), "", wanted, f"{len(times)} lines of numbers", "two or more are needed"))
+    if faults:
+        raise CaseError(faults[:SHOWN_FAULTS])
+    return times, values
+
+
+def _numbers(line: str) -> list[float]:
+    """The finite numbers of a line; those that are not drop out."""
+    numbers = []
+    for cell in line.split(","):
+        try:
+            number = float(cell)
+        except ValueError:
+            continue
+        if math.isfinite(number):
+            numbers.append(number)
+    return numbers
+
+
+def _row_fault(line: str, times: list[float]) -> tuple[str, str, str] | None:
+    """Wanted, got and hint for a faulty line."""
+    columns = line.split(",")
+    if len(columns) != 2:
+        hint = "columns are parted by commas" if ";" in line or "\t" in line else ""
+        return "two columns: time, value", f"{len(columns)} in {shown(line)}", hint
+    numbers = _numbers(line)
+    if len(numbers) != 2:
+        return "two finite numbers", shown(line), "numbers stand without units: seconds and metres"
+    if not times and numbers[0] != 0.0:
+        return "a first time of 0", f"{numbers[0]:g}", "times count from the start of the motion"
+    if times and numbers[0] <= times[-1]:
+        return f"a time after {times[-1]:g}", f"{numbers[0]:g}", ""
+    return None
