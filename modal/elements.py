@@ -141,9 +141,7 @@ def hermite_matrices(nodes: NDArray[np.float64]) -> tuple[NDArray[np.float64], N
     return stiffness[np.ix_(order, order)], mass[np.ix_(order, order)]
 
 
-def lowest_eigenvalues(
-    stiffness: NDArray[np.float64], mass: NDArray[np.float64], count: int
-) -> NDArray[np.float64]:
+def lowest_eigenvalues(stiffness: NDArray[np.float64], mass: NDArray[np.float64], count: int) -> NDArray[np.float64]:
     """Lowest eigenvalues of a stiffness and a mass matrix, by shift and invert about zero.
 
     Parameters

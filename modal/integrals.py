@@ -78,9 +78,7 @@ def product_integrals(
     # With the second factor written out in full, real, the real part of the first can be taken at the end.
     for amplitude, left, right in terms:
         for other_amplitude, other_left, other_right in both_waves + terms[1:]:
-            integral = _exponential_integral(
-                np.add.outer(left, other_left), np.add.outer(right, other_right), weight
-            )
+            integral = _exponential_integral(np.add.outer(left, other_left), np.add.outer(right, other_right), weight)
             result += (np.multiply.outer(amplitude, other_amplitude) * integral).real
     low = np.flatnonzero(roots < SERIES_BELOW)
     if low.size:

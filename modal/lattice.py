@@ -83,9 +83,7 @@ class LacedColumn:
         if self.lacing not in get_args(Lacing):
             raise ValueError(f"LacedColumn.lacing: wanted one of {get_args(Lacing)}, got {self.lacing!r}")
         if self.lacing == "N" and self.horizontal_area == 0.0:
-            raise ValueError(
-                "LacedColumn.horizontal_area: N lacing carries shear through its horizontals, got 0"
-            )
+            raise ValueError("LacedColumn.horizontal_area: N lacing carries shear through its horizontals, got 0")
 
     @property
     def total_leg_area(self) -> float:

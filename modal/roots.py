@@ -65,9 +65,7 @@ def characteristic_roots(
     if count < 1:
         raise ValueError(f"count: wanted one or more, got {count!r}")
     _check_ratios(mass_ratio, inertia_ratio, offset_ratio)
-    roots: NDArray[np.float64] = _roots(
-        *shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio), int(count)
-    )
+    roots: NDArray[np.float64] = _roots(*shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio), int(count))
     return roots
 
 
@@ -102,9 +100,7 @@ def _check_ratios(mass_ratio: float, inertia_ratio: float, offset_ratio: float) 
         if not value >= 0.0:
             raise ValueError(f"{name}: wanted zero or more, got {value!r}")
         if LARGEST_RATIO < value < float("inf"):
-            raise ValueError(
-                f"{name}: wanted at most {LARGEST_RATIO:g}, or inf for a fixed end, got {value!r}"
-            )
+            raise ValueError(f"{name}: wanted at most {LARGEST_RATIO:g}, or inf for a fixed end, got {value!r}")
     if not abs(offset_ratio) < float("inf"):
         raise ValueError(f"offset_ratio: wanted a finite number, got {offset_ratio!r}")
 
@@ -192,9 +188,7 @@ def _count(x: float, a_body: float, a_beam: float, j_body: float, j_beam: float,
 
 
 @kernel()
-def _refine(
-    low: float, high: float, a_body: float, a_beam: float, j_body: float, j_beam: float, h: float
-) -> float:
+def _refine(low: float, high: float, a_body: float, a_beam: float, j_body: float, j_beam: float, h: float) -> float:
     """Root of F between two points of opposite sign (Brent 1973, Algorithms for Minimization, ch. 4)."""
     a, b = low, high
     fa = _characteristic(a, a_body, a_beam, j_body, j_beam, h)
@@ -233,9 +227,7 @@ def _refine(
 
 
 @kernel()
-def _roots(
-    a_body: float, a_beam: float, j_body: float, j_beam: float, h: float, count: int
-) -> NDArray[np.float64]:
+def _roots(a_body: float, a_beam: float, j_body: float, j_beam: float, h: float, count: int) -> NDArray[np.float64]:
     """First roots in ascending order."""
     roots = np.empty(count)
     at_zero = (1 if a_beam == 0.0 else 0) + (1 if j_beam == 0.0 else 0)

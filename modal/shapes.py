@@ -96,9 +96,7 @@ class Modes:
     def mass_moments(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """First moments ``int m phi dx`` [kg^1/2] and ``int m x phi dx`` [kg^1/2 m], of shape (n,) each."""
         zeroth = self.beam.mass * shape_integrals(self.roots, self.coefficients)
-        first = (
-            self.beam.mass * self.beam.length * shape_integrals(self.roots, self.coefficients, "from_root")
-        )
+        first = self.beam.mass * self.beam.length * shape_integrals(self.roots, self.coefficients, "from_root")
         return zeroth, first
 
     def slope_matrix(self) -> NDArray[np.float64]:
@@ -173,9 +171,7 @@ def cantilever_modes(beam: Beam, count: int, end_body: EndBody = EndBody()) -> M
     return Modes(beam, end_body, _read_only(roots), _read_only(coefficients))
 
 
-def _end_derivatives(
-    roots: NDArray[np.float64], coefficients: NDArray[np.float64]
-) -> list[NDArray[np.float64]]:
+def _end_derivatives(roots: NDArray[np.float64], coefficients: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     """Derivatives 0 to 3 at z = 1, of order k divided by x^k; each of shape (n,)."""
     end = np.ones(1)
     return [evaluate(roots, coefficients, end, order)[:, 0] / roots**order for order in range(4)]

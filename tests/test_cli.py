@@ -103,7 +103,7 @@ def test_run_answers_in_the_documented_json(run):
     assert_allclose(run["peaks"]["swing_angle"]["minimum_time_s"], 4.25, atol=0.051)
     assert run["peaks"]["rope_tension"]["units"] == "N"
     assert run["wall_seconds"] > 0.0
-    assert run["swing_period_s"] is None or 8.0 < run["swing_period_s"] < 9.0
+    assert run["swing_period_s"] is None  # seven seconds after the stop are less than a period
     assert run["spectrum_peaks_hz"] == sorted(run["spectrum_peaks_hz"])
     assert run["energy_balance"]["relative_gap"] < 1e-10
     assert [entry["key"] for entry in run["assumed"]] == [
@@ -153,7 +153,10 @@ def test_slack_rope_ends_the_run_with_exit_code_3_and_keeps_what_is_finished(tmp
 
 BAD = {
     "missing file": (["run", "condition-9"], ["condition-9", "wanted"]),
-    "misspelt key": (["run", "qtz5613/condition-3", "--set", "payload.mas=3 kg"], ["payload.mas", "payload.mass"]),
+    "misspelt key": (
+        ["run", "qtz5613/condition-3", "--set", "payload.mas=3 kg"],
+        ["payload.mas", 'closest known key: "mass"'],
+    ),
     "wrong unit": (["modes", "qtz5613/condition-3", "--set", "rope.length=18 s"], ["rope.length", "18 s"]),
     "absurd modulus": (
         ["modes", "qtz5613/condition-3", "--set", "crane.tower.youngs_modulus=206"],

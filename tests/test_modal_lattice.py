@@ -38,9 +38,7 @@ def test_equivalent_slenderness_gives_the_same_buckling_load():
     slenderness = QTZ5613.equivalent_slenderness(HEIGHT).value
     euler = np.pi**2 * QTZ5613.total_leg_area / slenderness**2
     equivalent = np.pi**2 * QTZ5613.equivalent_second_moment_of_area(HEIGHT).value / (2 * HEIGHT) ** 2
-    assert slenderness == pytest.approx(
-        np.sqrt(47.6**2 * 198.8e-4 / 0.014027328 + 40 * 198.8 / 16), rel=1e-13
-    )
+    assert slenderness == pytest.approx(np.sqrt(47.6**2 * 198.8e-4 / 0.014027328 + 40 * 198.8 / 16), rel=1e-13)
     assert equivalent == pytest.approx(euler, rel=1e-13)
 
 

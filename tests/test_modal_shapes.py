@@ -19,9 +19,7 @@ TWIN = (1e6, 1e6 / 12.0, -0.5)
 
 def modes_of(ratios, count, beam=BEAM):
     a, j, h = ratios
-    return cantilever_modes(
-        beam, count, EndBody(a * beam.mass, j * beam.mass * beam.length**2, h * beam.length)
-    )
+    return cantilever_modes(beam, count, EndBody(a * beam.mass, j * beam.mass * beam.length**2, h * beam.length))
 
 
 def exact_shape(ratios, root):
@@ -227,9 +225,7 @@ def test_end_that_cannot_deflect_turns_or_curves_to_the_positive_side():
 def test_frequencies():
     modes = modes_of(FREE, 2)
     unit = np.sqrt(206e9 * 0.014 / 350.0) / 23.8**2
-    np.testing.assert_allclose(
-        modes.angular_frequencies, unit * np.array([1.87510406871196, 4.69409113297417]) ** 2
-    )
+    np.testing.assert_allclose(modes.angular_frequencies, unit * np.array([1.87510406871196, 4.69409113297417]) ** 2)
     np.testing.assert_allclose(modes.frequencies_hz * 2 * np.pi, modes.angular_frequencies, rtol=1e-15)
 
 

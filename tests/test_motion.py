@@ -26,9 +26,7 @@ def test_trapezoid_travels_exactly_within_its_limits(start, end, speed, accelera
     assert np.max(abs(motion(t, 2))) <= acceleration * (1 + 1e-12)
     way = abs(end - start)
     shortest = (
-        way / speed + speed / acceleration
-        if way > speed**2 / acceleration
-        else 2 * np.sqrt(way / acceleration)
+        way / speed + speed / acceleration if way > speed**2 / acceleration else 2 * np.sqrt(way / acceleration)
     )
     assert_allclose(motion.duration, shortest, atol=4e-9, rtol=1e-12)
 

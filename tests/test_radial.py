@@ -20,9 +20,7 @@ TIGHT = {"rtol": 1e-11, "atol": 1e-13}
 def condition(number: int, tower_modes: int = 2, jib_modes: int = 2, **options):
     speed, load, rope = CONDITIONS[number]
     run_options = {k: options.pop(k) for k in ("state", "rtol", "atol", "output_step") if k in options}
-    return simulate(
-        model(tower_modes, jib_modes, load, **options), motions(speed, rope), 120.0, **run_options
-    )
+    return simulate(model(tower_modes, jib_modes, load, **options), motions(speed, rope), 120.0, **run_options)
 
 
 def peak(result, name: str = "swing_angle") -> float:
@@ -45,9 +43,7 @@ def test_rigid_crane_is_the_nonlinear_pendulum_on_a_moving_winch(angle):
         "rope": sequence(rest(18, 10), trapezoid(18, 7, 0.6, 0.2), rest(7, 5), trapezoid(7, 15, 0.6, 0.1)),
     }
     # Coarse enough bounds for a slack rope are irrelevant here: the pendulum itself knows no tension.
-    result = simulate(
-        model(0, 0, rope_as_rod=True), drives, 60.0, swing_angle=angle, output_step=0.25, **TIGHT
-    )
+    result = simulate(model(0, 0, rope_as_rod=True), drives, 60.0, swing_angle=angle, output_step=0.25, **TIGHT)
     switches = np.unique(np.r_[0.0, drives["trolley"].switch_times, drives["rope"].switch_times, 60.0])
     y, expected = np.array([angle, 0.0]), [[0.0, angle]]
     for start, stop in itertools.pairwise(switches):
@@ -193,9 +189,7 @@ def test_condition_1_swings_more_while_braking_and_condition_2_less():
         speed = CONDITIONS[number][0]
         ramp, brake = speed / 0.1, 36.0 / speed
         angle = abs(result["swing_angle"])
-        return float(angle.sel(time=slice(0, ramp + 8.5)).max()), float(
-            angle.sel(time=slice(brake, 120)).max()
-        )
+        return float(angle.sel(time=slice(0, ramp + 8.5)).max()), float(angle.sel(time=slice(brake, 120)).max())
 
     starting, braking = ramps(1)
     assert braking > 1.5 * starting
@@ -264,9 +258,7 @@ def frame(trolley: float):
 @pytest.mark.parametrize("trolley", [5.0, 23.0, 41.0, 55.0])
 def test_linear_model_against_the_finite_element_frame(trolley):
     reference = frame(trolley)
-    errors = np.array(
-        [model(n, n).natural_frequencies(trolley, 18.0)[:3] / reference - 1 for n in (1, 2, 3, 4, 6)]
-    )
+    errors = np.array([model(n, n).natural_frequencies(trolley, 18.0)[:3] / reference - 1 for n in (1, 2, 3, 4, 6)])
     assert np.max(abs(errors[0, 0])) < 5e-5
     assert np.max(abs(errors[1:, 0])) < 5e-8
     assert np.all(errors[:, 1] > -1e-7)
@@ -283,9 +275,7 @@ def test_tower_frequency_falls_as_the_trolley_travels():
 
 
 def test_linear_frequencies_of_the_rigid_jib():
-    assert_allclose(
-        model(8, 0).natural_frequencies(5.0, 18.0)[1:4] / 2 / np.pi, [0.4757, 1.8356, 18.574], rtol=2e-4
-    )
+    assert_allclose(model(8, 0).natural_frequencies(5.0, 18.0)[1:4] / 2 / np.pi, [0.4757, 1.8356, 18.574], rtol=2e-4)
 
 
 def test_small_swing_has_the_linear_frequency():

@@ -119,9 +119,7 @@ class VirtualWork:
                     terms += [-model.geometric_stiffness[i, k] * q[k] for k in range(self.nt)]
             elif i < self.nt + self.nb:
                 beam, root = CRANE.jib, self.roots[i - self.nt]
-                omega = (
-                    root**2 * mp.sqrt(mp.mpf(beam.bending_stiffness) / beam.mass_per_length) / beam.length**2
-                )
+                omega = root**2 * mp.sqrt(mp.mpf(beam.bending_stiffness) / beam.mass_per_length) / beam.length**2
                 terms += [omega**2 * q[i], 2 * model.jib_damping_ratio * omega * rate[i]]
             sums.append(float(sum(terms)))
             sizes.append(float(sum(abs(t) for t in terms)))
@@ -168,9 +166,7 @@ def test_accelerations_fulfil_the_virtual_work_of_positions(options):
         bending = np.zeros(3)
         bending[keep] = slope[2 * n + axes : -1]
         # n'' in angles: the centripetal and chart terms taken off, then projected.
-        theta_acc = (
-            (bending @ e_theta / cp + 2 * theta_rate * phi_rate * sp / cp) if axes == 3 else bending @ e_theta
-        )
+        theta_acc = (bending @ e_theta / cp + 2 * theta_rate * phi_rate * sp / cp) if axes == 3 else bending @ e_theta
         phi_acc = bending @ e_phi - theta_rate**2 * sp * cp if axes == 3 else 0.0
         coordinates = [*range(n), n] + ([n + 1] if axes == 3 else [])
         with mp.workdps(40):

@@ -55,9 +55,7 @@ def test_csv_has_units_in_its_header_and_the_same_numbers(result, tmp_path):
     assert "payload_position outward [m]" in header
     table = np.loadtxt(path, delimiter=",", skiprows=sum(line.startswith("#") for line in lines) + 1)
     assert table.shape == (len(result.time), len(header))
-    assert_allclose(
-        table[:, header.index("swing_angle [rad]")], result["swing_angle"], rtol=1e-11, atol=1e-15
-    )
+    assert_allclose(table[:, header.index("swing_angle [rad]")], result["swing_angle"], rtol=1e-11, atol=1e-15)
 
 
 def test_failed_write_leaves_the_old_file_and_no_half_one(tmp_path):

@@ -123,8 +123,7 @@ def right_hand_side(repeats: int) -> dict[str, Any]:
         contestants[name] = partial(evaluate, model.system, cut, times, states)
     _, _, cpu = _interleaved(contestants, repeats)
     records = [
-        {"model": name, "states": size, "nanoseconds": 1e9 * cpu[name] / count}
-        for name, size in models.items()
+        {"model": name, "states": size, "nanoseconds": 1e9 * cpu[name] / count} for name, size in models.items()
     ]
     return {
         "title": "Right-hand side of the radial crane",
@@ -149,8 +148,7 @@ def radial_run(repeats: int) -> dict[str, Any]:
     reference = _outputs(model, solve("dop853", 1e-12, True))
     second = _outputs(model, solve("scipy-lsoda", 1e-12, True))
     contestants = {
-        _name(method, rtol, split): partial(solve, method, rtol, split)
-        for method, rtol, split in CONTESTANTS
+        _name(method, rtol, split): partial(solve, method, rtol, split) for method, rtol, split in CONTESTANTS
     }
     values, _, cpu = _interleaved(contestants, repeats)
     records = [
@@ -167,8 +165,7 @@ def radial_run(repeats: int) -> dict[str, Any]:
         "title": "120 s of condition 3 (2+3 modes, from equilibrium): error of the worst output against CPU time",
         "columns": ["method", "error", "median CPU [ms]", "evaluations"],
         "rows": [
-            [r["method"], _short(r["error"]), f"{1e3 * r['cpu_seconds']:.1f}", str(r["evaluations"])]
-            for r in records
+            [r["method"], _short(r["error"]), f"{1e3 * r['cpu_seconds']:.1f}", str(r["evaluations"])] for r in records
         ],
         "records": records,
         "notes": [

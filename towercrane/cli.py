@@ -26,9 +26,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-cases_app = typer.Typer(
-    help="List the cases that ship with the program, or copy them.", no_args_is_help=False
-)
+cases_app = typer.Typer(help="List the cases that ship with the program, or copy them.", no_args_is_help=False)
 app.add_typer(cases_app, name="cases")
 
 CaseName = Annotated[str, typer.Argument(metavar="CASE", help="A case file, or the name of a shipped case.")]
@@ -85,9 +83,7 @@ def cases(context: typer.Context) -> None:
 
 @cases_app.command("copy")
 def copy_cases(
-    folder: Annotated[
-        Path, typer.Argument(metavar="DIR", help="Folder to copy into; it must not hold them yet.")
-    ],
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder to copy into; it must not hold them yet.")],
 ) -> None:
     """Copy the shipped cases to a folder of yours, to change them."""
     import shutil
@@ -189,8 +185,7 @@ def figures(
     from towercrane.simulate import run_case
 
     conditions = {
-        number: _with_progress(_load(f"qtz5613/condition-{number}", changes), run_case)
-        for number in (1, 2, 3, 4)
+        number: _with_progress(_load(f"qtz5613/condition-{number}", changes), run_case) for number in (1, 2, 3, 4)
     }
     drawn = plots.source_figures(conditions)
     _write(out, drawn)

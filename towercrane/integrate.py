@@ -162,14 +162,12 @@ class _Run:
             self.system.restore(self.state)
 
 
-def _compiled(
-    run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau, progress: Progress | None
-) -> str:
+def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau, progress: Progress | None) -> str:
     from towercrane import stepper
 
     system = run.system
     guards, guards_before = np.empty(len(system.guards)), np.empty(len(system.guards))
-    k, scratch = np.empty((len(tableau.a), system.size)), np.empty((2, system.size))
+    k, scratch = np.empty((len(tableau.a), system.size)), np.empty((3, system.size))
     work, step = np.zeros(system.work_shape), 0.0
     owner = _phase_of(sample_times, phases)
     for phase, inputs in enumerate(phases.inputs):
@@ -180,7 +178,7 @@ def _compiled(
         first = int(np.count_nonzero(owner < phase))
         counts = np.zeros_like(run.counts)
         arguments = (
-            system.rhs, tableau.stages, tableau.a, tableau.b, tableau.c, tableau.error, tableau.dense,
+            system.rhs, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
             tableau.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, k, scratch,
             np.minimum(sample_times[mine] - begin, t_end), run.samples[first : first + np.count_nonzero(mine)],
             STEPS_PER_CALL, inputs, *system.constants, work, guards, guards_before, system.floors,
@@ -224,9 +222,7 @@ def _scipy(
     def rhs(t: float, y: Floats) -> Floats:
         phase = current if split else int(_phase_of(np.array([t]), phases)[0])
         local = t - phases.times[phase]
-        system.rhs(
-            local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards
-        )
+        system.rhs(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards)
         return slope.copy()
 
     def watch(index: int) -> Any:

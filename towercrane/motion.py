@@ -88,9 +88,7 @@ class Motion:
     def range(self) -> tuple[float, float]:
         """Smallest and largest value that the motion ever takes."""
         values = [float(self.coefficients[0, 0]), self.end]
-        for start, stop, piece in zip(
-            self.switch_times[:-1], self.switch_times[1:], self.coefficients, strict=True
-        ):
+        for start, stop, piece in zip(self.switch_times[:-1], self.switch_times[1:], self.coefficients, strict=True):
             rate = np.polynomial.polynomial.polytrim(np.polynomial.polynomial.polyder(piece))
             turns = np.polynomial.polynomial.polyroots(rate) if len(rate) > 1 else np.empty(0)
             inside = turns.real[(abs(turns.imag) < 1e-12) & (turns.real > 0) & (turns.real < stop - start)]
@@ -146,9 +144,7 @@ def sequence(*motions: Motion) -> Motion:
     for number, motion in enumerate(motions, start=1):
         begin = float(motion.coefficients[0, 0])
         if abs(begin - value) > 1e-9 * max(1.0, abs(value)):
-            raise ValueError(
-                f"sequence: motion {number} begins at {begin:g}, the one before ends at {value:g}"
-            )
+            raise ValueError(f"sequence: motion {number} begins at {begin:g}, the one before ends at {value:g}")
         times += list(now + motion.switch_times[1:])
         pieces += [np.pad(p, (0, width - len(p))) for p in motion.coefficients]
         now, value = times[-1], motion.end

@@ -105,9 +105,7 @@ def swing(results: list[xr.Dataset]) -> Figure:
 
 def tower(results: list[xr.Dataset]) -> Figure:
     """Displacement of the tower top over time (Fig. 7, 10 and 11)."""
-    return _over_time(
-        results, "tower_tip_displacement", 1e3, "displacement of the tower top [mm]", "Tower top"
-    )
+    return _over_time(results, "tower_tip_displacement", 1e3, "displacement of the tower top [mm]", "Tower top")
 
 
 def jib(results: list[xr.Dataset]) -> Figure:

@@ -160,9 +160,10 @@ class Payload(Table):
 
 
 class Rope(Table):
-    """Rope at the start."""
+    """Rope at the start, and what it does where its tension would fall below zero."""
 
     length: Length
+    slack: Literal["stop", "rod"] = "stop"
 
 
 class Begin(Table):

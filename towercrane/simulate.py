@@ -121,6 +121,7 @@ def case_model(case: Case, **changes: Any) -> RadialModel:
         "weight_softening": case.model.weight_softening,
         "tower_damping_ratio": case.model.tower_damping_ratio,
         "jib_damping_ratio": case.model.jib_damping_ratio,
+        "rope_as_rod": case.rope.slack == "rod",
         "self_weight": case.start.state != "zero-no-self-weight",
     }
     return RadialModel(case.radial_crane(), case.load(), **{**chosen, **changes})

@@ -63,11 +63,12 @@ def spectrum_peaks(times: Floats, values: Floats, *, most: int = 5, floor: float
     tops = np.flatnonzero((middle > amplitudes[:-2]) & (middle >= amplitudes[2:])) + 1
     # Below three periods in the record a "peak" is the drift that the window has bent.
     tops = tops[frequencies[tops] > 3.0 / (times[-1] - times[0])]
-    if not len(tops):
-        return []
     # A true peak is the highest within the main lobe of the window.
     reach = 4 * PADDING
-    tops = np.array([k for k in tops if amplitudes[k] >= amplitudes[max(0, k - reach) : k + reach + 1].max()])
+    lone = [amplitudes[k] >= amplitudes[max(0, k - reach) : k + reach + 1].max() for k in tops]
+    tops = tops[np.array(lone, dtype=bool)]
+    if not len(tops):
+        return []
     tops = tops[amplitudes[tops] >= floor * amplitudes[tops].max()]
     highest = sorted(tops[np.argsort(amplitudes[tops])[::-1]][:most])
     return [_vertex(frequencies[k - 1 : k + 2], amplitudes[k - 1 : k + 2]) for k in highest]

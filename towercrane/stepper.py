@@ -57,12 +57,12 @@ def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, ato
 
 
 @kernel()
-def _stage(y: Any, a: Any, k: Any, count: int, h: float, out: Any) -> None:
-    """out = y + h sum_(j < count) a_j k_j."""
+def _stage(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
+    """State of stage ``row``: out = y + h sum_j a[row, j] k[j]."""
     for m in range(y.size):
         out[m] = 0.0
-    for j in range(count):
-        weight = a[j]
+    for j in range(row):
+        weight = a[row, j]
         if weight != 0.0:
             for m in range(y.size):
                 out[m] += weight * k[j, m]
@@ -105,7 +105,7 @@ def _first_step(y: Any, slope: Any, order: int, rtol: float, atol: Any, limit: f
 
 @kernel(
     types.int64(
-        _rhs, types.int64, _two, _one, _one, _two, _two, types.int64, types.float64, _one, types.int64[::1],
+        _rhs, types.int64, _two, _one, _two, _two, types.int64, types.float64, _one, types.int64[::1],
         types.float64, _one, _one, _two, _two, _one, _two, types.int64, *_constants, _one, _one, _one,
     )
 )  # fmt: skip
@@ -113,7 +113,6 @@ def advance(
     rhs: Any,
     stages: int,
     a: Any,
-    b: Any,
     c: Any,
     error: Any,
     dense: Any,
@@ -145,13 +144,13 @@ def advance(
     ----------
     rhs, inputs, numbers, vectors, matrices, tables, work
         As in :func:`towercrane.system.rhs_signature`.
-    stages, a, b, c, error, dense, error_order
+    stages, a, c, error, dense, error_order
         As in :class:`towercrane.tableaus.Tableau`.
     clock, counts : ndarray, shapes (3,) and (5,)
         Read and written; a step of zero or less asks for a first guess.
     y : ndarray, shape (size,)
         State, carried on in place.
-    k, scratch : ndarray, shapes (m, size) and (2, size)
+    k, scratch : ndarray, shapes (m, size) and (3, size)
         Stages; the first must not be touched between two calls of one phase.
     sample_times, samples : ndarray, shapes (p,) and (p, size)
         Times since the phase began at which the state is wanted, increasing; the states.
@@ -163,14 +162,15 @@ def advance(
     int
         One of FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE.
     """
-    new, trial = scratch[0], scratch[1]
+    new, trial, slope = scratch[0], scratch[1], scratch[2]
     t, h = clock[TIME], clock[STEP]
     all_stages = a.shape[0]
     if t == 0.0:
-        rhs(t, y, k[0], inputs, numbers, vectors, matrices, tables, work, guards)
+        rhs(t, y, slope, inputs, numbers, vectors, matrices, tables, work, guards)
         counts[EVALUATIONS] += 1
         for m in range(y.size):
-            if not np.isfinite(k[0, m]):
+            k[0, m] = slope[m]
+            if not np.isfinite(slope[m]):
                 return NOT_FINITE
         for g in range(guards.size):
             guards_before[g] = guards[g]
@@ -178,7 +178,7 @@ def advance(
                 counts[GUARD_INDEX] = g
                 return GUARD
     if h <= 0.0:
-        h = _first_step(y, k[0], error_order, rtol, atol, t_end)
+        h = _first_step(y, slope, error_order, rtol, atol, t_end)
     shortest = 16.0 * np.finfo(np.float64).eps * t_end
     taken = 0
     grow = GROW
@@ -191,12 +191,15 @@ def advance(
             return COLLAPSED
         last = t + h >= t_end - shortest
         step = t_end - t if last else h
-        for i in range(1, stages):
-            _stage(y, a[i], k, i, step, trial)
-            rhs(t + c[i] * step, trial, k[i], inputs, numbers, vectors, matrices, tables, work, guards)
-        _stage(y, b, k, stages, step, new)
+        # The slopes go through a fixed array: a view of k per stage would cost a tenth of the right-hand side.
+        for i in range(1, stages + 1):
+            _stage(y, a, i, k, step, trial)
+            rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+            for m in range(y.size):
+                k[i, m] = slope[m]
+        for m in range(y.size):
+            new[m] = trial[m]
         t_new = t_end if last else t + step
-        rhs(t_new, new, k[stages], inputs, numbers, vectors, matrices, tables, work, guards)
         counts[EVALUATIONS] += stages
         norm = _error_norm(error, k, y, new, step, rtol, atol)
         if not norm <= 1.0:
@@ -214,8 +217,10 @@ def advance(
         wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
         if crossed >= 0 or wanted:
             for i in range(stages + 1, all_stages):
-                _stage(y, a[i], k, i, step, trial)
-                rhs(t + c[i] * step, trial, k[i], inputs, numbers, vectors, matrices, tables, work, guards)
+                _stage(y, a, i, k, step, trial)
+                rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                for m in range(y.size):
+                    k[i, m] = slope[m]
             counts[EVALUATIONS] += all_stages - stages - 1
         stop = t_new
         if crossed >= 0:
@@ -223,7 +228,7 @@ def advance(
             while high - low > 1e-12:
                 middle = 0.5 * (low + high)
                 _dense(y, dense, k, step, middle, trial)
-                rhs(t + middle * step, trial, new, inputs, numbers, vectors, matrices, tables, work, guards)
+                rhs(t + middle * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
                 counts[EVALUATIONS] += 1
                 if guards[crossed] < floors[crossed]:
                     high = middle

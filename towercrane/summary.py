@@ -30,7 +30,8 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
     -------
     dict
         ``outcome``, ``end_time_s``, ``peaks`` per variable (maximum, maximum_time_s, minimum, minimum_time_s,
-        units), ``spectrum_peaks_hz`` of the tower top, ``swing_period_s``, ``natural_frequencies_hz`` at the
+        units), ``spectrum_peaks_hz`` of the tower top, ``swing_period_s`` after the drives have stopped (None without
+        two passages), ``natural_frequencies_hz`` at the
         last trolley position, ``energy_balance``, ``notices``, ``assumed``, ``solver``, ``wall_seconds``.
     """
     attributes = result.attrs
@@ -39,8 +40,6 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         float(result["trolley_position"][-1]), float(result["rope_length"][-1])
     ) / (2 * np.pi)
     free = _after_the_drives(case, times)
-    angle = result["swing_angle"].values
-    period = swing_period(times[free], angle[free]) or swing_period(times, angle)
     return {
         "case": case.name,
         "title": case.title,
@@ -50,7 +49,7 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         "end_time_s": float(attributes["end_time"]),
         "peaks": peaks(result),
         "spectrum_peaks_hz": spectrum_peaks(times, result["tower_tip_displacement"].values),
-        "swing_period_s": period,
+        "swing_period_s": swing_period(times[free], result["swing_angle"].values[free]),
         "natural_frequencies_hz": frequencies.tolist(),
         "energy_balance": energy_balance(result),
         "notices": notices(case, result, frequencies, free),

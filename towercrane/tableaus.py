@@ -34,9 +34,10 @@ class Tableau:
     stages : int
         Stages s of a step; stage s (counted from 0) is the slope at its end.
     a : ndarray, shape (m, m)
-        Strictly lower triangular; rows beyond s belong to the stages that only dense output needs.
-    b, c : ndarray, shapes (s,) and (m,)
-        Weights and nodes.
+        Strictly lower triangular. Row s holds the weights of the step itself; rows beyond belong to the stages
+        that only dense output needs.
+    c : ndarray, shape (m,)
+        Nodes.
     error : ndarray, shape (1 or 2, s + 1)
         Weights of the error estimate; two rows are combined as in dop853.f.
     dense : ndarray, shape (m, degree)
@@ -49,7 +50,6 @@ class Tableau:
     dense_order: int
     stages: int
     a: Floats
-    b: Floats
     c: Floats
     error: Floats
     dense: Floats
@@ -164,7 +164,6 @@ DOPRI5 = Tableau(
     dense_order=4,
     stages=6,
     a=_square(_DOPRI5_A),
-    b=np.array(_DOPRI5_A[-1]),
     c=np.array(_DOPRI5_C, dtype=float),
     error=np.array(_DOPRI5_ERROR),
     dense=np.array(_DOPRI5_DENSE),
@@ -177,7 +176,6 @@ DOP853 = Tableau(
     dense_order=7,
     stages=12,
     a=_square(_DOP853_A),
-    b=np.array(_DOP853_A[12]),
     c=np.array(_DOP853_C),
     error=np.array(_DOP853_ERROR),
     dense=_dop853_dense(np.array(_DOP853_A[12]), np.array(_DOP853_D)),

@@ -69,9 +69,7 @@ def modes_tables(report: dict[str, Any]) -> None:
     console.print(table)
 
     if "lattice" in report:
-        table = _table(
-            f"{report['name']}: tower lattice as a beam", "property", "value", "unit", "use", left=1
-        )
+        table = _table(f"{report['name']}: tower lattice as a beam", "property", "value", "unit", "use", left=1)
         table.columns[3].justify = "left"
         for name, found in report["lattice"].items():
             table.add_row(name.replace("_", " "), f"{found['value']:.5g}", found["unit"], found["use"])
@@ -102,7 +100,9 @@ def run_tables(summary: dict[str, Any]) -> None:
         )
     console.print(table)
     period = summary["swing_period_s"]
-    console.print(f"swing period          {f'{period:.4f} s' if period else 'no two passages'}")
+    console.print(
+        f"swing period          {f'{period:.4f} s' if period else 'no two passages after the drives stopped'}"
+    )
     shown = ", ".join(f"{f:.4f}" for f in summary["spectrum_peaks_hz"]) or "none"
     console.print(f"tower spectrum peaks  {shown} Hz")
     natural = ", ".join(f"{f:.4f}" for f in summary["natural_frequencies_hz"][:5])
@@ -134,6 +134,4 @@ def bench_tables(report: dict[str, Any]) -> None:
 
 def _assumed(console: Console, assumed: list[dict[str, str]]) -> None:
     for entry in assumed:
-        console.print(
-            f"[bold]assumed[/bold]  {entry['key']} = {entry['value']}: {entry['why']}", highlight=False
-        )
+        console.print(f"[bold]assumed[/bold]  {entry['key']} = {entry['value']}: {entry['why']}", highlight=False)

@@ -173,9 +173,7 @@ class RadialModel:
         highest = self.jib.roots[-1] if self.jib_modes else 0.0
         cells = max(1, int(np.ceil(highest / (2.0 * TABLE_REACH))))
         middles = (np.arange(cells) + 0.5) * length / cells
-        shapes = [
-            self.jib(middles, derivative).T / factorial(derivative) for derivative in range(TABLE_POWERS)
-        ]
+        shapes = [self.jib(middles, derivative).T / factorial(derivative) for derivative in range(TABLE_POWERS)]
         return np.ascontiguousarray(np.stack(shapes, axis=-1).reshape(cells, self.jib_modes, TABLE_POWERS))
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
@@ -235,8 +233,7 @@ class RadialModel:
         def stiffness(at: Floats) -> Floats:
             step = 1e-5 * scale
             columns = [
-                (residual(at - d) - residual(at + d)) / (2.0 * h)
-                for h, d in zip(step, np.diag(step), strict=True)
+                (residual(at - d) - residual(at + d)) / (2.0 * h) for h, d in zip(step, np.diag(step), strict=True)
             ]
             return np.array(columns).T
 

@@ -45,19 +45,17 @@ _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:,
 
 
 @kernel()
-def polynomial(coefficients: Any, t: float) -> tuple[float, float, float]:
-    """Value and first two derivatives of a polynomial with ascending coefficients."""
+def polynomial(inputs: Any, channel: int, t: float) -> tuple[float, float, float]:
+    """Value and first two derivatives of an input channel."""
     value, rate, half_second = 0.0, 0.0, 0.0
-    for c in range(coefficients.size - 1, -1, -1):
+    for c in range(inputs.shape[1] - 1, -1, -1):
         half_second = half_second * t + rate
         rate = rate * t + value
-        value = value * t + coefficients[c]
+        value = value * t + inputs[channel, c]
     return value, rate, 2.0 * half_second
 
 
-@kernel(
-    types.UniTuple(types.float64, 3)(types.int64, types.float64, _one, _two, _one, _two, _three, _three, _two)
-)
+@kernel(types.UniTuple(types.float64, 5)(types.int64, types.float64, _one, _two, _one, _two, _three, _three, _two))
 def structure(
     d: int,
     t: float,
@@ -68,7 +66,7 @@ def structure(
     matrices: Any,
     tables: Any,
     work: Any,
-) -> tuple[float, float, float]:
+) -> tuple[float, float, float, float, float]:
     """Fill ``work`` with mass matrix, forces and the suspension point's motion, without the load.
 
     Parameters
@@ -82,13 +80,14 @@ def structure(
     Returns
     -------
     tuple of float
-        Tilt gamma [rad], slope of the jib at the trolley [rad], damping power [W].
+        Trolley position [m]; its rate along the deflected jib, outward and up [m/s]; tilt gamma [rad]; damping
+        power [W].
     """
     n = vectors.shape[1]
     tower = int(numbers[TOWER_MODES])
     rates = n + d
     up = d - 1
-    x, xd, xdd = polynomial(inputs[TROLLEY], t)
+    x, xd, xdd = polynomial(inputs, TROLLEY, t)
 
     ud, gamma, gammad = 0.0, 0.0, 0.0
     for i in range(tower):
@@ -130,9 +129,7 @@ def structure(
     wd = w_modal + xd * slope
 
     bias_1 = xdd + 2.0 * wd * gammad - x * gammad * gammad
-    bias_3 = (
-        2.0 * xd * slope_modal + xdd * slope + xd * xd * curvature - 2.0 * xd * gammad - w * gammad * gammad
-    )
+    bias_3 = 2.0 * xd * slope_modal + xdd * slope + xd * xd * curvature - 2.0 * xd * gammad - w * gammad * gammad
     for k in range(d):
         work[VELOCITY, k] = 0.0
         work[BIAS, k] = 0.0
@@ -167,7 +164,7 @@ def structure(
             mass = matrices[BASE, i, m] + square * gi * gm + coupling * (ui * gm + gi * um)
             mass += sg * (vectors[JIB_MASS, i] * um + ui * vectors[JIB_MASS, m])
             work[MASS + i, m] = mass + trolley * (jx * work[JACOBIAN, m] + jz * work[JACOBIAN + up, m])
-    return gamma, slope, damping_power
+    return x, xd * (cg + slope * sg), xd * (-sg + slope * cg), gamma, damping_power
 
 
 @kernel(rhs_signature())
@@ -187,21 +184,18 @@ def rhs(
     n = vectors.shape[1]
     d = (y.size - 1) // 2 - n
     up = d - 1
-    gamma, slope, damping_power = structure(d, t, y, inputs, numbers, vectors, matrices, tables, work)
-    length, rate, acceleration = polynomial(inputs[ROPE], t)
-    gravity = numbers[GRAVITY]
+    x, along, across, gamma, damping_power = structure(d, t, y, inputs, numbers, vectors, matrices, tables, work)
+    length, rate, acceleration = polynomial(inputs, ROPE, t)
+    gravity, trolley = numbers[GRAVITY], numbers[TROLLEY_MASS]
     tension = hang_load(
         y, dy, n, d, length, rate, acceleration,
         numbers[LOAD_MASS], gravity, numbers[DRAG], numbers[HINGE_DAMPING], work,
     )  # fmt: skip
 
-    # Power of the trolley drive: the force along the deflected jib that its prescribed motion takes.
-    x, xd, _ = polynomial(inputs[TROLLEY], t)
-    sg, cg = np.sin(gamma), np.cos(gamma)
-    trolley = numbers[TROLLEY_MASS]
+    # Power of the trolley drive: its force along the deflected jib, which the prescribed motion takes.
     fx = trolley * work[ACCELERATION, 0] - tension * work[DIRECTION, 0] + work[HINGE, 0]
     fz = trolley * (work[ACCELERATION, up] + gravity) - tension * work[DIRECTION, up] + work[HINGE, up]
-    dy[y.size - 1] += damping_power + xd * ((cg + slope * sg) * fx + (-sg + slope * cg) * fz)
+    dy[y.size - 1] += damping_power + along * fx + across * fz
 
     guards[0] = tension
     guards[1] = x
