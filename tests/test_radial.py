@@ -9,10 +9,11 @@ from qtz5613 import CONDITIONS, CRANE, model, motions, standing
 from scipy.integrate import solve_ivp
 
 from modal import frame_frequencies
-from towercrane.cranes.radial import RadialModel, TowerBuckles
+from towercrane.cranes.radial import RadialModel
 from towercrane.motion import rest, s_curve, sequence, trapezoid
 from towercrane.payload import Load
 from towercrane.simulate import simulate
+from towercrane.system import NoEquilibrium
 
 TIGHT = {"rtol": 1e-11, "atol": 1e-13}
 
@@ -166,7 +167,7 @@ def test_buckling_tower_is_named_with_its_load_factor():
     weak = dataclasses.replace(CRANE.tower, second_moment_of_area=0.014 / 400)
     slender = RadialModel(dataclasses.replace(CRANE, tower=weak), Load(800.0), 2, 2, weight_softening=True)
     inputs = np.array([[20.0, 0.0, 0.0], [18.0, 0.0, 0.0]])
-    with pytest.raises(TowerBuckles, match=r"it would carry 0\.\d+ times that weight"):
+    with pytest.raises(NoEquilibrium, match=r"it would carry 0\.\d+ times that weight"):
         slender.equilibrium(inputs)
     result = simulate(slender, standing(20.0, 18.0), 10.0)
     assert (result.attrs["outcome"], result.attrs["end_time"]) == ("tower buckled", 0.0)

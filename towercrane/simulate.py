@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane import __version__
-from towercrane.cranes.radial import TOWER_BUCKLED, RadialModel, TowerBuckles
-from towercrane.cranes.radial_outputs import observe
+from towercrane.cranes.radial import RadialModel
 from towercrane.integrate import Trajectory, evaluate, integrate
 from towercrane.motion import Motion, phases
 from towercrane.results import dataset
+from towercrane.system import Model, NoEquilibrium
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,12 +22,9 @@ if TYPE_CHECKING:
     from towercrane.case import Case
     from towercrane.integrate import Progress
 
-TENSION = 0
-"""Index of the rope tension among a crane's guards."""
-
 
 def simulate(
-    model: RadialModel,
+    model: Model,
     motions: dict[str, Motion],
     duration: float,
     *,
@@ -44,9 +41,10 @@ def simulate(
 
     Parameters
     ----------
-    model : RadialModel
+    model : Model
+        The crane, such as a :class:`towercrane.cranes.radial.RadialModel`.
     motions : dict of str to Motion
-        "trolley": position along the jib [m]; "rope": length [m].
+        One for each of the model's channels, such as "trolley" and "rope" [m].
     duration : float
         Simulated time [s].
     output_step : float
@@ -72,32 +70,28 @@ def simulate(
     if not 0.0 < output_step <= duration < np.inf:
         raise ValueError(f"output_step, duration: wanted 0 < step <= duration, got {output_step}, {duration}")
     began = time.perf_counter()
-    cut = phases((motions["trolley"], motions["rope"]), duration)
+    cut = phases(tuple(motions[channel] for channel in model.channels), duration)
     rows = int(np.floor(duration / output_step * (1.0 + 1e-12))) + 1
     sample_times = np.minimum(np.arange(rows) * output_step, duration)
     message = ""
     try:
         start = model.start(cut.inputs[0], state, swing_angle)
-    except TowerBuckles as failure:
+    except NoEquilibrium as failure:
         message = str(failure)
-        run = _nothing(model.start(cut.inputs[0], "zero", swing_angle), TOWER_BUCKLED)
+        run = _nothing(model.start(cut.inputs[0], "zero", swing_angle), failure.outcome)
     else:
         run = integrate(
             model.system, cut, start, sample_times,
             method=method, rtol=rtol, atol=atol, split=split, progress=progress,
         )  # fmt: skip
     _, guards = evaluate(model.system, cut, run.times, run.states)
-    quantities = observe(model, motions, run.times, run.states, guards[:, TENSION])
+    quantities = model.observe(motions, run.times, run.states, guards)
     provenance = {
-        "crane": model.crane.name,
+        **model.provenance(),
         "outcome": run.outcome,
         "message": message,
         "end_time": run.end_time,
         "end_state": run.end_state,
-        "tower_modes": model.tower_modes,
-        "jib_modes": model.jib_modes,
-        "payload_mass": model.load.mass,
-        "gravity": model.crane.gravity,
         "method": method,
         "rtol": rtol,
         "atol": atol,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
+
+    from towercrane.motion import Motion
+    from towercrane.results import Quantity
 
     Floats = NDArray[np.float64]
 
@@ -81,6 +84,45 @@ class System:
         work = np.zeros(self.work_shape)
         self.rhs(time, np.ascontiguousarray(state), slope, inputs, *self.constants, work, guards)
         return slope, guards
+
+
+class NoEquilibrium(ArithmeticError):
+    """The crane has no stable equilibrium to start from.
+
+    Parameters
+    ----------
+    outcome : str
+        Name of the outcome, one of the system's guards.
+    message : str
+        Why.
+    """
+
+    def __init__(self, outcome: str, message: str) -> None:
+        super().__init__(message)
+        self.outcome = outcome
+
+
+class Model(Protocol):
+    """What :func:`towercrane.simulate.simulate` asks of a crane."""
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Names of the motions that drive it, in the order of the inputs' rows."""
+
+    @property
+    def system(self) -> System:
+        """Its equations."""
+
+    def start(self, inputs: Floats, state: str, swing_angle: float) -> Floats:
+        """State at the start, or NoEquilibrium."""
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time."""
+
+    def provenance(self) -> dict[str, Any]:
+        """What of the model belongs in a result's attributes."""
 
 
 def plain_system(rhs: Any, size: int, numbers: tuple[float, ...] = ()) -> System:

@@ -8,19 +8,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import factorial
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from modal.shapes import Modes, cantilever_modes
 from towercrane.cranes import radial_kernel as kernel
 from towercrane.payload import FORCE, JACOBIAN, MASS, Load, restore, work_shape
-from towercrane.system import System
+from towercrane.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cranes.tower_crane import TowerCrane
+    from towercrane.motion import Motion
+    from towercrane.results import Quantity
 
     Floats = NDArray[np.float64]
 
@@ -36,10 +38,6 @@ TABLE_POWERS = 8
 
 TABLE_REACH = 0.04
 """Largest wave number times half a cell: the next Taylor term is then below 0.04^8/8! = 2e-16."""
-
-
-class TowerBuckles(ArithmeticError):
-    """The crane has no stable equilibrium under its weight."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +77,11 @@ class RadialModel:
         for name in ("tower_modes", "jib_modes"):
             if getattr(self, name) < 0:
                 raise ValueError(f"RadialModel.{name}: wanted zero or more, got {getattr(self, name)!r}")
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Motions: position of the trolley along the jib and length of the rope [m]."""
+        return ("trolley", "rope")
 
     @property
     def coordinates(self) -> int:
@@ -194,7 +197,7 @@ class RadialModel:
 
         Raises
         ------
-        TowerBuckles
+        NoEquilibrium
             If there is no stable equilibrium.
         ValueError
             If the state is not one of the two.
@@ -208,6 +211,24 @@ class RadialModel:
         y[self.coordinates + self.axes - 1] = -np.cos(swing_angle)
         return y
 
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time, see :func:`towercrane.cranes.radial_outputs.observe`."""
+        from towercrane.cranes.radial_outputs import observe
+
+        return observe(self, motions, times, states, guards[:, kernel.TENSION])
+
+    def provenance(self) -> dict[str, Any]:
+        """Crane, modes and load, for a result's attributes."""
+        return {
+            "crane": self.crane.name,
+            "tower_modes": self.tower_modes,
+            "jib_modes": self.jib_modes,
+            "payload_mass": self.load.mass,
+            "gravity": self.crane.gravity,
+        }
+
     def equilibrium(self, inputs: Floats) -> Floats:
         """Coordinates at rest under all weights, load hanging straight down; shape (coordinates,).
 
@@ -216,7 +237,7 @@ class RadialModel:
 
         Raises
         ------
-        TowerBuckles
+        NoEquilibrium
             If the stiffness is not positive definite, or no equilibrium is found.
         """
         n = self.coordinates
@@ -240,12 +261,12 @@ class RadialModel:
         for _ in range(50):
             tangent = stiffness(q)
             if np.linalg.eigvalsh(tangent + tangent.T).min() <= 0.0:
-                raise TowerBuckles(self._buckling_message())
+                raise NoEquilibrium(TOWER_BUCKLED, self._buckling_message())
             step = np.linalg.solve(tangent, residual(q))
             q = q + step
             if np.max(abs(step) / scale) < 1e-13 * (1.0 + np.max(abs(q) / scale)):
                 return q
-        raise TowerBuckles(self._buckling_message())
+        raise NoEquilibrium(TOWER_BUCKLED, self._buckling_message())
 
     def _buckling_message(self) -> str:
         if not self.tower_modes:

@@ -41,6 +41,9 @@ BASE, STIFFNESS = range(2)
 TROLLEY, ROPE = range(2)
 """Rows of ``inputs``."""
 
+TENSION, INNER_END, OUTER_END, TILT = range(4)
+"""Guards: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad]."""
+
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 
 
@@ -197,7 +200,7 @@ def rhs(
     fz = trolley * (work[ACCELERATION, up] + gravity) - tension * work[DIRECTION, up] + work[HINGE, up]
     dy[y.size - 1] += damping_power + along * fx + across * fz
 
-    guards[0] = tension
-    guards[1] = x
-    guards[2] = numbers[JIB_LENGTH] - x
-    guards[3] = numbers[TILT_LIMIT] - abs(gamma)
+    guards[TENSION] = tension
+    guards[INNER_END] = x
+    guards[OUTER_END] = numbers[JIB_LENGTH] - x
+    guards[TILT] = numbers[TILT_LIMIT] - abs(gamma)
