@@ -16,6 +16,11 @@ def test_two_sines_on_a_drift():
     assert_allclose(frequencies[np.argmax(amplitudes)], 0.3118, atol=1e-3)
 
 
+def test_two_near_lines_are_told_apart():
+    signal = np.sin(2 * np.pi * 0.45 * TIMES) + 0.6 * np.sin(2 * np.pi * 0.49 * TIMES)
+    assert_allclose(spectrum_peaks(TIMES, signal), [0.45, 0.49], atol=1e-3)
+
+
 def test_weak_peaks_and_side_lobes_are_left_out():
     signal = np.sin(2 * np.pi * 0.45 * TIMES) + 0.01 * np.sin(2 * np.pi * 2.0 * TIMES)
     assert len(spectrum_peaks(TIMES, signal)) == 1
@@ -31,3 +36,11 @@ def test_period_of_a_swing_off_centre():
     assert_allclose(swing_period(TIMES, angle), 8.514, rtol=1e-4)
     assert swing_period(TIMES[:20], angle[:20]) is None
     assert swing_period(TIMES, np.zeros_like(TIMES)) is None
+    assert swing_period(TIMES, 1e-9 * angle) is None
+    two = np.sin(2 * np.pi * TIMES / 8.5) + 0.9 * np.sin(2 * np.pi * TIMES / 1.6)
+    assert swing_period(TIMES, two) is None
+
+
+def test_a_last_row_off_the_grid_does_not_shift_the_peaks():
+    times = np.append(TIMES, TIMES[-1] + 0.013)
+    assert_allclose(spectrum_peaks(times, np.sin(2 * np.pi * 0.5 * times)), [0.5], atol=1e-4)

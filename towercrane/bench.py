@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.case import load_case
-from towercrane.integrate import evaluate, integrate
+from towercrane.integrate import INTERRUPTED, evaluate, integrate
 from towercrane.motion import phases
 from towercrane.simulate import case_model, versions
 
@@ -143,7 +143,10 @@ def radial_run(repeats: int) -> dict[str, Any]:
     grid = np.linspace(0.0, 120.0, 2401)
 
     def solve(method: str, rtol: float, split: bool) -> Trajectory:
-        return integrate(system, cut, start, grid, method=method, rtol=rtol, atol=1e-2 * rtol, split=split)
+        run = integrate(system, cut, start, grid, method=method, rtol=rtol, atol=1e-2 * rtol, split=split)
+        if run.outcome == INTERRUPTED:
+            raise KeyboardInterrupt
+        return run
 
     reference = _outputs(model, solve("dop853", 1e-12, True))
     second = _outputs(model, solve("scipy-lsoda", 1e-12, True))

@@ -43,6 +43,8 @@ class Case:
         Values that no source gives, the crane's first.
     as_written : dict
         The case's text with its crane in place and overrides applied, as plain JSON-able data.
+    changes : tuple of str
+        The overrides, as given.
     """
 
     name: str
@@ -52,6 +54,7 @@ class Case:
     motions: tuple[Motion, Motion]
     assumed: tuple[Assumption, ...]
     as_written: dict[str, Any]
+    changes: tuple[str, ...] = ()
 
     @property
     def crane(self) -> schema.Crane:
@@ -169,7 +172,7 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     from pydantic import ValidationError
 
     from towercrane.explain import explain
-    from towercrane.plausibility import check_lattice, check_motions, check_output, implausible
+    from towercrane.plausibility import check_elements, check_lattice, check_motions, check_output, implausible
     from towercrane.schema import CaseFile
 
     found = _find(Path(path))
@@ -183,13 +186,15 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
         faults += [f for f in explain(error) if not (crane_unread and f.key == "crane")]
     allowed = tree.get("allow_implausible", [])
     faults += implausible(tree, [k for k in allowed if isinstance(k, str)] if isinstance(allowed, list) else [])
-    faults += [*check_output(tree), *check_lattice(tree)]
+    faults += [*check_output(tree), *check_elements(tree), *check_lattice(tree)]
     motion_faults, trolley, rope = check_motions(tree, found.parent)
     located = [text.located(f) for f in dict.fromkeys([*text.faults, *faults, *motion_faults])]
     if located or checked is None or trolley is None or rope is None:
         raise CaseError(located)
     name = _name(found)
-    return Case(name, found, checked.title or name, checked, (trolley, rope), tuple(assumed), text.tree)
+    return Case(
+        name, found, checked.title or name, checked, (trolley, rope), tuple(assumed), text.tree, tuple(overrides)
+    )
 
 
 def case_folder() -> Path:

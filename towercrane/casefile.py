@@ -213,6 +213,10 @@ def _read_crane(text: CaseText) -> None:
         wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
         text.faults.append(Fault(str(path), "", wanted, "an empty file"))
         return
+    if "crane" in crane:
+        wanted, hint = "a crane file: name, [tower], [jib], ...", "the case itself goes to the command line"
+        text.faults.append(Fault(str(path), "", wanted, "a case file, which names a crane itself", hint))
+        return
     text.tree["crane"], text.crane_path = crane, path
 
 

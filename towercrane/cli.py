@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Collection, Mapping
 
     import xarray as xr
 
@@ -18,6 +18,12 @@ if TYPE_CHECKING:
 
 BAD_INPUT, ENDED_EARLY, INTERRUPTED = 2, 3, 130
 """Exit codes besides 0: bad input; the run ended before its time with a named outcome; Ctrl-C."""
+
+RUN_FILES = (
+    "result.nc", "summary.json", "result.csv", "overview.png", "motion.png", "swing.png", "phase.png", "tower.png",
+    "jib.png", "spectrum.png", "modes.png",
+)  # fmt: skip
+"""Everything that ``run`` may write."""
 
 app = typer.Typer(
     help="How a tower crane vibrates and how its load swings.",
@@ -48,6 +54,8 @@ def main() -> None:
     except KeyboardInterrupt:
         _say("interrupted")
         sys.exit(INTERRUPTED)
+    except OSError as error:
+        _fail(f"cannot write the output: {error.strerror or error}")
 
 
 def _version(wanted: bool) -> None:
@@ -78,7 +86,7 @@ def cases(context: typer.Context) -> None:
     width = max(len(name) for name, _ in found)
     for name, title in found:
         typer.echo(f"{name:<{width}}  {title}")
-    _next(f"towercrane modes {found[0][0]}")
+    _next("modes", found[0][0])
 
 
 @cases_app.command("copy")
@@ -99,7 +107,7 @@ def copy_cases(
     except OSError as error:
         _fail(f"{folder}: cannot copy the cases there: {error.strerror or error}")
     typer.echo(f"{len(clashes)} files in {folder}")
-    _next(f"towercrane run {folder / 'qtz5613' / 'condition-3.toml'}")
+    _next("run", str(folder / "qtz5613" / "condition-3.toml"))
 
 
 @app.command()
@@ -121,11 +129,15 @@ def modes(
         _write(out, {"modes.png": _mode_picture(loaded)})
     if as_json:
         typer.echo(json.dumps(report, indent=2))
-        return
-    from towercrane.tables import modes_tables
+    else:
+        from towercrane.tables import modes_tables
 
-    modes_tables(report)
-    _next(f"towercrane run {case}")
+        modes_tables(report)
+        if out is not None:
+            typer.echo(f"written to {out}: modes.png")
+        _next("run", case, *_set(changes))
+    if any("outcome" in row for row in report["crane"]):
+        raise typer.Exit(ENDED_EARLY)
 
 
 @app.command()
@@ -156,6 +168,7 @@ def run(
 
         files |= plots.run_pictures(result) | {"modes.png": _mode_picture(loaded)}
     _write(folder, files)
+    stale = _remove_stale(folder, files)
     if as_json:
         typer.echo(text)
     else:
@@ -163,7 +176,12 @@ def run(
 
         run_tables(summary)
         typer.echo(f"written to {folder}: {', '.join(files)}")
-        _next(f'towercrane run {case} --set rope.length="10 m" --out {folder}-short')
+        if stale:
+            typer.echo(f"removed, of an earlier run: {', '.join(stale)}")
+        if changes:
+            _next("modes", case, *_set(changes))
+        else:
+            _next("run", case, "--set", "model.jib_modes=5", "--out", f"results/{loaded.name}-5-jib-modes")
     if summary["outcome"] == "interrupted":
         raise typer.Exit(INTERRUPTED)
     if summary["outcome"] != "finished":
@@ -184,13 +202,15 @@ def figures(
     from towercrane import plots
     from towercrane.simulate import run_case
 
-    conditions = {
-        number: _with_progress(_load(f"qtz5613/condition-{number}", changes), run_case) for number in (1, 2, 3, 4)
-    }
+    conditions = {}
+    for number in (1, 2, 3, 4):
+        conditions[number] = _with_progress(_load(f"qtz5613/condition-{number}", changes), run_case)
+        if conditions[number].attrs["outcome"] == "interrupted":
+            raise KeyboardInterrupt
     drawn = plots.source_figures(conditions)
     _write(out, drawn)
     typer.echo(f"written to {out}: {', '.join(drawn)}")
-    _next("towercrane run qtz5613/condition-4-zero")
+    _next("run", "qtz5613/condition-4-zero")
 
 
 @app.command()
@@ -208,7 +228,7 @@ def bench(
         typer.echo(json.dumps(report, indent=2))
         return
     bench_tables(report)
-    _next("towercrane run qtz5613/condition-3 --set solver.rtol=1e-4")
+    _next("run", "qtz5613/condition-3", "--set", "solver.rtol=1e-6")
 
 
 def _load(name: str, changes: list[str] | None) -> Case:
@@ -222,7 +242,9 @@ def _mode_picture(case: Case) -> Any:
     from towercrane import plots
 
     crane, count = case.radial_crane(), case.modes.count
-    notes = [(a.key, str(a.value), a.why) for a in case.assumed if a.key.startswith("crane.")]
+    # The shapes rest on the equivalent beams, not on the lattice's members.
+    beams = [a for a in case.assumed if a.key.startswith("crane.") and ".lattice." not in a.key]
+    notes = [(a.key, str(a.value), a.why) for a in beams]
     return plots.modes(
         cantilever_modes(crane.tower, count, crane.end_body), cantilever_modes(crane.jib, count), notes
     )
@@ -283,12 +305,26 @@ def _write(folder: Path, files: Mapping[str, Any]) -> None:
             _fail(f"{path}: cannot be written: {error.strerror or error}")
 
 
+def _remove_stale(folder: Path, written: Collection[str]) -> list[str]:
+    """Take away files that an earlier run left and this one did not replace: they would show another result."""
+    stale = [name for name in RUN_FILES if name not in written and (folder / name).is_file()]
+    for name in stale:
+        (folder / name).unlink()
+    return stale
+
+
+def _set(changes: list[str] | None) -> list[str]:
+    return [part for change in changes or [] for part in ("--set", change)]
+
+
 def _say(text: str) -> None:
     typer.echo(text, err=True)
 
 
-def _next(command: str) -> None:
-    typer.echo(f"next: {command}")
+def _next(*arguments: str) -> None:
+    import shlex
+
+    typer.echo(f"next: {shlex.join(['towercrane', *arguments])}")
 
 
 def _fail(message: str) -> None:

@@ -58,7 +58,7 @@ class Trajectory:
         Time at which the run ended [s].
     end_state : ndarray, shape (size,)
     evaluations, accepted, rejected : int
-        Right-hand sides; steps taken; steps tried again.
+        Right-hand sides; steps taken; steps tried again (-1: SciPy does not tell).
     smallest_step : float
         Smallest step [s].
     cpu_seconds, wall_seconds : float
@@ -166,7 +166,7 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
     from towercrane import stepper
 
     system = run.system
-    guards, guards_before = np.empty(len(system.guards)), np.empty(len(system.guards))
+    guards = np.empty(len(system.guards))
     k, scratch = np.empty((len(tableau.a), system.size)), np.empty((3, system.size))
     work, step = np.zeros(system.work_shape), 0.0
     owner = _phase_of(sample_times, phases)
@@ -181,7 +181,7 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
             system.rhs, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
             tableau.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, k, scratch,
             np.minimum(sample_times[mine] - begin, t_end), run.samples[first : first + np.count_nonzero(mine)],
-            STEPS_PER_CALL, inputs, *system.constants, work, guards, guards_before, system.floors,
+            STEPS_PER_CALL, inputs, *system.constants, work, guards, system.floors,
         )  # fmt: skip
         status, interrupted = stepper.PAUSED, False
         while status == stepper.PAUSED and not interrupted:
@@ -233,6 +233,7 @@ def _scipy(
         guard.terminal, guard.direction = True, -1.0  # type: ignore[attr-defined]
         return guard
 
+    run.counts[REJECTED] = -1
     # A state that must not steer the step gets a tolerance that it always meets.
     atol = np.where(np.isinf(run.atol), 1e300, run.atol)
     watched = [index for index, floor in enumerate(system.floors) if np.isfinite(floor)]
@@ -242,6 +243,10 @@ def _scipy(
         run.restart(phases, current)
         stop = float(phases.times[current + 1] if split else phases.times[-1])
         wanted = sample_times[owner == current] if split else sample_times
+        if not np.all(np.isfinite(rhs(run.time, run.state))):
+            return NOT_FINITE
+        if fallen := [index for index in watched if guards[index] < system.floors[index]]:
+            return system.guards[fallen[0]]
         try:
             solution = solve_ivp(
                 rhs, (run.time, stop), run.state, method=method, rtol=run.rtol, atol=atol, dense_output=True,

@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from os import PathLike
-
     from numpy.typing import ArrayLike, NDArray
 
     Floats = NDArray[np.float64]
@@ -63,11 +61,9 @@ class Motion:
         return _polynomial(self.coefficients[-1], self.switch_times[-1] - self.switch_times[-2])
 
     def piece(self, time: float) -> Floats:
-        """Coefficients of the motion about ``time``, valid until the next switch time; shape (k,)."""
+        """Coefficients about a ``time`` of zero or more, valid until the next switch time; shape (k,)."""
         if time >= self.duration - SAME_INSTANT:
             return _padded(self.end, self.coefficients.shape[1])
-        if time < 0.0:
-            return _padded(float(self.coefficients[0, 0]), self.coefficients.shape[1])
         index = int(np.searchsorted(self.switch_times, time + SAME_INSTANT, side="right")) - 1
         return _shifted(self.coefficients[index], max(time - self.switch_times[index], 0.0))
 
@@ -85,14 +81,15 @@ class Motion:
         resting = np.where(t < 0.0, self.coefficients[0, 0], self.end) if derivative == 0 else 0.0
         return np.where(rests, resting, value)
 
-    def range(self) -> tuple[float, float]:
-        """Smallest and largest value that the motion ever takes."""
-        values = [float(self.coefficients[0, 0]), self.end]
-        for start, stop, piece in zip(self.switch_times[:-1], self.switch_times[1:], self.coefficients, strict=True):
+    def range(self, derivative: int = 0) -> tuple[float, float]:
+        """Smallest and largest value that the motion, or a derivative of it, ever takes."""
+        values = [float(self.coefficients[0, 0]), self.end] if derivative == 0 else [0.0]
+        pieces = np.polynomial.polynomial.polyder(self.coefficients, derivative, axis=1)
+        for span, piece in zip(np.diff(self.switch_times), pieces, strict=True):
             rate = np.polynomial.polynomial.polytrim(np.polynomial.polynomial.polyder(piece))
             turns = np.polynomial.polynomial.polyroots(rate) if len(rate) > 1 else np.empty(0)
-            inside = turns.real[(abs(turns.imag) < 1e-12) & (turns.real > 0) & (turns.real < stop - start)]
-            values += [_polynomial(piece, t) for t in (0.0, stop - start, *inside)]
+            inside = turns.real[(abs(turns.imag) < 1e-12) & (turns.real > 0) & (turns.real < span)]
+            values += [_polynomial(piece, t) for t in (0.0, span, *inside)]
         return min(values), max(values)
 
 
@@ -170,14 +167,6 @@ def table(times: ArrayLike, values: ArrayLike) -> Motion:
         raise ValueError("table: wanted times that start at 0 and increase")
     spline = CubicSpline(t, x, bc_type="clamped")
     return Motion(t, np.ascontiguousarray(spline.c[::-1].T))
-
-
-def read_csv(path: str | PathLike[str]) -> Motion:
-    """Motion through the points of a CSV file: one header line, then time [s] and value per line."""
-    points = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
-    if points.shape[1] != 2:
-        raise ValueError(f"{path}: wanted two columns, time and value, got {points.shape[1]}")
-    return table(points[:, 0], points[:, 1])
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.simulate import case_model
+from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from towercrane.case import Case
 
 FRAME_MODES = 5
-"""Frequencies of the coupled crane that are shown: the pendulum's and four of the structure."""
+"""Frequencies of the coupled crane that are shown, commonly the pendulum's and four of the structure."""
 
 
 def natural_frequencies(case: Case) -> dict[str, Any]:
@@ -28,14 +29,18 @@ def natural_frequencies(case: Case) -> dict[str, Any]:
     dict
         ``tower`` (roots, frequencies_hz, seconds), ``jib`` (roots, frequencies_hz), ``finite_elements``
         (frequencies_hz, relative_difference, elements, seconds), ``crane`` (a list with trolley_position_m,
-        frequencies_hz, finite_elements_hz, relative_difference), ``lattice`` where the case describes one,
+        frequencies_hz, swing_mode, finite_elements_hz, relative_difference; outcome and message where the tower
+        buckles), ``lattice`` where the case describes one,
         ``assumed``.
     """
-    from modal import cantilever_modes, finite_element_frequencies
+    from modal import cantilever_modes, characteristic_roots, finite_element_frequencies
 
     crane = case.radial_crane()
     count, elements = case.modes.count, case.modes.elements
-    modes, seconds = _timed(lambda: cantilever_modes(crane.tower, count, crane.end_body))
+    modes = cantilever_modes(crane.tower, count, crane.end_body)
+    tower, body = crane.tower, crane.end_body
+    ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
+    _, seconds = _timed(lambda: characteristic_roots(*ratios, count))
     jib = cantilever_modes(crane.jib, count)
     checked, check_seconds = _timed(
         lambda: finite_element_frequencies(crane.tower, count, crane.end_body, elements=elements)
@@ -73,11 +78,13 @@ def _coupled(case: Case, position: float) -> dict[str, Any]:
     from modal import frame_frequencies
 
     crane, model = case.radial_crane(), case_model(case)
-    found = model.natural_frequencies(position, case.rope.length)[:FRAME_MODES]
-    row: dict[str, Any] = {
-        "trolley_position_m": position,
-        "frequencies_hz": (found / (2 * np.pi)).tolist(),
-    }
+    row: dict[str, Any] = {"trolley_position_m": position, "frequencies_hz": []}
+    try:
+        found, swing = model.natural_modes(position, case.rope.length)
+    except NoEquilibrium as failure:
+        return row | {"outcome": failure.outcome, "message": str(failure)}
+    found = found[:FRAME_MODES]
+    row |= {"frequencies_hz": (found / (2 * np.pi)).tolist(), "swing_mode": swing + 1}
     if model.tower_modes and model.jib_modes and not model.weight_softening:
         frame = frame_frequencies(
             crane.tower,

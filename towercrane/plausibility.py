@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from towercrane.motion import Motion
 
 MOST_SAMPLES = 5_000_000
+FASTEST = 10.0
+"""Largest plausible speed of trolley and hook [m/s]."""
+
 ROUNDING = 1e-9
 """Relative; a motion that ends at the jib's end may overshoot it by rounding."""
 
@@ -87,7 +90,7 @@ RANGES = (
     Range("payload.rope_damping", "N m s/rad", 1e-6, 1e8, ("kN m s/rad",)),
     Range("payload.drag_area", "m^2", 1e-4, 1e3, AREAS),
     Range("rope.length", "m", 0.1, 1000, LENGTHS),
-    Range("motion.*.speed", "m/s", 1e-3, 10, ("m/min", "mm/s", "km/h")),
+    Range("motion.*.speed", "m/s", 1e-3, FASTEST, ("m/min", "mm/s", "km/h")),
     Range("motion.*.acceleration", "m/s^2", 1e-4, 20, ("cm/s^2", "mm/s^2")),
     Range("motion.*.jerk", "m/s^3", 1e-5, 1e3, ("cm/s^3", "mm/s^3")),
     Range("motion.*.delay", "s", 1e-3, 1e5, ("ms", "min")),
@@ -125,6 +128,14 @@ def check_output(tree: dict[str, Any]) -> Iterator[Fault]:
     elif duration / step > MOST_SAMPLES:
         got = f"{step:g} s, which makes {duration / step:.3g}"
         yield Fault("", "run.output_step", f"at most {MOST_SAMPLES} output samples", got, "ms or s mixed up?")
+
+
+def check_elements(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Fewer unknowns than wanted modes."""
+    count, elements = _number(tree, "modes.count", "1", 4), _number(tree, "modes.elements", "1", 32)
+    if count and elements and count >= 2 * elements:
+        wanted = f"more than {count / 2:g} elements for {count:g} modes"
+        yield Fault("", "modes.elements", wanted, f"{elements:g}", "each element adds two unknowns")
 
 
 def check_lattice(tree: dict[str, Any]) -> Iterator[Fault]:
@@ -223,13 +234,21 @@ def _motion(
     try:
         motion = profile(described, begin, folder)
     except CaseError as error:
-        return None, error.faults
+        named = f"named by {way.key}.file of the case"
+        return None, [replace(f, hint=f"{f.hint}; {named}" if f.hint else named) for f in error.faults]
     except (ArithmeticError, ValueError) as error:
         return None, [Fault("", way.key, "a motion that can be computed", str(error))]
     key = f"{way.key}.file" if described.shape == "table" else way.key
     if hoists and abs(float(motion(0.0)) - begin) > 1e-6:
         got = f"a first length of {float(motion(0.0)):g} m"
         return None, [Fault("", key, f"a table that begins with rope.length, {begin:g} m", got)]
+    fastest = max(abs(rate) for rate in motion.range(1))
+    if described.shape == "table" and fastest > FASTEST:
+        got, hint = (
+            f"a table that reaches {fastest:.3g} m/s",
+            "times in seconds? the curve through the points is smooth",
+        )
+        return None, [Fault("", key, f"speeds up to {FASTEST:g} m/s", got, hint)]
     low, high = motion.range()
     if not (way.keeps(low) and way.keeps(high)):
         return None, [way.fault(key, f"a motion from {low:g} to {high:g} m")]

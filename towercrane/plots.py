@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Okabe and Ito's palette, distinguishable with every common colour vision."""
 
+MOST_SHAPES = 6
+"""Mode shapes in one picture; more could not be told apart."""
+
 DASHES = ("-", "--", "-.", ":")
 """Lines differ in dash as well, for print in grey."""
 
@@ -41,13 +44,13 @@ def modes(tower: Modes, jib: Modes, notes: list[tuple[str, str, str]] | None = N
     figure = _figure(9.0, 6.0)
     left, right = figure.subplots(1, 2, width_ratios=(1, 1.4))
     for axes, shapes, upright in ((left, tower, True), (right, jib, False)):
-        along = np.linspace(0.0, shapes.beam.length, 200)
-        for i, deflection in enumerate(shapes(along)):
+        along = np.linspace(0.0, shapes.beam.length, 400)
+        for i, deflection in enumerate(shapes(along)[:MOST_SHAPES]):
             deflection = deflection / max(abs(deflection).max(), 1e-300)
             line = {"color": COLOURS[i % 6], "ls": DASHES[i % 4]}
-            name = f"{i + 1}: {shapes.frequencies_hz[i]:.4g} Hz"
+            name = f"mode {i + 1}: {shapes.frequencies_hz[i]:.4g} Hz"
             axes.plot(*((deflection, along) if upright else (along, deflection)), label=name, **line)
-        axes.legend(title="mode", loc="upper left" if upright else "lower left", fontsize=8)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, fontsize=8, frameon=False)
     left.axvline(0.0, color="0.6", lw=0.8)
     right.axhline(0.0, color="0.6", lw=0.8)
     left.set(title="Tower with slewing part", xlabel="deflection / largest [1]", ylabel="height [m]")
@@ -62,20 +65,22 @@ def modes(tower: Modes, jib: Modes, notes: list[tuple[str, str, str]] | None = N
 
 def overview(result: xr.Dataset) -> Figure:
     """What the drives, the load, the tower and the jib do, one below the other."""
-    figure = _figure(9.0, 10.0)
-    rows = figure.subplots(5, 1, sharex=True)
     time = result["time"]
-    series = (
+    series = [
         ("trolley_position", 1.0, "trolley [m]"),
         ("swing_angle", 180.0 / np.pi, "swing [deg]"),
         ("tower_tip_displacement", 1e3, "tower top [mm]"),
         ("jib_tip_deflection", 1e3, "jib tip [mm]"),
         ("rope_tension", 1e-3, "rope tension [kN]"),
-    )
+    ]
+    if np.ptp(result["rope_length"].values) > 0.0:
+        series.insert(1, ("rope_length", 1.0, "rope [m]"))
+    figure = _figure(9.0, 2.0 * len(series))
+    rows = figure.subplots(len(series), 1, sharex=True)
     for i, (axes, (name, factor, label)) in enumerate(zip(rows, series, strict=True)):
-        axes.plot(time, factor * result[name], color=COLOURS[i], label=result[name].attrs["long_name"])
+        axes.plot(time, factor * result[name], color=COLOURS[i % 6], label=result[name].attrs["long_name"])
         axes.set_ylabel(label)
-        axes.legend(fontsize=8)
+        _legend(axes)
     rows[-1].set_xlabel("time [s]")
     figure.suptitle(_title([result]))
     _footnote(figure, assumed(result))
@@ -93,7 +98,7 @@ def motion(results: list[xr.Dataset]) -> Figure:
             axes.plot(time, values, **_line(i, result))
     for axes, label in zip(rows, ("position [m]", "speed [m/s]", "acceleration [m/s²]"), strict=True):
         axes.set_ylabel(label)
-        axes.legend(fontsize=8)
+    _legend(rows[0])
     rows[-1].set_xlabel("time [s]")
     return _titled(figure, "Trolley motion", results)
 
@@ -125,7 +130,7 @@ def phase(results: list[xr.Dataset]) -> Figure:
             axes.plot(angle[row], rate[row], "o", color="black", ms=4)
             axes.annotate(letter, (angle[row], rate[row]), xytext=(5, 5), textcoords="offset points")
         axes.set_xlabel("swing angle [deg]")
-        axes.legend(fontsize=8, loc="upper right")
+        _legend(axes)
     panels[0].set_ylabel("swing rate [deg/s]")
     return _titled(figure, "Phase path; A start, B full speed, C braking, D stop", results)
 
@@ -134,9 +139,11 @@ def spectrum(results: list[xr.Dataset]) -> Figure:
     """Amplitude spectrum of the tower top with its peaks (Fig. 8)."""
     figure = _figure(8.0, 4.8)
     axes = figure.subplots()
+    drawn = False
     for i, result in enumerate(results):
         time, values = result["time"].values, result["tower_tip_displacement"].values
         frequencies, amplitudes = amplitude_spectrum(time, values)
+        drawn = drawn or len(amplitudes) > 0
         axes.plot(frequencies, 1e3 * amplitudes, **_line(i, result))
         for at in spectrum_peaks(time, values, most=3):
             height = 1e3 * np.interp(at, frequencies, amplitudes)
@@ -144,10 +151,14 @@ def spectrum(results: list[xr.Dataset]) -> Figure:
                 f"{at:.3f} Hz", (at, height), xytext=(4, 4 + 9 * i), textcoords="offset points", fontsize=7,
                 color=COLOURS[i % 6],
             )  # fmt: skip
-    axes.set(xlim=(0.0, 1.2), xlabel="frequency [Hz]", ylabel="amplitude of the tower top [mm]", yscale="log")
-    top = axes.get_ylim()[1]
-    axes.set_ylim(1e-5 * top, 2.0 * top)
-    axes.legend(fontsize=8)
+    axes.set(xlim=(0.0, 1.2), xlabel="frequency [Hz]", ylabel="amplitude of the tower top [mm]")
+    if drawn:
+        axes.set_yscale("log")
+        top = axes.get_ylim()[1]
+        axes.set_ylim(1e-5 * top, 2.0 * top)
+    else:
+        axes.text(0.5, 0.5, "the tower top does not vibrate", ha="center", transform=axes.transAxes)
+    _legend(axes)
     return _titled(figure, "Spectrum of the tower top", results)
 
 
@@ -191,10 +202,15 @@ def _over_time(results: list[xr.Dataset], name: str, factor: float, label: str, 
     axes: Axes = figure.subplots()
     for i, result in enumerate(results):
         axes.plot(result["time"], factor * result[name], **_line(i, result))
-    axes.axhline(0.0, color="0.7", lw=0.6, zorder=0)
     axes.set(xlabel="time [s]", ylabel=label)
-    axes.legend(fontsize=8)
+    axes.grid(axis="y", color="0.9", lw=0.6)
+    _legend(axes)
     return _titled(figure, title, results)
+
+
+def _legend(axes: Axes) -> None:
+    """Name the lines above the axes, where no curve can be hidden."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, ncols=2, fontsize=8, frameon=False)
 
 
 def _line(i: int, result: xr.Dataset) -> dict[str, Any]:
@@ -203,8 +219,9 @@ def _line(i: int, result: xr.Dataset) -> dict[str, Any]:
 
 def _label(result: xr.Dataset) -> str:
     name = result.attrs.get("case", result.attrs["crane"]).rpartition("/")[2]
-    speed, rope = float(abs(result["trolley_speed"]).max()), float(result["rope_length"][0])
-    label = f"{name}: {speed:.2g} m/s, {result.attrs['payload_mass']:.4g} kg, rope {rope:.4g} m"
+    speed, first, last = float(abs(result["trolley_speed"]).max()), *result["rope_length"].values[[0, -1]]
+    rope = f"{first:.4g} m" if abs(last - first) < 1e-6 else f"{first:.4g} to {last:.4g} m"
+    label = f"{name}: {speed:.2g} m/s, {result.attrs['payload_mass']:.4g} kg, rope {rope}"
     if result.attrs["outcome"] != "finished":
         label += f" ({result.attrs['outcome']} at {result.attrs['end_time']:.2f} s)"
     return label
@@ -232,10 +249,17 @@ def _footnote(figure: Figure, notes: list[tuple[str, str, str]]) -> None:
 
 
 def _ramp_ends(result: xr.Dataset) -> list[tuple[str, int]]:
-    """Rows at which the trolley starts, reaches its speed, brakes and stops."""
+    """Rows at which the trolley starts, reaches its speed, brakes and stops, as far as the run came."""
     speed = abs(result["trolley_speed"].values)
     if not speed.max() > 0.0:
         return []
     moving, full = np.flatnonzero(speed > 0.0), np.flatnonzero(speed > (1.0 - 1e-9) * speed.max())
-    rows = (max(moving[0] - 1, 0), full[0], full[-1], min(moving[-1] + 1, len(speed) - 1))
-    return [(letter, int(row)) for letter, row in zip("ABCD", rows, strict=True)]
+    last = len(speed) - 1
+    ends = [("A", max(moving[0] - 1, 0))]
+    if full[0] < last:
+        ends.append(("B", full[0]))
+    if full[-1] < last:
+        ends.append(("C", full[-1]))
+    if moving[-1] < last:
+        ends.append(("D", moving[-1] + 1))
+    return [(letter, int(row)) for letter, row in ends]

@@ -11,7 +11,7 @@ import numpy as np
 
 from towercrane import __version__
 from towercrane.cranes.radial import RadialModel
-from towercrane.integrate import Trajectory, evaluate, integrate
+from towercrane.integrate import FINISHED, Trajectory, evaluate, integrate
 from towercrane.motion import Motion, phases
 from towercrane.results import dataset
 from towercrane.system import Model, NoEquilibrium
@@ -84,14 +84,19 @@ def simulate(
             model.system, cut, start, sample_times,
             method=method, rtol=rtol, atol=atol, split=split, progress=progress,
         )  # fmt: skip
-    _, guards = evaluate(model.system, cut, run.times, run.states)
-    quantities = model.observe(motions, run.times, run.states, guards)
+    times, states = run.times, run.states
+    if run.outcome != FINISHED and (len(times) == 0 or times[-1] < run.end_time):
+        # What ended the run shows in its last row.
+        times, states = np.append(times, run.end_time), np.vstack([states, run.end_state])
+    _, guards = evaluate(model.system, cut, times, states)
+    quantities = model.observe(motions, times, states, guards)
     provenance = {
         **model.provenance(),
         "outcome": run.outcome,
         "message": message,
         "end_time": run.end_time,
         "end_state": run.end_state,
+        "output_step": output_step,
         "method": method,
         "rtol": rtol,
         "atol": atol,
@@ -104,7 +109,7 @@ def simulate(
         "wall_seconds": time.perf_counter() - began,
         "versions": json.dumps(versions()),
     }
-    return dataset(run.times, quantities, provenance)
+    return dataset(times, quantities, provenance)
 
 
 def case_model(case: Case, **changes: Any) -> RadialModel:
@@ -137,6 +142,7 @@ def run_case(case: Case, *, progress: Progress | None = None) -> xr.Dataset:
     )
     result.attrs["title"] = case.title
     result.attrs["case"] = case.name
+    result.attrs["changes"] = json.dumps(case.changes)
     result.attrs["case_text"] = json.dumps(case.as_written)
     # The lattice's members enter the tower's check only; a run rests on the equivalent beam.
     rests_on = [a for a in case.assumed if not a.key.startswith("crane.tower.lattice.")]

@@ -18,6 +18,10 @@ SHORTEST = 16
 """Samples below which a spectrum says nothing."""
 
 
+STILL = 1e-9
+"""Signals that vary by less than this fraction of their size are rounding."""
+
+
 def amplitude_spectrum(times: Floats, values: Floats) -> tuple[Floats, Floats]:
     """One-sided amplitude spectrum of a uniformly sampled signal.
 
@@ -34,9 +38,11 @@ def amplitude_spectrum(times: Floats, values: Floats) -> tuple[Floats, Floats]:
     frequencies : ndarray, shape (k,)
         [Hz]
     amplitudes : ndarray, shape (k,)
-        In the unit of the values; empty if the signal is too short.
+        In the unit of the values; empty if the signal is too short or at rest.
     """
-    if len(times) < SHORTEST:
+    if len(times) > 2 and abs(times[-1] - times[-2] - (times[1] - times[0])) > 1e-6 * (times[1] - times[0]):
+        times, values = times[:-1], values[:-1]  # a run that ended early closes with a row off the grid
+    if len(times) < SHORTEST or np.ptp(values) <= STILL * np.max(abs(values)):
         return np.empty(0), np.empty(0)
     line = np.polynomial.Polynomial.fit(times, values, 1)
     window = np.hanning(len(times))
@@ -54,7 +60,8 @@ def spectrum_peaks(times: Floats, values: Floats, *, most: int = 5, floor: float
     most : int
         Number of peaks at most.
     floor : float
-        Peaks lower than this fraction of the highest are left out: the lobes of the travelling trolley's drift are.
+        Peaks lower than this fraction of the highest are left out: the window's side lobes (0.027) and those of
+        the travelling trolley's drift are.
     """
     frequencies, amplitudes = amplitude_spectrum(times, values)
     if len(amplitudes) < 3:
@@ -63,15 +70,21 @@ def spectrum_peaks(times: Floats, values: Floats, *, most: int = 5, floor: float
     tops = np.flatnonzero((middle > amplitudes[:-2]) & (middle >= amplitudes[2:])) + 1
     # Below three periods in the record a "peak" is the drift that the window has bent.
     tops = tops[frequencies[tops] > 3.0 / (times[-1] - times[0])]
-    # A true peak is the highest within the main lobe of the window.
-    reach = 4 * PADDING
-    lone = [amplitudes[k] >= amplitudes[max(0, k - reach) : k + reach + 1].max() for k in tops]
-    tops = tops[np.array(lone, dtype=bool)]
+    tops = tops[np.array([_stands_out(amplitudes, k) for k in tops], dtype=bool)]
     if not len(tops):
         return []
     tops = tops[amplitudes[tops] >= floor * amplitudes[tops].max()]
     highest = sorted(tops[np.argsort(amplitudes[tops])[::-1]][:most])
     return [_vertex(frequencies[k - 1 : k + 2], amplitudes[k - 1 : k + 2]) for k in highest]
+
+
+def _stands_out(amplitudes: Floats, top: int) -> bool:
+    """Whether the spectrum falls by a third on both sides before it rises above the peak."""
+    for side in (amplitudes[top::-1], amplitudes[top:]):
+        higher = np.flatnonzero(side > side[0])
+        if side[: higher[0] if len(higher) else None].min() > side[0] / 1.5:
+            return False
+    return True
 
 
 def _vertex(x: Floats, y: Floats) -> float:
@@ -80,14 +93,23 @@ def _vertex(x: Floats, y: Floats) -> float:
     return float(x[1] if curve == 0.0 else x[1] + 0.5 * (x[1] - x[0]) * (y[0] - y[2]) / curve)
 
 
-def swing_period(times: Floats, angle: Floats) -> float | None:
-    """Mean time between upward passages through the middle [s]; None without two passages."""
-    if len(times) < 3:
+def swing_period(times: Floats, angle: Floats, *, smallest: float = 1e-6) -> float | None:
+    """Median time between upward passages through the middle [s].
+
+    Returns
+    -------
+    float or None
+        None where there is no one period: fewer than two passages, a swing below ``smallest`` [rad], fewer than
+        eight samples a period, or intervals that differ from their median by more than a tenth.
+    """
+    if len(times) < 3 or np.ptp(angle) < 2.0 * smallest:
         return None
     centred = angle - 0.5 * (angle.max() + angle.min())
     up = np.flatnonzero((centred[:-1] < 0.0) & (centred[1:] >= 0.0))
-    if len(up) < 2:
-        return None
     fraction = -centred[up] / (centred[up + 1] - centred[up])
-    passages = times[up] + fraction * (times[up + 1] - times[up])
-    return float((passages[-1] - passages[0]) / (len(passages) - 1))
+    intervals = np.diff(times[up] + fraction * (times[up + 1] - times[up]))
+    if not len(intervals):
+        return None
+    period = float(np.median(intervals))
+    scattered = np.max(abs(intervals / period - 1.0)) > 0.1
+    return None if scattered or period < 8.0 * (times[1] - times[0]) else period

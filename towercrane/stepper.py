@@ -25,6 +25,9 @@ ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 10.0
 
+LOOKS = 8
+"""Points of a step at which the guards are looked at once a stage has seen one below its floor."""
+
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 _rhs = types.FunctionType(rhs_signature())
 _constants = (_two, _one, _two, _three, _three, _two)
@@ -54,6 +57,15 @@ def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, ato
     if rows == 2:
         return h * first / np.sqrt((first + 0.01 * second) * active)
     return h * np.sqrt(first / active)
+
+
+@kernel()
+def _fallen(guards: Any, floors: Any) -> int:
+    """Index of the first guard below its floor, or -1."""
+    for g in range(guards.size):
+        if guards[g] < floors[g]:
+            return g
+    return -1
 
 
 @kernel()
@@ -87,7 +99,7 @@ def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
 
 
 @kernel()
-def _first_step(y: Any, slope: Any, order: int, rtol: float, atol: Any, limit: float) -> float:
+def _first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> float:
     """First guess of a step, from the size of state and slope."""
     size, speed = 0.0, 0.0
     for m in range(y.size):
@@ -97,16 +109,15 @@ def _first_step(y: Any, slope: Any, order: int, rtol: float, atol: Any, limit: f
             speed += (slope[m] / scale) ** 2
     if speed == 0.0:
         return limit
-    # A state at rest says nothing of its scale; the slope alone then gives a cautious step.
+    # A state at the origin says nothing of its scale: begin small, the control grows it tenfold a step.
     guess = 0.01 * np.sqrt(size / speed) if size > 1e-10 else 0.0
-    cautious = (0.01 / np.sqrt(speed)) ** (1.0 / (order + 1))
-    return min(limit, max(min(guess, cautious), 1e-6 * limit))
+    return min(limit, max(guess, 1e-6 * limit))
 
 
 @kernel(
     types.int64(
         _rhs, types.int64, _two, _one, _two, _two, types.int64, types.float64, _one, types.int64[::1],
-        types.float64, _one, _one, _two, _two, _one, _two, types.int64, *_constants, _one, _one, _one,
+        types.float64, _one, _one, _two, _two, _one, _two, types.int64, *_constants, _one, _one,
     )
 )  # fmt: skip
 def advance(
@@ -135,7 +146,6 @@ def advance(
     tables: Any,
     work: Any,
     guards: Any,
-    guards_before: Any,
     floors: Any,
 ) -> int:
     """Carry y from clock[TIME] towards t_end, at most max_steps accepted steps.
@@ -154,8 +164,8 @@ def advance(
         Stages; the first must not be touched between two calls of one phase.
     sample_times, samples : ndarray, shapes (p,) and (p, size)
         Times since the phase began at which the state is wanted, increasing; the states.
-    guards, guards_before, floors : ndarray, shape (g,)
-        Guards now and one step earlier, and the values they must not fall below.
+    guards, floors : ndarray, shape (g,)
+        Scratch for the guards, and the values they must not fall below.
 
     Returns
     -------
@@ -172,13 +182,11 @@ def advance(
             k[0, m] = slope[m]
             if not np.isfinite(slope[m]):
                 return NOT_FINITE
-        for g in range(guards.size):
-            guards_before[g] = guards[g]
-            if guards[g] < floors[g]:
-                counts[GUARD_INDEX] = g
-                return GUARD
+        counts[GUARD_INDEX] = _fallen(guards, floors)
+        if counts[GUARD_INDEX] >= 0:
+            return GUARD
     if h <= 0.0:
-        h = _first_step(y, slope, error_order, rtol, atol, t_end)
+        h = _first_step(y, slope, rtol, atol, t_end)
     shortest = 16.0 * np.finfo(np.float64).eps * t_end
     taken = 0
     grow = GROW
@@ -192,9 +200,11 @@ def advance(
         last = t + h >= t_end - shortest
         step = t_end - t if last else h
         # The slopes go through a fixed array: a view of k per stage would cost a tenth of the right-hand side.
+        suspect = False
         for i in range(1, stages + 1):
             _stage(y, a, i, k, step, trial)
             rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+            suspect = suspect or _fallen(guards, floors) >= 0
             for m in range(y.size):
                 k[i, m] = slope[m]
         for m in range(y.size):
@@ -210,32 +220,37 @@ def advance(
             grow = 1.0
             continue
 
-        crossed = -1
-        for g in range(guards.size):
-            if crossed < 0 and guards[g] < floors[g] <= guards_before[g]:
-                crossed = g
         wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
-        if crossed >= 0 or wanted:
+        if suspect or wanted:
             for i in range(stages + 1, all_stages):
                 _stage(y, a, i, k, step, trial)
                 rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
                 for m in range(y.size):
                     k[i, m] = slope[m]
             counts[EVALUATIONS] += all_stages - stages - 1
-        stop = t_new
-        if crossed >= 0:
-            low, high = 0.0, 1.0
-            while high - low > 1e-12:
+        crossed, stop = -1, t_new
+        # A stage is only an estimate of the state there; the dense output decides, also over a dip that recovers.
+        part = 0
+        while suspect and crossed < 0 and part < LOOKS:
+            part += 1
+            low, high = (part - 1.0) / LOOKS, part / LOOKS
+            _dense(y, dense, k, step, high, trial)
+            rhs(t + high * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+            counts[EVALUATIONS] += 1
+            crossed = _fallen(guards, floors)
+            while crossed >= 0 and high - low > 1e-12:
                 middle = 0.5 * (low + high)
                 _dense(y, dense, k, step, middle, trial)
                 rhs(t + middle * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
                 counts[EVALUATIONS] += 1
-                if guards[crossed] < floors[crossed]:
-                    high = middle
+                first = _fallen(guards, floors)
+                if first >= 0:
+                    high, crossed = middle, first
                 else:
                     low = middle
-            stop = t + high * step
-            _dense(y, dense, k, step, high, new)
+            if crossed >= 0:
+                stop = t + high * step
+                _dense(y, dense, k, step, high, new)
         while counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= stop:
             row = counts[WRITTEN]
             _dense(y, dense, k, step, (sample_times[row] - t) / step, samples[row])
@@ -243,8 +258,6 @@ def advance(
         for m in range(y.size):
             y[m] = new[m]
             k[0, m] = k[stages, m]
-        for g in range(guards.size):
-            guards_before[g] = guards[g]
         t = stop
         taken += 1
         counts[ACCEPTED] += 1

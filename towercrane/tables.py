@@ -12,8 +12,9 @@ WIDTH_OF_A_PIPE = 120
 
 
 def _console() -> Console:
-    console = Console()
-    return console if console.is_terminal else Console(width=WIDTH_OF_A_PIPE)
+    # Without markup: brackets in units and titles are text.
+    width = None if Console().is_terminal else WIDTH_OF_A_PIPE
+    return Console(width=width, markup=False, highlight=False)
 
 
 def _table(title: str, *columns: str, left: int = 1) -> Table:
@@ -28,9 +29,9 @@ def modes_tables(report: dict[str, Any]) -> None:
     console = _console()
     tower, jib, check = report["tower"], report["jib"], report["finite_elements"]
     printed = tower.get("published_roots", [])
-    columns = ["mode", "root", "frequency [Hz]", f"{check['elements']} elements [Hz]", "difference"]
+    columns = ["mode", "root", "f [Hz]", f"{check['elements']} elements [Hz]", "relative"]
     if printed:
-        columns += ["published root", "ours - published"]
+        columns += ["published", "ours less published"]
     table = _table(f"{report['name']}: tower with the slewing part on its end", *columns)
     rows = zip(
         tower["roots"],
@@ -43,11 +44,13 @@ def modes_tables(report: dict[str, Any]) -> None:
         cells = [str(i + 1), f"{root:.6f}", f"{frequency:.6f}", f"{element:.6f}", f"{difference:.1e}"]
         if i < len(printed):
             gap = root - printed[i]
-            cells += [f"{printed[i]:.3f}", f"{gap:+.4f}" + (" discrepancy" if abs(gap) > 0.005 else "")]
+            cells += [f"{printed[i]:.3f}", f"{gap:+.4f}" + (" (!)" if abs(gap) > 0.005 else "")]
         table.add_row(*cells)
     console.print(table)
+    if any(abs(root - published) > 0.005 for root, published in zip(tower["roots"], printed, strict=False)):
+        console.print("(!) discrepancy: no mass, inertia or offset near the published data gives this root")
     console.print(
-        f"closed form {1e3 * tower['seconds']:.2f} ms, finite elements {1e3 * check['seconds']:.1f} ms (median of 5)"
+        f"closed form {1e3 * tower['seconds']:.3f} ms, finite elements {1e3 * check['seconds']:.1f} ms (median of 5)"
     )
 
     table = _table(f"{report['name']}: jib, clamped at the tower", "mode", "root", "frequency [Hz]")
@@ -58,15 +61,20 @@ def modes_tables(report: dict[str, Any]) -> None:
     model = report["crane_model"]
     title = (
         f"{report['name']}: coupled crane, {model['tower_modes']} tower and {model['jib_modes']} jib modes, "
-        f"load {report['payload_mass_kg']:g} kg on {report['rope_length_m']:g} m; first the load's swing"
+        f"load {report['payload_mass_kg']:g} kg on {report['rope_length_m']:g} m; * the load's swing"
     )
     most = max((len(row["frequencies_hz"]) for row in report["crane"]), default=0)
     table = _table(title, "trolley [m]", *(f"f{i} [Hz]" for i in range(1, most + 1)))
     for row in report["crane"]:
-        table.add_row(f"{row['trolley_position_m']:g}", *(f"{f:.6f}" for f in row["frequencies_hz"]))
+        swing = row.get("swing_mode")
+        cells = [f"{f:.6f}" + ("*" if i == swing else "") for i, f in enumerate(row["frequencies_hz"], start=1)]
+        table.add_row(f"{row['trolley_position_m']:g}", *cells)
         if "relative_difference" in row:
-            table.add_row("  - FE frame", *(f"{d:+.1e}" for d in row["relative_difference"]), style="dim")
+            table.add_row("  less FE frame", *(f"{d:+.1e}" for d in row["relative_difference"]), style="dim")
     console.print(table)
+    for row in report["crane"]:
+        if "outcome" in row:
+            console.print(f"trolley at {row['trolley_position_m']:g} m: {row['outcome']}: {row['message']}")
 
     if "lattice" in report:
         table = _table(f"{report['name']}: tower lattice as a beam", "property", "value", "unit", "use", left=1)
@@ -99,13 +107,16 @@ def run_tables(summary: dict[str, Any]) -> None:
             peak["units"],
         )
     console.print(table)
+    console.print(f"extremes are those of the result's rows, every {summary['output_step_s']:g} s")
+    for change in summary["changes"]:
+        console.print(f"changed               {change}")
     period = summary["swing_period_s"]
     console.print(
-        f"swing period          {f'{period:.4f} s' if period else 'no two passages after the drives stopped'}"
+        f"swing period          {f'{period:.4f} s' if period else 'none: no regular swing after the drives stopped'}"
     )
     shown = ", ".join(f"{f:.4f}" for f in summary["spectrum_peaks_hz"]) or "none"
     console.print(f"tower spectrum peaks  {shown} Hz")
-    natural = ", ".join(f"{f:.4f}" for f in summary["natural_frequencies_hz"][:5])
+    natural = ", ".join(f"{f:.4f}" for f in summary["natural_frequencies_hz"][:5]) or "none"
     console.print(f"natural frequencies   {natural} Hz at the last trolley position")
     balance, solver = summary["energy_balance"], summary["solver"]
     console.print(
@@ -116,7 +127,7 @@ def run_tables(summary: dict[str, Any]) -> None:
         f"{solver['solver_wall_seconds']:.3f} s of {summary['wall_seconds']:.3f} s wall"
     )
     for notice in summary["notices"]:
-        console.print(f"[bold]note[/bold]  {notice}", highlight=False)
+        console.print(f"note     {notice}", style="bold")
     _assumed(console, summary["assumed"])
 
 
@@ -129,9 +140,9 @@ def bench_tables(report: dict[str, Any]) -> None:
             table.add_row(*row)
         console.print(table)
         for note in subject["notes"]:
-            console.print(f"  {note}", style="dim", highlight=False)
+            console.print(f"  {note}", style="dim")
 
 
 def _assumed(console: Console, assumed: list[dict[str, str]]) -> None:
     for entry in assumed:
-        console.print(f"[bold]assumed[/bold]  {entry['key']} = {entry['value']}: {entry['why']}", highlight=False)
+        console.print(f"assumed  {entry['key']} = {entry['value']}: {entry['why']}")

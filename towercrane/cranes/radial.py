@@ -33,6 +33,9 @@ TOWER_BUCKLED = "tower buckled"
 TILT_LIMIT = 0.5
 """Tilt of the tower top at which a run ends as buckled [rad]: far beyond what a beam theory of small slopes holds."""
 
+ROUNDING = 1e-9
+"""Way beyond an end of the jib that counts as parked on it [m]."""
+
 TABLE_POWERS = 8
 """Coefficients per cell of the tabulated jib shapes."""
 
@@ -110,8 +113,9 @@ class RadialModel:
         N(s) = (m_r + m_c + m_p + m_t (l_t - s)) g at the height s.
         """
         crane = self.crane
-        above = crane.slewing_mass + crane.trolley_mass + self.load.mass
-        along = crane.tower.mass_per_length * self.tower.weighted_slope_matrix()
+        own = 1.0 if self.self_weight else 0.0
+        above = own * crane.slewing_mass + crane.trolley_mass + self.load.mass
+        along = own * crane.tower.mass_per_length * self.tower.weighted_slope_matrix()
         return crane.gravity * (above * self.tower.slope_matrix() + along)
 
     @cached_property
@@ -154,8 +158,8 @@ class RadialModel:
             rhs=kernel.rhs,
             size=self.size,
             guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED),
-            floors=np.array([-np.inf if self.rope_as_rod else 0.0, 0.0, 0.0, 0.0]),
-            scale=self._scale(vectors[kernel.TIP]),
+            floors=np.array([-np.inf if self.rope_as_rod else 0.0, -ROUNDING, -ROUNDING, 0.0]),
+            scale=self._scale(),
             numbers=numbers,
             vectors=vectors,
             matrices=np.array([base, stiffness]),
@@ -164,10 +168,11 @@ class RadialModel:
             restore=lambda state: restore(state, n, self.axes),
         )
 
-    def _scale(self, tip: Floats) -> Floats:
-        """Tolerances are metres at the tips, radians of swing; the work steers nothing."""
-        amplitude = np.concatenate([tip[: self.tower_modes], self.jib(self.crane.jib.length)])
-        scale = np.concatenate([1.0 / np.maximum(abs(amplitude), 1e-12), np.ones(self.axes)])
+    def _scale(self) -> Floats:
+        """Tolerances are metres where a mode moves most, radians of swing; the work steers nothing."""
+        # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
+        largest = [abs(m(np.linspace(0.0, m.beam.length, 201))).max(axis=1) for m in (self.tower, self.jib)]
+        scale = np.concatenate([1.0 / np.concatenate(largest), np.ones(self.axes)])
         return np.concatenate([scale, scale, [np.inf]])
 
     def _shape_table(self) -> Floats:
@@ -266,7 +271,7 @@ class RadialModel:
             q = q + step
             if np.max(abs(step) / scale) < 1e-13 * (1.0 + np.max(abs(q) / scale)):
                 return q
-        raise NoEquilibrium(TOWER_BUCKLED, self._buckling_message())
+        raise NoEquilibrium(TOWER_BUCKLED, "the search for the equilibrium under the weight did not settle")
 
     def _buckling_message(self) -> str:
         if not self.tower_modes:
@@ -310,9 +315,32 @@ class RadialModel:
 
     def natural_frequencies(self, trolley_position: float, rope_length: float) -> Floats:
         """Angular frequencies of small motions, pendulum included; shape (coordinates + 1,) [rad/s]."""
+        return self.natural_modes(trolley_position, rope_length)[0]
+
+    def natural_modes(self, trolley_position: float, rope_length: float) -> tuple[Floats, int]:
+        """Small motions about the undeformed crane.
+
+        Returns
+        -------
+        frequencies : ndarray, shape (coordinates + 1,)
+            Angular frequencies, ascending [rad/s].
+        swing : int
+            Index of the mode in which the load swings most: the one with the largest share of its elastic and
+            potential energy in the pendulum.
+
+        Raises
+        ------
+        NoEquilibrium
+            If the weight's softening leaves the tower no stiffness.
+        """
         from scipy.linalg import eigh
 
         mass, stiffness = self.linear_matrices(trolley_position, rope_length)
-        # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is.
-        reciprocal = eigh(mass, stiffness, eigvals_only=True)
-        return np.sort(1.0 / np.sqrt(reciprocal))
+        if np.linalg.eigvalsh(stiffness).min() <= 0.0:
+            raise NoEquilibrium(TOWER_BUCKLED, self._buckling_message())
+        # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is. Its vectors
+        # have unit energy in the stiffness.
+        reciprocal, vectors = eigh(mass, stiffness)
+        frequencies = 1.0 / np.sqrt(reciprocal[::-1])
+        swing = int(np.argmax(stiffness[-1, -1] * vectors[-1, ::-1] ** 2))
+        return frequencies, swing
