@@ -181,9 +181,9 @@ def test_buckling_tower_is_named_with_its_load_factor():
     weak = dataclasses.replace(CRANE.tower, second_moment_of_area=0.014 / 400)
     slender = RadialModel(dataclasses.replace(CRANE, tower=weak), Load(800.0), 2, 2, weight_softening=True)
     inputs = np.array([[20.0, 0.0, 0.0], [18.0, 0.0, 0.0]])
-    with pytest.raises(NoEquilibrium, match=r"it would carry 0\.\d+ times that weight"):
+    with pytest.raises(NoEquilibrium, match=r"would carry 0\.\d+ times the weight"):
         slender.equilibrium(inputs)
-    with pytest.raises(NoEquilibrium, match="it would carry"):
+    with pytest.raises(NoEquilibrium, match="would carry"):
         slender.natural_frequencies(20.0, 18.0)
     result = simulate(slender, standing(20.0, 18.0), 10.0)
     assert (result.attrs["outcome"], result.attrs["end_time"]) == ("tower buckled", 0.0)

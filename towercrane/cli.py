@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
+    from collections.abc import Callable, Mapping
 
     import xarray as xr
 
@@ -18,12 +18,6 @@ if TYPE_CHECKING:
 
 BAD_INPUT, ENDED_EARLY, INTERRUPTED = 2, 3, 130
 """Exit codes besides 0: bad input; the run ended before its time with a named outcome; Ctrl-C."""
-
-RUN_FILES = (
-    "result.nc", "summary.json", "result.csv", "overview.png", "motion.png", "swing.png", "phase.png", "tower.png",
-    "jib.png", "spectrum.png", "modes.png",
-)  # fmt: skip
-"""Everything that ``run`` may write."""
 
 app = typer.Typer(
     help="How a tower crane vibrates and how its load swings.",
@@ -152,8 +146,9 @@ def run(
     """Simulate a case; write result.nc, summary.json and pictures."""
     loaded = _load(case, changes)
     folder = out if out is not None else Path("results") / loaded.name
-    _check_folder(folder)
+    _folder_for_results(folder)
     _announce_compilation("towercrane.stepper")
+    from towercrane.folder import remove_stale
     from towercrane.simulate import run_case
     from towercrane.summary import summarise
 
@@ -168,7 +163,7 @@ def run(
 
         files |= plots.run_pictures(result) | {"modes.png": _mode_picture(loaded)}
     _write(folder, files)
-    stale = _remove_stale(folder, files)
+    stale = remove_stale(folder, files)
     if as_json:
         typer.echo(text)
     else:
@@ -197,7 +192,7 @@ def figures(
     changes: Changes = None,
 ) -> None:
     """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
-    _check_folder(out)
+    _folder_for_results(out)
     _announce_compilation("towercrane.stepper")
     from towercrane import plots
     from towercrane.simulate import run_case
@@ -270,47 +265,22 @@ def _announce_compilation(module: str) -> None:
         _say("compiling for the first time, about ten seconds; later runs start at once ...")
 
 
-def _check_folder(folder: Path) -> None:
-    """Refuse before the work, not after it."""
-    import os
+def _folder_for_results(folder: Path) -> None:
+    """Refuse a folder that cannot be written before the work, not after it."""
+    from towercrane.folder import obstacle
 
-    existing = folder
-    while not existing.exists():
-        existing = existing.parent
-    if not existing.is_dir():
-        _fail(f"--out {folder}: wanted a folder, {existing} is a file")
-    if not os.access(existing, os.W_OK):
-        _fail(f"--out {folder}: no right to write in {existing}")
+    if reason := obstacle(folder):
+        _fail(f"--out {folder}: {reason}")
 
 
 def _write(folder: Path, files: Mapping[str, Any]) -> None:
-    """Put results, text and pictures in place, each file whole."""
-    from towercrane import results
+    from towercrane.folder import write
 
-    _check_folder(folder)
-    for name, made in files.items():
-        path = folder / name
-        try:
-            if name.endswith(".nc"):
-                results.save(made, path)
-            elif name.endswith(".csv"):
-                results.save_csv(made, path)
-            elif name.endswith(".png"):
-                from towercrane import plots
-
-                plots.save(made, path)
-            else:
-                results.write_text(made, path)
-        except OSError as error:
-            _fail(f"{path}: cannot be written: {error.strerror or error}")
-
-
-def _remove_stale(folder: Path, written: Collection[str]) -> list[str]:
-    """Take away files that an earlier run left and this one did not replace: they would show another result."""
-    stale = [name for name in RUN_FILES if name not in written and (folder / name).is_file()]
-    for name in stale:
-        (folder / name).unlink()
-    return stale
+    _folder_for_results(folder)
+    try:
+        write(folder, files)
+    except OSError as error:
+        _fail(f"{folder}: cannot be written: {error.strerror or error}")
 
 
 def _set(changes: list[str] | None) -> list[str]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from modal.shapes import Modes, cantilever_modes
 from towercrane.cranes import radial_kernel as kernel
+from towercrane.equilibrium import Unstable, stable_equilibrium
 from towercrane.payload import FORCE, JACOBIAN, MASS, Load, restore, work_shape
 from towercrane.system import NoEquilibrium, System
 
@@ -237,8 +238,8 @@ class RadialModel:
     def equilibrium(self, inputs: Floats) -> Floats:
         """Coordinates at rest under all weights, load hanging straight down; shape (coordinates,).
 
-        Newton's method from the undeformed crane on f(q) - m_p g J_D^T e_z = 0. The rope's direction is known, so
-        the inverted pendulum cannot be found; the solution is refused unless it is stable.
+        Newton's method on f(q) - m_p g J_D^T e_z = 0. The rope's direction is known, so the inverted pendulum
+        cannot be found; the solution is refused unless it is stable.
 
         Raises
         ------
@@ -246,41 +247,22 @@ class RadialModel:
             If the stiffness is not positive definite, or no equilibrium is found.
         """
         n = self.coordinates
-        q = np.zeros(n)
-        if n == 0:
-            return q
-        scale = self.system.scale[:n]
 
         def residual(at: Floats) -> Floats:
             work = self._at_rest(at, inputs)
             up = work[JACOBIAN + self.axes - 1, :n]
             return work[FORCE, :n] - self.load.mass * self.crane.gravity * up
 
-        def stiffness(at: Floats) -> Floats:
-            step = 1e-5 * scale
-            columns = [
-                (residual(at - d) - residual(at + d)) / (2.0 * h) for h, d in zip(step, np.diag(step), strict=True)
-            ]
-            return np.array(columns).T
-
-        for _ in range(50):
-            tangent = stiffness(q)
-            if np.linalg.eigvalsh(tangent + tangent.T).min() <= 0.0:
-                raise NoEquilibrium(TOWER_BUCKLED, self._buckling_message())
-            step = np.linalg.solve(tangent, residual(q))
-            q = q + step
-            if np.max(abs(step) / scale) < 1e-13 * (1.0 + np.max(abs(q) / scale)):
-                return q
-        raise NoEquilibrium(TOWER_BUCKLED, "the search for the equilibrium under the weight did not settle")
+        try:
+            return stable_equilibrium(residual, self.system.scale[:n])
+        except Unstable as failure:
+            raise NoEquilibrium(TOWER_BUCKLED, f"{failure}; {self._buckling_message()}") from failure
 
     def _buckling_message(self) -> str:
         if not self.tower_modes:
-            return "the crane has no stable equilibrium"
+            return "the tower is rigid"
         geometric = np.linalg.eigvals(self.geometric_stiffness / self.tower.angular_frequencies**2)
-        return (
-            "the tower has no stable equilibrium under its weight: "
-            f"it would carry {1.0 / geometric.real.max():.3g} times that weight"
-        )
+        return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
 
     def _at_rest(self, q: Floats, inputs: Floats) -> Floats:
         """Scratch array of the structure at rest at these coordinates."""

@@ -1,0 +1,56 @@
+"""Static equilibrium by a guarded Newton method."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+MOST_STEPS = 50
+
+
+class Unstable(ArithmeticError):
+    """No stable equilibrium was found."""
+
+
+def stable_equilibrium(residual: Callable[[Floats], Floats], scale: Floats) -> Floats:
+    """Coordinates at which the forces vanish and any small displacement is resisted.
+
+    Parameters
+    ----------
+    residual : callable
+        Generalised forces at coordinates; both of shape (n,).
+    scale : ndarray, shape (n,)
+        Size of each coordinate that belongs to about a metre or a radian.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Found from the undeformed state, to rounding.
+
+    Raises
+    ------
+    Unstable
+        If the tangent stiffness is not positive definite on the way, or the search does not settle.
+    """
+    q = np.zeros(len(scale))
+    if not len(scale):
+        return q
+    steps = np.diag(1e-5 * scale)
+    for _ in range(MOST_STEPS):
+        columns = [(residual(q - d) - residual(q + d)) / (2e-5 * s) for s, d in zip(scale, steps, strict=True)]
+        tangent = np.array(columns).T
+        if np.linalg.eigvalsh(tangent + tangent.T).min() <= 0.0:
+            raise Unstable("the stiffness is not positive definite")
+        change = np.linalg.solve(tangent, residual(q))
+        q = q + change
+        if np.max(abs(change) / scale) < 1e-13 * (1.0 + np.max(abs(q) / scale)):
+            return q
+    raise Unstable("the search did not settle")
