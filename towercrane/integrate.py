@@ -33,11 +33,15 @@ METHODS = (*TABLEAUS, *SCIPY_METHODS)
 
 FINISHED = "finished"
 INTERRUPTED = "interrupted"
+STALLED = "switching without progress"
 COLLAPSED = "step size collapsed"
 NOT_FINITE = "state not finite"
 
 STEPS_PER_CALL = 20_000
 """Steps between two looks at progress and the keyboard."""
+
+MOST_STALLED = 20
+"""Switches in a row without time passing at which a run is given up."""
 
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN = range(4)
 """Entries of a run's counts, as in :mod:`towercrane.stepper`."""
@@ -153,7 +157,7 @@ class _Run:
         self.system, self.rtol, self.atol = system, rtol, atol * system.scale
         self.state, self.samples = state, samples
         self.time, self.smallest_step = 0.0, np.inf
-        self.counts = np.zeros(5, dtype=np.int64)
+        self.counts = np.zeros(6, dtype=np.int64)
 
     def restart(self, phases: Phases, phase: int) -> None:
         """Begin a phase: its start time, and the state back on its constraints."""
@@ -166,7 +170,7 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
     from towercrane import stepper
 
     system = run.system
-    guards = np.empty(len(system.guards))
+    guards, numbers, floors = np.empty(len(system.guards)), system.numbers.copy(), system.floors.copy()
     k, scratch = np.empty((len(tableau.a), system.size)), np.empty((3, system.size))
     work, step = np.zeros(system.work_shape), 0.0
     owner = _phase_of(sample_times, phases)
@@ -176,21 +180,41 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
         clock = np.array([0.0, step, run.smallest_step])
         mine = owner == phase
         first = int(np.count_nonzero(owner < phase))
-        counts = np.zeros_like(run.counts)
+        counts = np.zeros(len(run.counts), dtype=np.int64)
+        constants = (numbers, *system.constants[1:])
+
+        def guards_at(inputs: Floats = inputs, clock: Floats = clock, constants: Any = constants) -> Floats:
+            system.rhs(clock[stepper.TIME], run.state, scratch[0], inputs, *constants, work, guards)
+            return guards
+
+        if system.switch is not None:
+            system.switch.begin(run.state, numbers, floors, guards_at)
+        counts[stepper.FRESH] = 1
         arguments = (
             system.rhs, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
             tableau.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, k, scratch,
             np.minimum(sample_times[mine] - begin, t_end), run.samples[first : first + np.count_nonzero(mine)],
-            STEPS_PER_CALL, inputs, *system.constants, work, guards, system.floors,
+            STEPS_PER_CALL, inputs, *constants, work, guards, floors,
         )  # fmt: skip
-        status, interrupted = stepper.PAUSED, False
+        status, interrupted, stalled = stepper.PAUSED, False, 0
         while status == stepper.PAUSED and not interrupted:
+            before = clock[stepper.TIME]
             try:
                 status = stepper.advance(*arguments)
                 if progress is not None:
                     progress(begin + clock[stepper.TIME])
             except KeyboardInterrupt:
                 interrupted = True
+            if status == stepper.GUARD and system.switch is not None:
+                # Switches that follow each other without time passing would go on for ever.
+                stalled = stalled + 1 if clock[stepper.TIME] - before < SAME_INSTANT else 0
+                if stalled > MOST_STALLED:
+                    run.counts += counts
+                    run.time = begin + float(clock[stepper.TIME])
+                    return STALLED
+                crossed = int(counts[stepper.GUARD_INDEX])
+                if system.switch.cross(crossed, run.state, numbers, floors, guards_at):
+                    status, counts[stepper.FRESH] = stepper.PAUSED, 1
         run.counts += counts
         run.time, run.smallest_step = begin + float(clock[stepper.TIME]), float(clock[stepper.SMALLEST])
         step = float(clock[stepper.STEP])

@@ -6,7 +6,8 @@ vector, so there is no angle chart and no singular position; angles are outputs.
 
 Vectors have ``d`` inertial components, the vertical last: (x, z) in a plane, (x, y, z) in space. The state is
 ``y = (q, n, q', p, work)``: coordinates, unit vector from D to the load, rates, rate of the unit vector, and the
-work [J] that inputs and dissipation have put into the crane since the start.
+work [J] that inputs and dissipation have put into the crane since the start. An elastic rope adds its stretch e:
+``y = (q, n, e, q', p, e', work)``.
 """
 
 from __future__ import annotations
@@ -79,7 +80,7 @@ def work_shape(coordinates: int) -> tuple[int, int]:
 def restore(state: Floats, coordinates: int, axes: int) -> None:
     """Put the rope's direction back to unit length and its rate at right angles, in place."""
     n = state[coordinates : coordinates + axes]
-    p = state[2 * coordinates + axes : 2 * (coordinates + axes)]
+    p = state[(len(state) - 1) // 2 + coordinates :][:axes]
     n /= np.linalg.norm(n)
     p -= (n @ p) * n
 
@@ -97,20 +98,24 @@ def hang_load(
     gravity: float,
     drag: float,
     hinge: float,
+    stiffness: float,
+    loss: float,
     work: Any,
 ) -> float:
     """Solve for all accelerations, given the structure in ``work``, and write dy.
 
     Parameters
     ----------
-    y, dy : ndarray, shape (2 n + 2 d + 1,)
+    y, dy : ndarray, shape (2 n + 2 d + 1,), or two more with an elastic rope
         State and its derivative; the last entry of dy becomes the power of winch, drag and hinge [W].
     n, d : int
         Coordinates of the structure and axes of space.
     length, rate, acceleration : float
-        Rope length and its time derivatives [m, m/s, m/s^2].
+        Length of the unstretched rope and its time derivatives [m, m/s, m/s^2].
     mass, gravity, drag, hinge : float
         Load [kg], gravity [m/s^2], drag per squared speed [kg/m], hinge damping [N m s/rad].
+    stiffness, loss : float
+        Of an elastic rope [N/m, N s/m]; a stiffness of zero means inextensible.
     work : ndarray
         FORCE, VELOCITY, BIAS, JACOBIAN and MASS filled by the structure; ACCELERATION, DIRECTION and HINGE are
         left for it.
@@ -124,9 +129,19 @@ def hang_load(
     -----
     With j = J^T n, w the tangential rate and s the rope force if the structure did not accelerate,
     (M + m j j^T) q'' = f - J^T H + j s and T = s - m j.q''. The matrix is symmetric positive definite whenever M
-    is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration.
+    is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration. An elastic rope
+    pulls with k e + c e' whatever the structure does: then nothing of the load is in the matrix, and the stretch has
+    an equation of its own.
     """
-    direction, sway = n, 2 * n + d
+    elastic = stiffness > 0.0
+    rates = (y.size - 1) // 2
+    direction, sway = n, rates + n
+    winding = rate
+    bound = mass
+    if elastic:
+        bound = 0.0
+        length += y[n + d]
+        rate += y[sway + d]
     norm, along = 0.0, 0.0
     for k in range(d):
         norm += y[direction + k] * y[direction + k]
@@ -143,12 +158,16 @@ def hang_load(
     speed = np.sqrt(speed)
     power = -hinge * ww
     s = mass * (length * ww - acceleration - gravity * work[DIRECTION, d - 1])
+    if elastic:
+        s = stiffness * y[n + d] + loss * y[sway + d]
+        power -= loss * y[sway + d] * y[sway + d]
     for k in range(d):
         w = y[sway + k] - along * work[DIRECTION, k]
         air = -drag * speed * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w)
         power += air * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w)
         work[HINGE, k] = -hinge / length * w
-        s += work[DIRECTION, k] * (air - mass * work[BIAS, k])
+        if not elastic:
+            s += work[DIRECTION, k] * (air - mass * work[BIAS, k])
 
     for i in range(n):
         j = 0.0
@@ -157,19 +176,19 @@ def hang_load(
             j += work[JACOBIAN + k, i] * work[DIRECTION, k]
             hinged += work[JACOBIAN + k, i] * work[HINGE, k]
         work[ALONG, i] = j
-        dy[n + d + i] = work[FORCE, i] - hinged + j * s
+        dy[rates + i] = work[FORCE, i] - hinged + j * s
         for m in range(i + 1):
-            work[MASS + i, m] += mass * j * work[ALONG, m]
-    _solve(work, dy, n, n + d)
+            work[MASS + i, m] += bound * j * work[ALONG, m]
+    _solve(work, dy, n, rates)
 
     tension = s
     for i in range(n):
-        tension -= mass * work[ALONG, i] * dy[n + d + i]
-        dy[i] = y[n + d + i]
+        tension -= bound * work[ALONG, i] * dy[rates + i]
+        dy[i] = y[rates + i]
     for k in range(d):
         a = work[BIAS, k]
         for i in range(n):
-            a += work[JACOBIAN + k, i] * dy[n + d + i]
+            a += work[JACOBIAN + k, i] * dy[rates + i]
         work[ACCELERATION, k] = a
     for k in range(d):
         w = y[sway + k] - along * work[DIRECTION, k]
@@ -184,7 +203,10 @@ def hang_load(
         across = dy[sway + k] - outward * work[DIRECTION, k] + 2.0 * rate * w
         dy[sway + k] = -ww * work[DIRECTION, k] - across / length
         dy[direction + k] = y[sway + k]
-    dy[sway + d] = power - tension * rate
+    if elastic:
+        dy[n + d] = y[sway + d]
+        dy[sway + d] = length * ww - outward - tension / mass - acceleration
+    dy[y.size - 1] = power - tension * winding
     return tension
 
 

@@ -20,8 +20,8 @@ FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
 TIME, STEP, SMALLEST = range(3)
 """Entries of its clock: time since the phase began, next step, smallest step taken [s]."""
 
-ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
-"""Entries of its counts."""
+ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX, FRESH = range(6)
+"""Entries of its counts; FRESH asks for the slope at the start, and is taken back."""
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 10.0
 
@@ -156,7 +156,7 @@ def advance(
         As in :func:`towercrane.system.rhs_signature`.
     stages, a, c, error, dense, error_order
         As in :class:`towercrane.tableaus.Tableau`.
-    clock, counts : ndarray, shapes (3,) and (5,)
+    clock, counts : ndarray, shapes (3,) and (6,)
         Read and written; a step of zero or less asks for a first guess.
     y : ndarray, shape (size,)
         State, carried on in place.
@@ -175,7 +175,8 @@ def advance(
     new, trial, slope = scratch[0], scratch[1], scratch[2]
     t, h = clock[TIME], clock[STEP]
     all_stages = a.shape[0]
-    if t == 0.0:
+    if counts[FRESH]:
+        counts[FRESH] = 0
         rhs(t, y, slope, inputs, numbers, vectors, matrices, tables, work, guards)
         counts[EVALUATIONS] += 1
         for m in range(y.size):

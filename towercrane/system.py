@@ -31,6 +31,22 @@ def rhs_signature() -> Any:
     return types.void(types.float64, one, one, two, one, two, three, three, two, one)
 
 
+class Switch(Protocol):
+    """Changes of a system's equations at guards: friction that sticks or slips, a corner in a stiffness.
+
+    ``numbers`` and ``floors`` are the run's own copies and may be changed in place; ``guards_at`` evaluates the
+    guards with them.
+    """
+
+    def begin(self, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
+        """Set the equations that hold at the start of a phase."""
+
+    def cross(
+        self, guard: int, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]
+    ) -> bool:
+        """Set the equations that hold after a guard has reached its floor; False if the run ends there."""
+
+
 @dataclass(frozen=True, eq=False)
 class System:
     """Ordinary differential equation y' = f(t, y) with constants, and guards that must not fall below their floors.
@@ -53,6 +69,8 @@ class System:
         Shape of the scratch array.
     restore : callable, optional
         Puts a state back on its constraints in place; called where the solver restarts.
+    switch : Switch, optional
+        What a guard does instead of ending the run.
     """
 
     rhs: Any
@@ -66,6 +84,7 @@ class System:
     tables: Floats
     work_shape: tuple[int, int]
     restore: Callable[[Floats], None] | None = None
+    switch: Switch | None = None
 
     @property
     def constants(self) -> tuple[Floats, Floats, Floats, Floats]:

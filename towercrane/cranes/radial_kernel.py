@@ -192,7 +192,7 @@ def rhs(
     gravity, trolley = numbers[GRAVITY], numbers[TROLLEY_MASS]
     tension = hang_load(
         y, dy, n, d, length, rate, acceleration,
-        numbers[LOAD_MASS], gravity, numbers[DRAG], numbers[HINGE_DAMPING], work,
+        numbers[LOAD_MASS], gravity, numbers[DRAG], numbers[HINGE_DAMPING], 0.0, 0.0, work,
     )  # fmt: skip
 
     # Power of the trolley drive: its force along the deflected jib, which the prescribed motion takes.

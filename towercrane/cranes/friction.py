@@ -1,0 +1,79 @@
+"""Where a lumped crane's equations change: corners of the coupling, and friction that sticks or slips."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.cranes import lumped_kernel as kernel
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Transitions:
+    """Restarts at corners and the states of set-valued friction.
+
+    A corner only restarts the step control: which line of the coupling holds is read off the twist at every
+    evaluation, so that a crossing that is missed or merely touched cannot leave the wrong one in force. Friction
+    sticks while less than its limit is needed to hold the coordinate, and slips against the motion otherwise.
+
+    Parameters
+    ----------
+    driven : int
+        Coordinate that drive and friction act on.
+    rates : int
+        Where the rates begin in the state.
+    """
+
+    driven: int
+    rates: int
+
+    def begin(self, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
+        """Set corner and friction from the state."""
+        if numbers[kernel.FRICTION_LAW] == kernel.STICK_SLIP:
+            rate = state[self.rates + self.driven]
+            if rate == 0.0:
+                self._settle(numbers, floors, guards_at)
+            else:
+                self._slip(float(np.sign(rate)), numbers, floors)
+        self._watch_corner(bool(guards_at()[kernel.INSIDE] >= 0.0), numbers, floors)
+
+    def cross(
+        self, guard: int, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]
+    ) -> bool:
+        """Set what holds after a guard; a slack rope ends the run."""
+        if guard in (kernel.INSIDE, kernel.OUTSIDE):
+            self._watch_corner(guard == kernel.OUTSIDE, numbers, floors)
+        elif guard == kernel.SLIDING:
+            state[self.rates + self.driven] = 0.0
+            self._settle(numbers, floors, guards_at)
+        elif guard == kernel.HOLDING:
+            self._settle(numbers, floors, guards_at)
+        else:
+            return False
+        return True
+
+    def _watch_corner(self, inside: bool, numbers: Floats, floors: Floats) -> None:
+        bends = numbers[kernel.SOFT] != numbers[kernel.STIFF]
+        floors[kernel.INSIDE] = 0.0 if bends and inside else -np.inf
+        floors[kernel.OUTSIDE] = 0.0 if bends and not inside else -np.inf
+
+    def _settle(self, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
+        """At rest: stick if friction can hold, else give way to the side that pushes."""
+        numbers[kernel.FRICTION_STATE] = kernel.STICK
+        guards = guards_at()
+        floors[kernel.SLIDING], floors[kernel.HOLDING] = -np.inf, 0.0
+        if guards[kernel.HOLDING] < 0.0:
+            self._slip(-float(np.sign(guards[kernel.NEEDED])), numbers, floors)
+
+    def _slip(self, direction: float, numbers: Floats, floors: Floats) -> None:
+        numbers[kernel.FRICTION_STATE] = direction
+        floors[kernel.SLIDING], floors[kernel.HOLDING] = 0.0, -np.inf

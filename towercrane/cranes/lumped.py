@@ -1,0 +1,343 @@
+"""Lumped cranes as data: a new crane from a paper is a list of points, springs and readings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from towercrane.cranes import lumped_kernel as kernel
+from towercrane.cranes.friction import Transitions
+from towercrane.equilibrium import Unstable, stable_equilibrium
+from towercrane.payload import FORCE, JACOBIAN, Load, restore, work_shape
+from towercrane.system import NoEquilibrium, System
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.motion import Motion
+    from towercrane.results import Quantity
+
+    Floats = NDArray[np.float64]
+
+SLACK_ROPE = "slack rope"
+UNSTABLE = "no stable equilibrium"
+
+Row = Mapping[str, float]
+"""Linear form: coefficient per coordinate; the key "" is the constant."""
+
+
+@dataclass(frozen=True)
+class Link:
+    """Arm of a point's horizontal position.
+
+    Parameters
+    ----------
+    turns_with : str
+        Coordinate that turns it about the vertical; empty for fixed axes.
+    ahead, across : Row
+        Along the arm and to its left [m].
+    """
+
+    turns_with: str
+    ahead: Row
+    across: Row = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Point:
+    """Point mass.
+
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    links : tuple of Link
+        Their sum is the horizontal position.
+    height : Row
+        [m]
+    drag : float or tuple of 3 floats
+        Drag per squared speed [kg/m]; three values: along the last link's arm, across it and up.
+    """
+
+    mass: float
+    links: tuple[Link, ...]
+    height: Row
+    drag: float | tuple[float, float, float] = 0.0
+
+
+@dataclass(frozen=True)
+class Spring:
+    """Spring with a damper beside it.
+
+    Parameters
+    ----------
+    stretch : Row
+        Linear form whose value is the stretch [m or rad].
+    stiffness, damping : float
+        [N/m, N s/m or N m/rad, N m s/rad]
+    """
+
+    stretch: Row
+    stiffness: float
+    damping: float = 0.0
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Coupling of three straight lines between the shaft and a coordinate, and friction on that coordinate.
+
+    Parameters
+    ----------
+    on : str
+        Coordinate.
+    soft, stiff, corner : float
+        Stiffness up to the corner and beyond it [N m/rad], and the corner [rad].
+    damping : float
+        Between shaft and coordinate [N m s/rad].
+    friction : {"none", "tanh", "stick-slip"}
+    friction_torque, friction_rate : float
+        Limit [N m], and the rate at which tanh reaches 76 % of it [rad/s].
+    """
+
+    on: str
+    soft: float
+    stiff: float
+    corner: float
+    damping: float
+    friction: Literal["none", "tanh", "stick-slip"] = "tanh"
+    friction_torque: float = 0.0
+    friction_rate: float = 0.01
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Output that is linear in coordinates and rates.
+
+    Parameters
+    ----------
+    units, long_name : str
+    of : Row
+        On the coordinates.
+    of_rates : Row
+        On their rates.
+    """
+
+    units: str
+    long_name: str
+    of: Row = field(default_factory=dict)
+    of_rates: Row = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class LumpedCrane:
+    """Crane of point masses and springs.
+
+    Parameters
+    ----------
+    name : str
+    coordinates : tuple of str
+    points : mapping of str to Point
+    springs : tuple of Spring
+    drive : Drive
+    inertias : Row
+        Moments of inertia of coordinates that are angles [kg m^2].
+    steady_force : Row
+        Constant generalised forces.
+    suspension : str
+        Point that the rope hangs from.
+    jib_angle : str
+        Coordinate that turns with the jib: sway is measured along and across it.
+    readings : mapping of str to Reading
+    rope_stiffness, rope_damping : float
+        Of an elastic rope [N/m, N s/m]; zero: inextensible.
+    gravity : float
+        [m/s^2]
+    """
+
+    name: str
+    coordinates: tuple[str, ...]
+    points: Mapping[str, Point]
+    springs: tuple[Spring, ...]
+    drive: Drive
+    inertias: Row
+    suspension: str
+    jib_angle: str
+    readings: Mapping[str, Reading]
+    steady_force: Row = field(default_factory=dict)
+    rope_stiffness: float = 0.0
+    rope_damping: float = 0.0
+    gravity: float = 9.81
+
+    def row(self, form: Row) -> Floats:
+        """A linear form as a vector over the coordinates, its constant last; shape (n + 1,).
+
+        Raises
+        ------
+        ValueError
+            If it names an unknown coordinate.
+        """
+        if unknown := set(form) - {*self.coordinates, ""}:
+            raise ValueError(f"{self.name}: wanted coordinates {', '.join(self.coordinates)}, got {min(unknown)!r}")
+        return np.array([form.get(name, 0.0) for name in (*self.coordinates, "")])
+
+
+@dataclass(frozen=True, eq=False)
+class LumpedModel:
+    """Equations of motion of a lumped crane with its load, always in space.
+
+    Parameters
+    ----------
+    crane : LumpedCrane
+    load : Load
+    rope_as_rod : bool
+        Let the rope push. Without it a slack rope ends the run.
+    """
+
+    crane: LumpedCrane
+    load: Load
+    rope_as_rod: bool = False
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Motions: angle of the drive's shaft [rad] and length of the unstretched rope [m]."""
+        return ("shaft", "rope")
+
+    @property
+    def coordinates(self) -> int:
+        """Number of structural coordinates."""
+        return len(self.crane.coordinates)
+
+    @property
+    def elastic(self) -> bool:
+        """Whether the rope stretches."""
+        return self.crane.rope_stiffness > 0.0
+
+    @property
+    def size(self) -> int:
+        """Number of states."""
+        return 2 * (self.coordinates + 3 + self.elastic) + 1
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        crane, drive, n = self.crane, self.crane.drive, self.coordinates
+        names = list(crane.points)
+        links = [(p, link) for p, point in enumerate(crane.points.values()) for link in point.links]
+        tables = np.zeros((len(links) + len(names), 3, max(n + 1, 4)))
+        for row, (p, link) in enumerate(links):
+            turned = crane.coordinates.index(link.turns_with) if link.turns_with else -1
+            tables[row, kernel.AHEAD, : n + 1] = crane.row(link.ahead)
+            tables[row, kernel.ACROSS, : n + 1] = crane.row(link.across)
+            tables[row, kernel.OWNER, :2] = p, turned
+        for p, point in enumerate(crane.points.values()):
+            tables[len(links) + p, kernel.HEIGHT, : n + 1] = crane.row(point.height)
+            tables[len(links) + p, kernel.PROPERTIES, :4] = point.mass, *np.broadcast_to(point.drag, 3)
+        matrices = np.zeros((2, n, n))
+        for spring in crane.springs:
+            stretch = crane.row(spring.stretch)[:-1]
+            matrices[kernel.STIFFNESS] += spring.stiffness * np.outer(stretch, stretch)
+            matrices[kernel.DAMPING] += spring.damping * np.outer(stretch, stretch)
+        laws = {"none": kernel.NO_FRICTION, "tanh": kernel.TANH, "stick-slip": kernel.STICK_SLIP}
+        numbers = np.zeros(18)
+        numbers[kernel.GRAVITY] = crane.gravity
+        numbers[kernel.LOAD_MASS] = self.load.mass
+        numbers[kernel.DRAG] = self.load.drag
+        numbers[kernel.HINGE_DAMPING] = self.load.rope_damping
+        numbers[kernel.ROPE_STIFFNESS] = crane.rope_stiffness
+        numbers[kernel.ROPE_LOSS] = crane.rope_damping
+        numbers[kernel.LINKS], numbers[kernel.POINTS] = len(links), len(names)
+        numbers[kernel.SUSPENSION] = names.index(crane.suspension)
+        numbers[kernel.DRIVEN] = crane.coordinates.index(drive.on)
+        numbers[kernel.SOFT], numbers[kernel.STIFF] = drive.soft, drive.stiff
+        numbers[kernel.CORNER], numbers[kernel.DRIVE_DAMPING] = drive.corner, drive.damping
+        numbers[kernel.FRICTION_LAW] = laws[drive.friction]
+        numbers[kernel.FRICTION_TORQUE], numbers[kernel.FRICTION_RATE] = drive.friction_torque, drive.friction_rate
+        numbers[kernel.FRICTION_STATE] = kernel.BY_RATE
+        scale = np.ones(self.size)
+        scale[-1] = np.inf
+        rows, width = work_shape(n)
+        return System(
+            rhs=kernel.rhs,
+            size=self.size,
+            guards=(SLACK_ROPE, "corner", "corner", "slip", "stick", "needed"),
+            floors=np.array([-np.inf if self.rope_as_rod or self.elastic else 0.0, *[-np.inf] * 5]),
+            scale=scale,
+            numbers=numbers,
+            vectors=np.array([crane.row(crane.inertias)[:-1], crane.row(crane.steady_force)[:-1]]),
+            matrices=matrices,
+            tables=tables,
+            # Three rows more for the point that is being added, or for the row of a coordinate that sticks.
+            work_shape=(rows + 3, max(width, 4)),
+            restore=lambda state: restore(state, n, 3),
+            switch=Transitions(driven=crane.coordinates.index(drive.on), rates=(self.size - 1) // 2),
+        )
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State at rest at the start: "equilibrium", or "zero" with all weights on; swing positive outward.
+
+        Returns
+        -------
+        ndarray, shape (size,)
+
+        Raises
+        ------
+        NoEquilibrium
+            If there is no stable equilibrium.
+        ValueError
+            If the state is not one of the two.
+        """
+        if state not in ("equilibrium", "zero"):
+            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+        n, y = self.coordinates, np.zeros(self.size)
+        if state == "equilibrium":
+            y[:n] = self.equilibrium(inputs)
+            if self.elastic:
+                y[n + 3] = self.load.mass * self.crane.gravity / self.crane.rope_stiffness
+        heading = y[self.crane.coordinates.index(self.crane.jib_angle)]
+        y[n : n + 3] = np.sin(swing_angle) * np.cos(heading), np.sin(swing_angle) * np.sin(heading), 0.0
+        y[n + 2] = -np.cos(swing_angle)
+        return y
+
+    def equilibrium(self, inputs: Floats) -> Floats:
+        """Coordinates at rest under all weights, load hanging straight down; shape (n,)."""
+        n = self.coordinates
+        fixed = np.zeros_like(inputs)
+        fixed[:, 0] = inputs[:, 0]
+
+        def residual(q: Floats) -> Floats:
+            y = np.zeros(self.size)
+            y[:n] = q
+            work = np.zeros(self.system.work_shape)
+            kernel.structure(0.0, y, fixed, *self.system.constants, work)
+            return work[FORCE, :n] - self.load.mass * self.crane.gravity * work[JACOBIAN + 2, :n]
+
+        try:
+            return stable_equilibrium(residual, np.ones(n))
+        except Unstable as failure:
+            raise NoEquilibrium(UNSTABLE, str(failure)) from failure
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time, see :func:`towercrane.cranes.lumped_outputs.observe`."""
+        from towercrane.cranes.lumped_outputs import observe
+
+        return observe(self, motions, times, states, guards[:, kernel.TENSION])
+
+    def provenance(self) -> dict[str, Any]:
+        """Crane and load, for a result's attributes."""
+        return {
+            "crane": self.crane.name,
+            "coordinates": ", ".join(self.crane.coordinates),
+            "payload_mass": self.load.mass,
+            "gravity": self.crane.gravity,
+        }
+
+    def with_drive(self, **changes: Any) -> LumpedModel:
+        """The same model with a changed drive, such as ``friction="stick-slip"``."""
+        drive = replace(self.crane.drive, **changes)
+        return replace(self, crane=replace(self.crane, drive=drive))
