@@ -1,4 +1,4 @@
-"""The laboratory crane of the tests, without a case file; what no source prints is assumed as in the shipped cases."""
+"""The laboratory crane of the tests, without a case file; what no source prints is assumed."""
 
 from types import SimpleNamespace
 

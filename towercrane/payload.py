@@ -129,9 +129,9 @@ def hang_load(
     -----
     With j = J^T n, w the tangential rate and s the rope force if the structure did not accelerate,
     (M + m j j^T) q'' = f - J^T H + j s and T = s - m j.q''. The matrix is symmetric positive definite whenever M
-    is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration. An elastic rope
-    pulls with k e + c e' whatever the structure does: then nothing of the load is in the matrix, and the stretch has
-    an equation of its own.
+    is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration. An elastic
+    rope pulls with k e + c e' whatever the structure does: then nothing of the load is in the matrix, and the stretch
+    has an equation of its own.
     """
     elastic = stiffness > 0.0
     rates = (y.size - 1) // 2

@@ -75,12 +75,15 @@ class Spring:
 
     Parameters
     ----------
+    name : str
+        What it stands for, such as "jib_lateral".
     stretch : Row
         Linear form whose value is the stretch [m or rad].
     stiffness, damping : float
         [N/m, N s/m or N m/rad, N m s/rad]
     """
 
+    name: str
     stretch: Row
     stiffness: float
     damping: float = 0.0

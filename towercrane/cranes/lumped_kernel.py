@@ -19,7 +19,8 @@ from towercrane.payload import BIAS, DIRECTION, FORCE, HINGE, JACOBIAN, MASS, VE
 from towercrane.system import rhs_signature
 
 (GRAVITY, LOAD_MASS, DRAG, HINGE_DAMPING, ROPE_STIFFNESS, ROPE_LOSS, LINKS, POINTS, SUSPENSION, DRIVEN,
- SOFT, STIFF, CORNER, DRIVE_DAMPING, FRICTION_LAW, FRICTION_TORQUE, FRICTION_RATE, FRICTION_STATE) = range(18)  # fmt: skip
+ SOFT, STIFF, CORNER, DRIVE_DAMPING, FRICTION_LAW, FRICTION_TORQUE, FRICTION_RATE,
+ FRICTION_STATE) = range(18)  # fmt: skip
 """Entries of ``numbers``. DRIVEN is the coordinate that drive and friction act on."""
 
 NO_FRICTION, TANH, STICK_SLIP = 0.0, 1.0, 2.0

@@ -1,8 +1,8 @@
 """The slewing cranes of three papers as data.
 
-Multi-mass: Marinovic, Sprecic, Jerman (2012), ten degrees of freedom with the load. Basic (seven) and enhanced (eight):
-Jerman (2006). The frames follow the first: the tower's top moves by x and y in the frame that turns with the tower, its
-tilt is the tip slope 2 x / H of a cantilever bent by a moment, the jib turns with an angle of its own.
+Multi-mass: Marinovic, Sprecic, Jerman (2012), ten degrees of freedom with the load. Basic (seven) and enhanced
+(eight): Jerman (2006). The frames follow the first: the tower's top moves by x and y in the frame that turns with the
+tower, its tilt is the tip slope 2 x / H of a cantilever bent by a moment, the jib turns with an angle of its own.
 """
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ def enhanced(p: Enhanced | MultiMass) -> LumpedCrane:
             ),
         },
         springs=(
-            Spring({TOWER_X: 1.0}, p.stiffness_tower_x, p.damping_tower_x),
-            Spring({TOWER_Y: 1.0}, p.stiffness_tower_y, p.damping_tower_y),
-            Spring({JIB_Z: 1.0}, vertical, p.damping_jib_vertical),
-            Spring({TOWER: 1.0, PLATFORM: -1.0}, p.stiffness_tower_torsion, p.damping_tower_torsion),
-            Spring({JIB: 1.0, TOWER: -1.0}, lateral, p.damping_jib_lateral),
+            Spring("tower_x", {TOWER_X: 1.0}, p.stiffness_tower_x, p.damping_tower_x),
+            Spring("tower_y", {TOWER_Y: 1.0}, p.stiffness_tower_y, p.damping_tower_y),
+            Spring("jib_vertical", {JIB_Z: 1.0}, vertical, p.damping_jib_vertical),
+            Spring("tower_torsion", {TOWER: 1.0, PLATFORM: -1.0}, p.stiffness_tower_torsion, p.damping_tower_torsion),
+            Spring("jib_lateral", {JIB: 1.0, TOWER: -1.0}, lateral, p.damping_jib_lateral),
         ),
         drive=_drive(p),
         inertias={TOWER: p.inertia_tower_top, PLATFORM: p.inertia_platform},
@@ -102,8 +102,18 @@ def multi_mass(p: MultiMass) -> LumpedCrane:
         points={**crane.points, "counterweight": counterweight},
         springs=(
             *crane.springs,
-            Spring({COUNTER_JIB: 1.0, TOWER: -1.0}, p.stiffness_counter_jib_lateral, p.damping_counter_jib_lateral),
-            Spring({COUNTER_JIB_Z: 1.0}, p.stiffness_counter_jib_vertical, p.damping_counter_jib_vertical),
+            Spring(
+                "counter_jib_lateral",
+                {COUNTER_JIB: 1.0, TOWER: -1.0},
+                p.stiffness_counter_jib_lateral,
+                p.damping_counter_jib_lateral,
+            ),
+            Spring(
+                "counter_jib_vertical",
+                {COUNTER_JIB_Z: 1.0},
+                p.stiffness_counter_jib_vertical,
+                p.damping_counter_jib_vertical,
+            ),
         ),
     )
 
@@ -122,9 +132,9 @@ def basic(p: Basic) -> LumpedCrane:
             )
         },
         springs=(
-            Spring({x: 1.0}, p.stiffness_jib_radial, p.damping_jib_radial),
-            Spring({y: 1.0}, lateral, p.damping_jib_lateral),
-            Spring({z: 1.0}, vertical, p.damping_jib_vertical),
+            Spring("jib_radial", {x: 1.0}, p.stiffness_jib_radial, p.damping_jib_radial),
+            Spring("jib_lateral", {y: 1.0}, lateral, p.damping_jib_lateral),
+            Spring("jib_vertical", {z: 1.0}, vertical, p.damping_jib_vertical),
         ),
         drive=_drive(p),
         inertias={PLATFORM: p.inertia_platform},
