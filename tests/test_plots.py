@@ -8,7 +8,7 @@ import pytest
 from qtz5613 import CONDITIONS, CRANE, model, motions
 
 from modal import cantilever_modes
-from towercrane import plots
+from towercrane.plots import radial, style
 from towercrane.simulate import simulate
 
 matplotlib.use("Agg")
@@ -40,7 +40,7 @@ def conditions():
 
 
 def test_every_axis_has_a_unit_and_every_line_a_name(conditions):
-    figures = plots.run_pictures(conditions[3]) | plots.source_figures(conditions)
+    figures = radial.run_pictures(conditions[3]) | radial.source_figures(conditions)
     assert len(figures) == 15
     for name, figure in figures.items():
         for axes in figure.axes:
@@ -55,36 +55,36 @@ def test_every_axis_has_a_unit_and_every_line_a_name(conditions):
 
 def test_run_without_motion_or_cut_short_is_drawn_too(conditions):
     parked = simulate(model(0, 0), {**motions(), "trolley": motions()["trolley"]}, 0.1)
-    for figure in plots.run_pictures(parked).values():
+    for figure in radial.run_pictures(parked).values():
         figure.canvas.draw()
 
 
 @looks_like("modes.png")
 def test_look_of_the_mode_shapes():
-    return plots.modes(cantilever_modes(CRANE.tower, 4, CRANE.end_body), cantilever_modes(CRANE.jib, 4), ASSUMED)
+    return radial.modes(cantilever_modes(CRANE.tower, 4, CRANE.end_body), cantilever_modes(CRANE.jib, 4), ASSUMED)
 
 
 @looks_like("overview.png")
 def test_look_of_the_overview(conditions):
-    return plots.overview(conditions[3])
+    return radial.overview(conditions[3])
 
 
 @looks_like("phase.png")
 def test_look_of_the_phase_path(conditions):
-    return plots.phase([conditions[1], conditions[2]])
+    return radial.phase([conditions[1], conditions[2]])
 
 
 def test_picture_is_written_whole_or_not_at_all(tmp_path, conditions):
-    figure = plots.swing([conditions[3]])
-    plots.save(figure, tmp_path / "swing.png")
+    figure = radial.swing([conditions[3]])
+    style.save(figure, tmp_path / "swing.png")
     assert (tmp_path / "swing.png").read_bytes()[:4] == b"\x89PNG"
     figure.savefig = lambda *a, **k: (_ for _ in ()).throw(OSError("full"))
     with pytest.raises(OSError, match="full"):
-        plots.save(figure, tmp_path / "other.png")
+        style.save(figure, tmp_path / "other.png")
     assert [path.name for path in tmp_path.iterdir()] == ["swing.png"]
 
 
 def test_colours_differ_in_grey():
-    luminance = [np.dot([0.299, 0.587, 0.114], matplotlib.colors.to_rgb(c)) for c in plots.COLOURS[:2]]
-    assert plots.DASHES[0] != plots.DASHES[1]
+    luminance = [np.dot([0.299, 0.587, 0.114], matplotlib.colors.to_rgb(c)) for c in style.COLOURS[:2]]
+    assert style.DASHES[0] != style.DASHES[1]
     assert abs(luminance[0] - luminance[1]) > 0.03

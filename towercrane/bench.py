@@ -14,7 +14,8 @@ import numpy as np
 from towercrane.case import load_case
 from towercrane.integrate import INTERRUPTED, evaluate, integrate
 from towercrane.motion import phases
-from towercrane.simulate import case_model, versions
+from towercrane.models import radial_model
+from towercrane.simulate import versions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -115,7 +116,7 @@ def right_hand_side(repeats: int) -> dict[str, Any]:
     contestants: dict[str, Callable[[], Any]] = {}
     models: dict[str, int] = {}
     for modes in ((0, 0), (2, 2), (2, 3), (4, 4)):
-        model = case_model(load_case(CASE), tower_modes=modes[0], jib_modes=modes[1])
+        model = radial_model(load_case(CASE), tower_modes=modes[0], jib_modes=modes[1])
         cut, start = _scene(model)
         times, states = np.full(count, 10.0), np.repeat(start[None], count, axis=0)
         name = f"{modes[0]} tower + {modes[1]} jib modes"
@@ -136,7 +137,7 @@ def right_hand_side(repeats: int) -> dict[str, Any]:
 
 def radial_run(repeats: int) -> dict[str, Any]:
     """120 s of condition 3, 2 tower and 3 jib modes, from equilibrium."""
-    model = case_model(load_case(CASE), tower_modes=2, jib_modes=3)
+    model = radial_model(load_case(CASE), tower_modes=2, jib_modes=3)
     cut, start = _scene(model)
     # SciPy would evaluate every watched guard at every step; nothing is watched here, for either side.
     system = dataclasses.replace(model.system, floors=np.full(len(model.system.floors), -np.inf))
@@ -184,7 +185,7 @@ def modes_left_out(repeats: int) -> dict[str, Any]:
     grid = np.linspace(0.0, 120.0, 2401)
 
     def scene(modes: tuple[int, int]) -> tuple[RadialModel, Callable[[float], Trajectory]]:
-        model = case_model(load_case(CASE), tower_modes=modes[0], jib_modes=modes[1])
+        model = radial_model(load_case(CASE), tower_modes=modes[0], jib_modes=modes[1])
         cut, start = _scene(model)
 
         def solve(rtol: float) -> Trajectory:

@@ -159,9 +159,7 @@ def run(
     if csv:
         files["result.csv"] = result
     if pictures:
-        from towercrane import plots
-
-        files |= plots.run_pictures(result) | {"modes.png": _mode_picture(loaded)}
+        files |= _pictures(loaded, result)
     _write(folder, files)
     stale = remove_stale(folder, files)
     if as_json:
@@ -194,7 +192,7 @@ def figures(
     """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
     _folder_for_results(out)
     _announce_compilation("towercrane.stepper")
-    from towercrane import plots
+    from towercrane.plots import radial
     from towercrane.simulate import run_case
 
     conditions = {}
@@ -202,7 +200,7 @@ def figures(
         conditions[number] = _with_progress(_load(f"qtz5613/condition-{number}", changes), run_case)
         if conditions[number].attrs["outcome"] == "interrupted":
             raise KeyboardInterrupt
-    drawn = plots.source_figures(conditions)
+    drawn = radial.source_figures(conditions)
     _write(out, drawn)
     typer.echo(f"written to {out}: {', '.join(drawn)}")
     _next("run", "qtz5613/condition-4-zero")
@@ -232,15 +230,30 @@ def _load(name: str, changes: list[str] | None) -> Case:
     return load_case(name, changes or [])
 
 
+def _pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
+    """Pictures of a run, as its kind of crane has them."""
+    if case.kind == "radial":
+        from towercrane.plots import radial
+
+        return {**radial.run_pictures(result), "modes.png": _mode_picture(case)}
+    if case.kind == "jib":
+        from towercrane.plots import jib
+
+        return dict(jib.run_pictures(result))
+    from towercrane.plots import slewing
+
+    return dict(slewing.run_pictures(result))
+
+
 def _mode_picture(case: Case) -> Any:
     from modal import cantilever_modes
-    from towercrane import plots
+    from towercrane.plots import radial
 
     crane, count = case.radial_crane(), case.modes.count
     # The shapes rest on the equivalent beams, not on the lattice's members.
     beams = [a for a in case.assumed if a.key.startswith("crane.") and ".lattice." not in a.key]
     notes = [(a.key, str(a.value), a.why) for a in beams]
-    return plots.modes(
+    return radial.modes(
         cantilever_modes(crane.tower, count, crane.end_body), cantilever_modes(crane.jib, count), notes
     )
 

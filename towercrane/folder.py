@@ -11,7 +11,8 @@ if TYPE_CHECKING:
 
 RUN_FILES = (
     "result.nc", "summary.json", "result.csv", "overview.png", "motion.png", "swing.png", "phase.png", "tower.png",
-    "jib.png", "spectrum.png", "modes.png",
+    "jib.png", "spectrum.png", "modes.png", "sway.png", "moments.png", "torque.png", "angles.png", "path.png",
+    "plan.png", "torques.png",
 )  # fmt: skip
 """Everything that a run may write."""
 
@@ -34,7 +35,8 @@ def write(folder: Path, files: Mapping[str, Any]) -> None:
     OSError
         If one cannot be written; those before it are whole, and an old file in its place stays.
     """
-    from towercrane import plots, results
+    from towercrane import results
+    from towercrane.plots import style
 
     for name, content in files.items():
         path = folder / name
@@ -44,7 +46,7 @@ def write(folder: Path, files: Mapping[str, Any]) -> None:
             case ".csv":
                 results.save_csv(content, path)
             case ".png":
-                plots.save(content, path)
+                style.save(content, path)
             case _:
                 results.write_text(content, path)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.simulate import case_model
+from towercrane.models import radial_model
 from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def _coupled(case: Case, position: float) -> dict[str, Any]:
     """Frequencies of the coupled crane with the trolley at a position [m]."""
     from modal import frame_frequencies
 
-    crane, model = case.radial_crane(), case_model(case)
+    crane, model = case.radial_crane(), radial_model(case)
     row: dict[str, Any] = {"trolley_position_m": position, "frequencies_hz": []}
     try:
         found, swing = model.natural_modes(position, case.rope.length)

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane import __version__
-from towercrane.cranes.radial import RadialModel
 from towercrane.integrate import FINISHED, Trajectory, evaluate, integrate
+from towercrane.models import model_of
 from towercrane.motion import Motion, phases
 from towercrane.results import dataset
 from towercrane.system import Model, NoEquilibrium
@@ -112,25 +112,11 @@ def simulate(
     return dataset(times, quantities, provenance)
 
 
-def case_model(case: Case, **changes: Any) -> RadialModel:
-    """Model of a case; keyword arguments replace what the case chose."""
-    chosen = {
-        "tower_modes": case.model.tower_modes,
-        "jib_modes": case.model.jib_modes,
-        "weight_softening": case.model.weight_softening,
-        "tower_damping_ratio": case.model.tower_damping_ratio,
-        "jib_damping_ratio": case.model.jib_damping_ratio,
-        "rope_as_rod": case.rope.slack == "rod",
-        "self_weight": case.start.state != "zero-no-self-weight",
-    }
-    return RadialModel(case.radial_crane(), case.load(), **{**chosen, **changes})
-
-
 def run_case(case: Case, *, progress: Progress | None = None) -> xr.Dataset:
     """Simulate a case; its text and its assumed values go into the result's attributes."""
     result = simulate(
-        case_model(case),
-        {"trolley": case.trolley_motion(), "rope": case.rope_motion()},
+        model_of(case),
+        case.motions,
         case.run.duration,
         output_step=case.run.output_step,
         state="equilibrium" if case.start.state == "equilibrium" else "zero",

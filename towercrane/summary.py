@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from towercrane.integrate import FINISHED
-from towercrane.simulate import case_model
+from towercrane.models import model_of, radial_model
 from towercrane.spectrum import spectrum_peaks, swing_period
 from towercrane.system import NoEquilibrium
 
@@ -33,6 +33,20 @@ SMALL = 0.1
 """Tip deflection over length beyond which slopes are not small."""
 
 
+class Signals(NamedTuple):
+    """What of a kind's outputs shows the structure's vibration, and what the load's swing."""
+
+    vibration: str
+    swing: str
+
+
+SIGNALS = {
+    "radial": Signals("tower_tip_displacement", "swing_angle"),
+    "jib": Signals("sway_in_plane", "sway_in_plane"),
+}
+SLEWING_SIGNALS = Signals("jib_moment_vertical", "sway_radial")
+
+
 def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
     """Summary of a run of a case, ready for JSON.
 
@@ -40,13 +54,14 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
     -------
     dict
         ``outcome``, ``end_time_s``, ``peaks`` per variable (maximum, maximum_time_s, minimum, minimum_time_s,
-        units) among the rows of the result, ``spectrum_peaks_hz`` of the tower top (of its free vibration where
-        that is long enough), ``swing_period_s`` after the drives have stopped (None without
-        two passages), ``natural_frequencies_hz`` at the
-        last trolley position, ``energy_balance``, ``notices``, ``assumed``, ``solver``, ``wall_seconds``.
+        units) among the rows of the result, ``spectrum_peaks_hz`` of the structure (of its free vibration where that
+        is long enough), ``swing_period_s`` after the drives have stopped (None without a regular swing),
+        ``natural_frequencies_hz`` where the run ended, ``energy_balance``, ``notices``, ``assumed``, ``solver``,
+        ``wall_seconds``.
     """
     attributes = result.attrs
     times = result["time"].values
+    signals = SIGNALS.get(case.kind, SLEWING_SIGNALS)
     free = _after_the_drives(case, times)
     frequencies, swing = _natural(case, result)
     # Free vibration shows the crane's own lines; a moving trolley drags them along and adds its own.
@@ -61,8 +76,8 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         "end_time_s": float(attributes["end_time"]),
         "output_step_s": float(attributes["output_step"]),
         "peaks": peaks(result),
-        "spectrum_peaks_hz": spectrum_peaks(times[calm], result["tower_tip_displacement"].values[calm]),
-        "swing_period_s": swing_period(times[free], result["swing_angle"].values[free]),
+        "spectrum_peaks_hz": spectrum_peaks(times[calm], result[signals.vibration].values[calm]),
+        "swing_period_s": swing_period(times[free], result[signals.swing].values[free]),
         "natural_frequencies_hz": frequencies,
         "swing_mode": None if swing is None else swing + 1,
         "energy_balance": energy_balance(result),
@@ -134,10 +149,10 @@ def notices(case: Case, result: xr.Dataset, frequencies: list[float], swing: int
     gap = energy_balance(result)["relative_gap"]
     if gap > LOOSE:
         found.append(f"the energy balance is off by {gap:.1e} of the change: tighten solver.rtol and solver.atol")
-    for name, length in (
-        ("tower_tip_displacement", case.crane.tower.height),
-        ("jib_tip_deflection", case.crane.jib.length),
-    ):
+    lengths = ()
+    if case.kind == "radial":
+        lengths = (("tower_tip_displacement", case.crane.tower.height), ("jib_tip_deflection", case.crane.jib.length))
+    for name, length in lengths:
         share = float(abs(result[name]).max()) / length
         if share > SMALL:
             what = name.replace("_", " ")
@@ -167,12 +182,23 @@ def _parametric(result: xr.Dataset, frequencies: list[float], swing: int | None,
 
 def _natural(case: Case, result: xr.Dataset) -> tuple[list[float], int | None]:
     """Natural frequencies [Hz] where the run ended, and which is the swing; nothing for a tower that buckles."""
-    position, length = float(result["trolley_position"][-1]), float(result["rope_length"][-1])
     try:
-        frequencies, swing = case_model(case).natural_modes(position, length)
+        if case.kind != "radial":
+            return _linearised(case), None
+        position, length = float(result["trolley_position"][-1]), float(result["rope_length"][-1])
+        frequencies, swing = radial_model(case).natural_modes(position, length)
     except NoEquilibrium:
         return [], None
     return (frequencies / (2 * np.pi)).tolist(), swing
+
+
+def _linearised(case: Case) -> list[float]:
+    """Frequencies [Hz] about the equilibrium at the end of all motions."""
+    from towercrane.linearise import linearise
+
+    stop = max(motion.duration for motion in case.motions.values())
+    found = linearise(model_of(case), case.motions, time=stop, outputs=[]).eigenvalues()
+    return sorted({round(e.frequency, 12) for e in found if e.frequency > 0.0})
 
 
 def _cycles(times: Any, frequencies: list[float]) -> float:
@@ -182,5 +208,5 @@ def _cycles(times: Any, frequencies: list[float]) -> float:
 
 def _after_the_drives(case: Case, times: Any) -> slice:
     """Rows after the last drive has stopped."""
-    stop = max(case.trolley_motion().duration, case.rope_motion().duration)
+    stop = max(motion.duration for motion in case.motions.values())
     return slice(int(np.searchsorted(times, stop)), None)

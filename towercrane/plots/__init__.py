@@ -1,0 +1,1 @@
+"""Pictures that an engineer would print, by kind of crane."""
