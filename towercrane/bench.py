@@ -13,8 +13,8 @@ import numpy as np
 
 from towercrane.case import load_case
 from towercrane.integrate import INTERRUPTED, evaluate, integrate
-from towercrane.motion import phases
 from towercrane.models import radial_model
+from towercrane.motion import phases
 from towercrane.simulate import versions
 
 if TYPE_CHECKING:

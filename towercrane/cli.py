@@ -183,6 +183,60 @@ def run(
 
 
 @app.command()
+def sensitivity(
+    case: CaseName,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option("--vary", metavar="PATTERN", help='Parameters, e.g. --vary "stiffness_*"; all by default.'),
+    ] = None,
+    step: Annotated[float, typer.Option("--step", help="Percent of nominal between two values.")] = 20.0,
+    tolerance: Annotated[
+        float, typer.Option("--tolerance", help="Change of every output below which a member is made rigid.")
+    ] = 0.02,
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+) -> None:
+    """Which parameters and degrees of freedom of a slewing crane matter, and the reduced crane that follows."""
+    loaded = _load(case, changes)
+    folder = out if out is not None else Path("results") / f"{loaded.name}-sensitivity"
+    _folder_for_results(folder)
+    if not 1.0 <= step <= 100.0:
+        _fail(f"--step {step:g}: wanted percents from 1 to 100")
+    if not 0.0 < tolerance < 1.0:
+        _fail(f"--tolerance {tolerance:g}: wanted a fraction between 0 and 1")
+    parameters = loaded.lumped_parameters()
+    from towercrane.sensitivity import parameters_of
+
+    names = parameters_of(parameters, vary or ["*"])
+    if not names:
+        _fail(
+            f"--vary {' '.join(vary or [])}: wanted patterns that match some of {', '.join(parameters_of(parameters))}"
+        )
+    _announce_compilation("towercrane.stepper")
+    study = _study(loaded, names, step, tolerance)
+    from towercrane.sensitivity import report
+
+    summary = report(study, loaded)
+    files: dict[str, Any] = {"sensitivity.nc": study.data, "sensitivity.json": json.dumps(summary, indent=2) + "\n"}
+    if pictures:
+        from towercrane.plots import sensitivity as pictured
+
+        files["ranking.png"] = pictured.ranking(study)
+        files |= {f"surface-{name}.png": pictured.surface(study.data, name) for name in names}
+    _write(folder, files)
+    if as_json:
+        typer.echo(json.dumps(summary, indent=2))
+        return
+    from towercrane.tables import sensitivity_tables
+
+    sensitivity_tables(summary)
+    typer.echo(f"written to {folder}: {len(files)} files")
+    _next("run", case, *_set(changes))
+
+
+@app.command()
 def figures(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for the pictures.")] = Path(
         "results/figures"
@@ -269,6 +323,28 @@ def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Datase
     with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(case.name, total=case.run.duration)
         return simulate(case, progress=lambda time: bar.update(task, completed=time))
+
+
+def _study(case: Case, names: list[str], step: float, tolerance: float) -> Any:
+    """Run a sensitivity study with a progress bar if somebody is looking."""
+    from functools import partial
+
+    from towercrane.models import slewing_builder
+    from towercrane.sensitivity import study
+
+    percent = [step * i for i in range(int(200.0 / step) + 1)]
+    run = partial(
+        study, case.lumped_parameters(), slewing_builder(case), case.motions, case.run.duration,
+        vary=names, percent=percent, tolerance=tolerance,
+    )  # fmt: skip
+    if not sys.stderr.isatty():
+        return run()
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(f"{len(names)} parameters, {len(percent)} values each", total=1.0)
+        return run(progress=lambda done: bar.update(task, completed=done))
 
 
 def _announce_compilation(module: str) -> None:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
+    from towercrane.case import Case
     from towercrane.cranes.lumped import LumpedCrane, LumpedModel
     from towercrane.motion import Motion
 
@@ -60,6 +61,8 @@ class Study:
         full crane's.
     ended : list of str
         Runs that ended before their time, with the outcome.
+    coordinates : int
+        Structural coordinates of the full crane.
     """
 
     data: xr.Dataset
@@ -67,6 +70,24 @@ class Study:
     members: list[dict[str, Any]]
     reduced: dict[str, Any]
     ended: list[str]
+    coordinates: int
+
+
+def report(found: Study, case: Case) -> dict[str, Any]:
+    """Study ready for JSON, with the case's assumed values."""
+    return {
+        "case": case.name,
+        "crane": found.data.attrs["crane"],
+        "changes": list(case.changes),
+        "outputs": list(map(str, found.data.data_vars)),
+        "percent": found.data["percent"].values.tolist(),
+        "coordinates": found.coordinates,
+        "influence": found.influence,
+        "members": found.members,
+        "reduced": found.reduced,
+        "ended": found.ended,
+        "assumed": [{"key": a.key, "value": str(a.value), "why": a.why} for a in case.assumed],
+    }
 
 
 def parameters_of(parameters: Any, patterns: Sequence[str] = ("*",)) -> list[str]:
@@ -164,6 +185,7 @@ def study(
             "cost": reduced.attrs["evaluations"] / nominal.attrs["evaluations"],
         },
         ended=ended,
+        coordinates=full.coordinates,
     )
 
 

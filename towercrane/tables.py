@@ -131,6 +131,44 @@ def run_tables(summary: dict[str, Any]) -> None:
     _assumed(console, summary["assumed"])
 
 
+def sensitivity_tables(summary: dict[str, Any]) -> None:
+    """Ranked parameters, members and the reduced crane, as :func:`towercrane.sensitivity.report` gives them."""
+    console = _console()
+    outputs = summary["outputs"]
+    heads = [name.replace("_", " ") for name in outputs]
+
+    def cells(change: dict[str, float | None]) -> list[str]:
+        return ["lost" if change[name] is None else f"{change[name]:.1%}" for name in outputs]
+
+    table = _table(
+        f"{summary['crane']}: largest change within 50 to 150 % of nominal, of each output's peak",
+        "parameter",
+        *heads,
+    )
+    for entry in summary["influence"]:
+        table.add_row(entry["parameter"].replace("_", " "), *cells(entry["near"]))
+    console.print(table)
+    table = _table("Members made rigid one at a time", "member", *heads)
+    for entry in summary["members"]:
+        table.add_row(entry["member"].replace("_", " "), *cells(entry["change"]))
+    console.print(table)
+    console.print("lost: the output is read off that member, which has to stay")
+    reduced = summary["reduced"]
+    table = _table(
+        f"Reduced crane, rigid in {', '.join(reduced['rigid']).replace('_', ' ') or 'nothing'}, beside the full one",
+        "coordinates", *heads, "evaluations",
+    )  # fmt: skip
+    table.add_row(
+        f"{len(reduced['coordinates'])} of {summary['coordinates']}",
+        *cells(reduced["change"]),
+        f"{reduced['cost']:.0%}",
+    )
+    console.print(table)
+    for ended in summary["ended"]:
+        console.print(f"note     {ended}")
+    _assumed(console, summary["assumed"])
+
+
 def bench_tables(report: dict[str, Any]) -> None:
     """Speed against error, as :func:`towercrane.bench.measure` gives it."""
     console = _console()
