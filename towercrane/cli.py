@@ -237,6 +237,61 @@ def sensitivity(
 
 
 @app.command()
+def linearise(
+    case: CaseName,
+    at: Annotated[
+        float,
+        typer.Option("--at", metavar="SECONDS", min=0.0, help="When: trolley and rope stand where they are then."),
+    ] = 0.0,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE", help="Write A, B, C, D to a .mat or .npz file.")
+    ] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+) -> None:
+    """Linear state-space model of a case: eigenvalues, and a file for MATLAB or Python."""
+    from towercrane.statespace import FILE_TYPES
+
+    loaded = _load(case, changes)
+    if not at < float("inf"):
+        _fail(f"--at {at}: wanted a finite number of seconds")
+    if out is not None:
+        if out.suffix.lower() not in FILE_TYPES or out.is_dir():
+            _fail(f"--out {out}: wanted a file that ends in {' or '.join(FILE_TYPES)}")
+        _folder_for_results(out.parent)
+    _announce_compilation("towercrane.cranes.radial_kernel")
+    from towercrane.natural import linear_model, linear_report
+    from towercrane.system import NoEquilibrium
+
+    try:
+        linear = linear_model(loaded, at)
+    except NoEquilibrium as failure:
+        _say(f"{failure.outcome}: {failure}")
+        raise typer.Exit(ENDED_EARLY) from None
+    if out is not None:
+        linear.save(out)
+    report = linear_report(loaded, at, linear)
+    if as_json:
+        typer.echo(json.dumps(report, indent=2, allow_nan=False))
+        return
+    from towercrane.tables import linear_tables
+
+    linear_tables(report, ("trolley", "rope"))
+    if out is not None:
+        typer.echo(f"written to {out}")
+        _next("run", case, *_set(changes))
+    else:
+        _next(
+            "linearise",
+            case,
+            *(("--at", f"{at:g}") if at else ()),
+            *_set(changes),
+            "--out",
+            f"results/{loaded.name}.mat",
+        )
+
+
+@app.command()
 def figures(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for the pictures.")] = Path(
         "results/figures"

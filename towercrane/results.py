@@ -43,18 +43,22 @@ def dataset(
     """Labelled data set over time, with units on every variable and the provenance in its attributes."""
     import xarray as xr
 
-    labels = {"axis": ["outward", "sideways", "up"]}
     coordinates: dict[str, Any] = {"time": ("time", times, {"units": "s", "long_name": "time"})}
     variables = {}
     for name, quantity in quantities.items():
         for dimension, size in zip(quantity.dims, quantity.values.shape, strict=True):
-            coordinates.setdefault(dimension, labels.get(dimension, np.arange(1, size + 1)))
+            coordinates.setdefault(dimension, labels(dimension, size))
         variables[name] = (
             quantity.dims,
             quantity.values,
             {"units": quantity.units, "long_name": quantity.long_name},
         )
     return xr.Dataset(variables, coordinates, dict(provenance))
+
+
+def labels(dimension: str, size: int) -> list[Any]:
+    """What the entries along a dimension are called: directions, or numbers from 1."""
+    return ["outward", "sideways", "up"] if dimension == "axis" else list(range(1, size + 1))
 
 
 def save(result: xr.Dataset, path: str | os.PathLike[str]) -> None:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.table import Table
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
 
 WIDTH_OF_A_PIPE = 120
 """Columns where no terminal tells its width."""
@@ -83,6 +86,37 @@ def modes_tables(report: dict[str, Any]) -> None:
             table.add_row(name.replace("_", " "), f"{found['value']:.5g}", found["unit"], found["use"])
         console.print(table)
     _assumed(console, report["assumed"])
+
+
+def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
+    """Eigenvalues, as :func:`towercrane.natural.linear_report` gives them, without those of the drives themselves."""
+    console = _console()
+    values = {signal["name"]: signal["value"] for signal in report["states"]}
+    where = ", ".join(f"{name} {values[name]:g} m" for name in drives)
+    title = f"{report['name']}: small motions about the equilibrium"
+    table = _table(
+        f"{title}, {where}", "moves most", "frequency [Hz]", "period [s]", "damping ratio", "eigenvalue [1/s]"
+    )
+    for row in report["eigenvalues"]:
+        if row["dominant_state"] in drives:
+            continue
+        frequency, ratio, imaginary = row["frequency_hz"], row["damping_ratio"], row["imaginary"]
+        table.add_row(
+            row["dominant_state"].replace("_", " "),
+            f"{frequency:.6f}",
+            f"{1.0 / frequency:.4f}" if imaginary else "",
+            "" if ratio is None else f"{_rounded(ratio, 6):.6f}",
+            f"{_rounded(row['real'], 6):.6f}" + (f" +- {imaginary:.6f}i" if imaginary else ""),
+        )
+    console.print(table)
+    sizes = ", ".join(f"{len(report[kind])} {kind}" for kind in ("states", "inputs", "outputs"))
+    console.print(f"{sizes}; inputs: {', '.join(signal['name'] for signal in report['inputs'])}")
+    _assumed(console, report["assumed"])
+
+
+def _rounded(value: float, digits: int) -> float:
+    """Rounded, and never minus zero."""
+    return round(value, digits) + 0.0
 
 
 def run_tables(summary: dict[str, Any]) -> None:

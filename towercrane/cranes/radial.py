@@ -88,6 +88,17 @@ class RadialModel:
         return ("trolley", "rope")
 
     @property
+    def channel_units(self) -> tuple[str, ...]:
+        """Units of the channels."""
+        return ("m", "m")
+
+    @property
+    def state_names(self) -> dict[str, str]:
+        """Name and unit of every coordinate."""
+        parts = (("tower", self.tower_modes), ("jib", self.jib_modes))
+        return {f"{part}_mode_{i + 1}": "kg^0.5 m" for part, count in parts for i in range(count)}
+
+    @property
     def coordinates(self) -> int:
         """Number of modal coordinates."""
         return self.tower_modes + self.jib_modes
