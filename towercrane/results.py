@@ -43,7 +43,7 @@ def dataset(
     """Labelled data set over time, with units on every variable and the provenance in its attributes."""
     import xarray as xr
 
-    labels = {"axis": ["outward", "sideways", "up"]}
+    labels = {"axis": ["outward", "sideways", "up"], "joint": ["slew", "luff", "fold"]}
     coordinates: dict[str, Any] = {"time": ("time", times, {"units": "s", "long_name": "time"})}
     variables = {}
     for name, quantity in quantities.items():
