@@ -126,6 +126,44 @@ def s_curve(start: float, end: float, speed: float, acceleration: float, jerk: f
     return _ramped(start, end, speed, acceleration, jerk)
 
 
+def smooth_ramp(start: float, end: float, speed: float, ramp_time: float) -> Motion:
+    """Speed that rises and falls without a jump in acceleration or jerk: two ramps 10 x^3 - 15 x^4 + 6 x^5.
+
+    Parameters
+    ----------
+    start, end : float
+        First and last value.
+    speed : float
+        Largest rate, positive; a way too short for it is travelled at way / ramp_time.
+    ramp_time : float
+        Time in which the speed rises, and again falls [s].
+
+    Notes
+    -----
+    The largest acceleration is 15/8 speed / ramp_time, half way up the ramp. The fall begins |end - start| / speed
+    after the start.
+    """
+    for name, value in (("speed", speed), ("ramp_time", ramp_time)):
+        if not 0.0 < value < np.inf:
+            raise ValueError(f"smooth_ramp: {name} wants a positive finite number, got {value!r}")
+    way = end - start
+    if abs(way) < SHORTEST_WAY:
+        return rest(start)
+    rate = np.copysign(min(speed, abs(way) / ramp_time), way)
+    cruise = max(way / rate - ramp_time, 0.0)
+    unit = rate * ramp_time / ramp_time ** np.arange(7)
+    rise = np.array([0.0, 0.0, 0.0, 0.0, 2.5, -3.0, 1.0]) * unit
+    level = np.array([0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]) * unit
+    at_start = np.eye(7)[0]
+    pieces, times, value = [], [0.0], float(start)
+    for span, shape in ((ramp_time, rise), (cruise, level), (ramp_time, level - rise)):
+        if span > SAME_INSTANT:
+            pieces.append(shape + value * at_start)
+            times.append(times[-1] + span)
+            value = _polynomial(pieces[-1], span)
+    return Motion(np.array(times), np.array(pieces))
+
+
 def sequence(*motions: Motion) -> Motion:
     """Motions one after the other; each begins where the one before ends.
 

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+LABELS: dict[str, list[Any]] = {"axis": ["outward", "sideways", "up"], "joint": ["slew", "luff", "fold"]}
+"""Entries of dimensions that have names."""
+
+
 @dataclass(frozen=True, eq=False)
 class Quantity:
     """One variable of a result.
@@ -57,8 +61,8 @@ def dataset(
 
 
 def labels(dimension: str, size: int) -> list[Any]:
-    """What the entries along a dimension are called: directions, or numbers from 1."""
-    return ["outward", "sideways", "up"] if dimension == "axis" else list(range(1, size + 1))
+    """What the entries along a dimension are called: directions, joints, or numbers from 1."""
+    return LABELS.get(dimension, list(range(1, size + 1)))
 
 
 def save(result: xr.Dataset, path: str | os.PathLike[str]) -> None:

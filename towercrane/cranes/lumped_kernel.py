@@ -14,8 +14,8 @@ import numpy as np
 from numba import types
 
 from modal.compiled import kernel
-from towercrane.cranes.radial_kernel import polynomial
 from towercrane.payload import BIAS, DIRECTION, FORCE, HINGE, JACOBIAN, MASS, VELOCITY, hang_load
+from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
 
 (GRAVITY, LOAD_MASS, DRAG, HINGE_DAMPING, ROPE_STIFFNESS, ROPE_LOSS, LINKS, POINTS, SUSPENSION, DRIVEN,

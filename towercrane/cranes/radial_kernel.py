@@ -25,6 +25,7 @@ from towercrane.payload import (
     VELOCITY,
     hang_load,
 )
+from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
 
 (TOWER_MODES, TROLLEY_MASS, GRAVITY, SELF_GRAVITY, STATIC_MOMENT, JIB_LENGTH, TILT_LIMIT,
@@ -45,17 +46,6 @@ TENSION, INNER_END, OUTER_END, TILT = range(4)
 """Guards: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad]."""
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
-
-
-@kernel()
-def polynomial(inputs: Any, channel: int, t: float) -> tuple[float, float, float]:
-    """Value and first two derivatives of an input channel."""
-    value, rate, half_second = 0.0, 0.0, 0.0
-    for c in range(inputs.shape[1] - 1, -1, -1):
-        half_second = half_second * t + rate
-        rate = rate * t + value
-        value = value * t + inputs[channel, c]
-    return value, rate, 2.0 * half_second
 
 
 @kernel(types.UniTuple(types.float64, 5)(types.int64, types.float64, _one, _two, _one, _two, _three, _three, _two))

@@ -1,0 +1,329 @@
+"""Jib crane with slewing post, luffing boom, folding boom and a load on a rope of prescribed length.
+
+Source: Al-Ajmi, Abu-El Yazied, Abu-El-Hagag, Makady, Dynamic modeling and load sway simulation of jib cranes; the
+equations are derived anew, see :mod:`towercrane.cranes.jib_crane_kernel`. Each model answers one question:
+:class:`PlannedJibCrane` which torques a plan needs and how the load then sways, :class:`DrivenJibCrane` how the
+crane moves under given torques, :class:`TrackingJibCrane` how it moves under the torques of its plan.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.cranes import jib_crane_kernel as kernel
+from towercrane.payload import Load, restore
+from towercrane.system import System
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from towercrane.motion import Motion
+    from towercrane.results import Quantity
+
+    Floats = NDArray[np.float64]
+
+SLACK_ROPE = "slack rope"
+
+PLAN = ("slew", "luff", "fold", "rope")
+"""Channels of a plan: three joint angles [rad] and the rope's length [m]."""
+
+TORQUES = ("slew_torque", "luff_torque", "fold_torque", "rope")
+"""Channels of a driven crane: three joint torques [N m] and the rope's length [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class JibCrane:
+    """Parameters of a jib crane with two straight, uniform booms in one vertical plane.
+
+    Parameters
+    ----------
+    name : str
+    post_height : float
+        Height a_1 of the luffing hinge above the post's foot [m].
+    post_inertia : float
+        Moment of inertia J_1 of all that only slews, about the post [kg m^2].
+    primary_length, secondary_length : float
+        Lengths a_2 and a_3 of the booms [m].
+    primary_mass_per_length, secondary_mass_per_length : float
+        Masses per length rho_2 and rho_3 of the booms [kg/m].
+    gravity : float
+        Acceleration of gravity [m/s^2].
+
+    Raises
+    ------
+    ValueError
+        If a length, a mass per length or gravity is not positive, or height or inertia is negative.
+    """
+
+    name: str
+    post_height: float
+    post_inertia: float
+    primary_length: float
+    primary_mass_per_length: float
+    secondary_length: float
+    secondary_mass_per_length: float
+    gravity: float = 9.81
+
+    def __post_init__(self) -> None:
+        for name in ("post_height", "post_inertia"):
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(f"JibCrane.{name}: wanted zero or more, got {getattr(self, name)!r}")
+        for boom in ("primary", "secondary"):
+            for name in (f"{boom}_length", f"{boom}_mass_per_length"):
+                if not 0.0 < getattr(self, name) < np.inf:
+                    raise ValueError(f"JibCrane.{name}: wanted a positive number, got {getattr(self, name)!r}")
+        if not 0.0 < self.gravity < np.inf:
+            raise ValueError(f"JibCrane.gravity: wanted a positive number, got {self.gravity!r}")
+
+
+@dataclass(frozen=True, eq=False)
+class _JibModel:
+    """What the models of a jib crane share."""
+
+    crane: JibCrane
+    load: Load
+    rope_as_rod: bool = field(default=False, kw_only=True)
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Motions: the three joint angles [rad] and the rope's length [m]."""
+        return PLAN
+
+    @property
+    def numbers(self) -> Floats:
+        """Constants of the compiled structure; shape (13,)."""
+        crane, load = self.crane, self.load
+        numbers = np.zeros(13)
+        numbers[: kernel.STIFFNESS] = (
+            crane.post_height, crane.post_inertia, crane.primary_length, crane.primary_mass_per_length,
+            crane.secondary_length, crane.secondary_mass_per_length, crane.gravity,
+            load.mass, load.drag, load.rope_damping,
+        )  # fmt: skip
+        return numbers
+
+    def _system(
+        self,
+        rhs: Any,
+        works: tuple[int, ...],
+        numbers: Floats,
+        put_back: Callable[[Floats], None],
+        more_guards: tuple[str, ...] = (),
+    ) -> System:
+        """System whose states in ``works`` are work done, the last of them the last state."""
+        guards = (SLACK_ROPE, *TORQUES[: kernel.JOINTS], *more_guards)
+        floors = np.full(len(guards), -np.inf)
+        if not self.rope_as_rod:
+            floors[kernel.TENSION] = floors[kernel.PLANNED_TENSION :] = 0.0
+        scale = np.ones(works[-1] + 1)
+        scale[list(works)] = np.inf  # It steers no step.
+        return System(
+            rhs=rhs,
+            size=works[-1] + 1,
+            guards=guards,
+            floors=floors,
+            scale=scale,
+            numbers=numbers,
+            vectors=np.empty((0, 0)),
+            matrices=np.empty((0, 0, 0)),
+            tables=np.empty((0, 0, 0)),
+            work_shape=(kernel.ROWS, kernel.JOINTS),
+            restore=put_back,
+        )
+
+    def provenance(self) -> dict[str, Any]:
+        """Crane and load, for a result's attributes."""
+        return {"crane": self.crane.name, "payload_mass": self.load.mass, "gravity": self.crane.gravity}
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedJibCrane(_JibModel):
+    """Joints on prescribed paths: sway of the load, and the joint torques by inverse dynamics.
+
+    Parameters
+    ----------
+    crane : JibCrane
+    load : Load
+    rope_as_rod : bool
+        Let the rope push. Without it a slack rope ends the run.
+
+    Notes
+    -----
+    The state is (n, p, work): the rope's direction in inertial axes, its rate, and the work [J] that joints, winch
+    and losses have put in. Where a joint's acceleration jumps, so does its torque; every row holds the right limit.
+    """
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        return self._system(
+            kernel.planned_rhs, (2 * kernel.AXES,), self.numbers, lambda y: restore(y, 0, kernel.AXES)
+        )
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State in which the load hangs at rest in inertial axes.
+
+        Parameters
+        ----------
+        inputs : ndarray
+            Polynomials of the first phase.
+        state : str
+            "equilibrium" or "zero", the same for rigid booms.
+        swing_angle : float
+            In-plane angle of the rope from the vertical, positive outward [rad].
+
+        Returns
+        -------
+        ndarray, shape (size,)
+
+        Raises
+        ------
+        ValueError
+            If the state is not one of the two.
+        """
+        return np.concatenate([_hanging(float(inputs[0, 0]), state, swing_angle), np.zeros(kernel.AXES + 1)])
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time, see :func:`towercrane.cranes.jib_crane_outputs.observe`."""
+        from towercrane.cranes.jib_crane_outputs import Rows, observe, planned_joints
+
+        angles, rates = planned_joints(motions, times)
+        n = kernel.AXES
+        return observe(
+            self.numbers,
+            self.load,
+            motions,
+            times,
+            Rows(angles, rates, states[:, :n], states[:, n : 2 * n], states[:, -1]),
+            guards,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenJibCrane(_JibModel):
+    """Joints that move under given torques.
+
+    Parameters
+    ----------
+    crane : JibCrane
+    load : Load
+    start_angles, start_rates : tuple of float
+        Slew, luff and fold at the start [rad], and their rates [rad/s].
+    rope_as_rod : bool
+        Let the rope push. Without it a slack rope ends the run.
+
+    Notes
+    -----
+    The state is (theta, n, theta', p, work). Torques are piecewise polynomials of the same class as motions. Booms
+    under torques alone are inverted pendulums: whatever the solver, errors grow at the rates of
+    :func:`towercrane.cranes.jib_crane_linear.growth_rates`.
+    """
+
+    start_angles: tuple[float, float, float]
+    start_rates: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Motions: the three joint torques [N m] and the rope's length [m]."""
+        return TORQUES
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        return self._system(
+            kernel.driven_rhs, (kernel.PLAN - 1,), self.numbers, lambda y: restore(y, kernel.JOINTS, kernel.AXES)
+        )
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State at the start angles with the load at rest; arguments as of :meth:`PlannedJibCrane.start`."""
+        return _driven_start(self.start_angles, self.start_rates, state, swing_angle)
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time, see :func:`towercrane.cranes.jib_crane_outputs.observe`."""
+        from towercrane.cranes.jib_crane_outputs import driven_rows, observe
+
+        return observe(self.numbers, self.load, motions, times, driven_rows(states), guards)
+
+
+@dataclass(frozen=True, eq=False)
+class TrackingJibCrane(_JibModel):
+    """Joints under the torques of their plan, with or without a controller that holds them to it.
+
+    Plan and crane are solved side by side: tau = tau_plan - stiffness (theta - theta_plan) - damping
+    (theta' - theta_plan'), where tau_plan is the inverse dynamics of the plan and its own load.
+
+    Parameters
+    ----------
+    crane : JibCrane
+    load : Load
+    stiffness : float
+        Torque per angle that a joint is off its plan, the same for each [N m/rad]; 0 is open loop.
+    damping : float
+        Torque per rate that a joint is off its plan [N m s/rad].
+    rope_as_rod : bool
+        Let the rope push. Without it a slack rope, of crane or plan, ends the run.
+
+    Raises
+    ------
+    ValueError
+        If a gain is negative.
+    """
+
+    stiffness: float = 0.0
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("stiffness", "damping"):
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(f"TrackingJibCrane.{name}: wanted zero or more, got {getattr(self, name)!r}")
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        numbers = self.numbers
+        numbers[kernel.STIFFNESS], numbers[kernel.DAMPING] = self.stiffness, self.damping
+
+        def put_back(y: Floats) -> None:
+            restore(y[: kernel.PLAN], kernel.JOINTS, kernel.AXES)
+            restore(y[kernel.PLAN :], 0, kernel.AXES)
+
+        works = (kernel.PLAN - 1, kernel.PLAN + 2 * kernel.AXES)
+        return self._system(kernel.tracking_rhs, works, numbers, put_back, (f"{SLACK_ROPE} in the plan",))
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State on the plan with both loads at rest; arguments as of :meth:`PlannedJibCrane.start`."""
+        angles, rates = inputs[: kernel.JOINTS, 0], inputs[: kernel.JOINTS, 1]
+        crane = _driven_start(angles, rates, state, swing_angle)
+        return np.concatenate([crane, _hanging(float(angles[0]), state, swing_angle), np.zeros(kernel.AXES + 1)])
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time, with the joints' errors; see :func:`towercrane.cranes.jib_crane_outputs.observe`."""
+        from towercrane.cranes.jib_crane_outputs import driven_rows, joint_error, observe
+
+        outputs = observe(self.numbers, self.load, motions, times, driven_rows(states), guards)
+        return {**outputs, "joint_error": joint_error(motions, times, states)}
+
+
+def _hanging(slew: float, state: str, swing_angle: float) -> Floats:
+    """Direction of a rope that hangs in the booms' plane; shape (3,)."""
+    if state not in ("equilibrium", "zero"):
+        raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+    outward = np.sin(swing_angle)
+    return np.array([outward * np.cos(slew), outward * np.sin(slew), -np.cos(swing_angle)])
+
+
+def _driven_start(angles: ArrayLike, rates: ArrayLike, state: str, swing_angle: float) -> Floats:
+    """State (theta, n, theta', p, work) with the load at rest."""
+    theta = np.asarray(angles, dtype=float)
+    return np.concatenate([theta, _hanging(theta[0], state, swing_angle), rates, np.zeros(kernel.AXES + 1)])
