@@ -211,9 +211,8 @@ def sensitivity(
 
     names = parameters_of(parameters, vary or ["*"])
     if not names:
-        _fail(
-            f"--vary {' '.join(vary or [])}: wanted patterns that match some of {', '.join(parameters_of(parameters))}"
-        )
+        known = ", ".join(parameters_of(parameters))
+        _fail(f"--vary {' '.join(vary or [])}: wanted patterns that match some of {known}")
     _announce_compilation("towercrane.stepper")
     study = _study(loaded, names, step, tolerance)
     from towercrane.sensitivity import report
@@ -276,7 +275,7 @@ def linearise(
         return
     from towercrane.tables import linear_tables
 
-    linear_tables(report, ("trolley", "rope"))
+    linear_tables(report, tuple(loaded.motions))
     if out is not None:
         typer.echo(f"written to {out}")
         _next("run", case, *_set(changes))

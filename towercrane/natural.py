@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.models import radial_model
+from towercrane.models import model_of, radial_model
 from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
@@ -138,7 +138,7 @@ def linear_model(case: Case, at: float) -> StateSpace:
     """
     from towercrane.linearise import linearise
 
-    return linearise(case_model(case), {"trolley": case.trolley_motion(), "rope": case.rope_motion()}, time=at)
+    return linearise(model_of(case), case.motions, time=at)
 
 
 def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:

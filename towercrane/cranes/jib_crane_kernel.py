@@ -164,7 +164,8 @@ def driven(t: float, y: Any, dy: Any, inputs: Any, numbers: Any, work: Any) -> f
     for i in range(JOINTS):
         work[FORCE, i] += work[TORQUES, i]
         power += work[TORQUES, i] * y[JOINTS + AXES + i]
-    tension = hang(t, y, dy, JOINTS, inputs, numbers, work)
+    # The kernel takes the whole of what it is given for its state; a plan that is followed stands behind it.
+    tension = hang(t, y[:PLAN], dy[:PLAN], JOINTS, inputs, numbers, work)
     dy[PLAN - 1] += power
     return tension
 
