@@ -1,7 +1,7 @@
 """Jib cranes and plans of the tests: the source's data, the same with booms of plausible weight, and its plan."""
 
 from towercrane.cranes.jib_crane import JibCrane, PlannedJibCrane
-from towercrane.motion import rest, sequence, smooth_ramp, trapezoid
+from towercrane.motion import rest, sequence, smooth_ramps, trapezoid
 from towercrane.payload import Load
 
 PRINTED = JibCrane(
@@ -50,10 +50,10 @@ def printed_plan(luff: float = 0.3, fold: float = 0.0, faster: float = 1.0) -> d
 def smooth_plan(turn: float = 0.0) -> dict:
     """All joints and the rope at once on smooth ramps."""
     return {
-        "slew": smooth_ramp(turn, turn + 2.0, 0.05, 8.0),
-        "luff": after(10.0, smooth_ramp(0.4, 0.8, 0.01, 6.0)),
-        "fold": after(5.0, smooth_ramp(-0.2, -0.4, 0.005, 5.0)),
-        "rope": after(15.0, smooth_ramp(20.0, 12.0, 0.2, 4.0)),
+        "slew": smooth_ramps(turn, 0.05, 8.0, 32.0),
+        "luff": after(10.0, smooth_ramps(0.4, 0.01, 6.0, 34.0)),
+        "fold": after(5.0, smooth_ramps(-0.2, -0.005, 5.0, 35.0)),
+        "rope": after(15.0, smooth_ramps(20.0, -0.2, 4.0, 36.0)),
     }
 
 

@@ -11,7 +11,7 @@ from scipy.special import ellipj, ellipk, jv, yv
 from towercrane.cranes.jib_crane import DrivenJibCrane, JibCrane, PlannedJibCrane, TrackingJibCrane
 from towercrane.cranes.jib_crane_linear import LinearSway, growth_rates, static_matrices, static_torques
 from towercrane.integrate import integrate
-from towercrane.motion import Motion, phases, rest, smooth_ramp, trapezoid
+from towercrane.motion import Motion, phases, rest, smooth_ramps, trapezoid
 from towercrane.payload import Load
 from towercrane.simulate import simulate
 
@@ -281,8 +281,8 @@ def test_linear_sway_converges_to_the_exact_one_with_slew_and_hoist():
     for scale in (0.25, 0.125):
         motions = {
             **standing(),
-            "slew": smooth_ramp(0.0, 1.0 * scale, 0.05 * scale, 8.0),
-            "rope": smooth_ramp(20.0, 14.0, 0.3, 4.0),
+            "slew": smooth_ramps(0.0, 0.05 * scale, 8.0, 12.0),
+            "rope": smooth_ramps(20.0, -0.3, 4.0, 16.0),
         }
         runs = [simulate(m, motions, 40.0, **TIGHT) for m in (planned(), LinearSway(HEAVY, LOAD))]
         for name in ("sway_in_plane", "sway_lateral"):
@@ -401,7 +401,7 @@ def test_a_start_at_rest_where_the_printed_angles_are_singular_stays_at_rest():
 
 def test_a_load_that_falls_behind_its_rope_ends_the_run_when_it_does():
     # Paid out faster than it falls: T = m (g - l'') for a load that hangs still.
-    rope = smooth_ramp(10.0, 40.0, 10.0, 1.5)
+    rope = smooth_ramps(10.0, 10.0, 1.5, 1.5)
     motions = {**standing(), "rope": after(1.0, rope)}
     result = simulate(planned(), motions, 4.0)
     assert result.attrs["outcome"] == "slack rope"

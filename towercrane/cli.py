@@ -80,7 +80,7 @@ def cases(context: typer.Context) -> None:
     width = max(len(name) for name, _ in found)
     for name, title in found:
         typer.echo(f"{name:<{width}}  {title}")
-    _next("modes", found[0][0])
+    _next("modes", "qtz5613/condition-3")
 
 
 @cases_app.command("copy")

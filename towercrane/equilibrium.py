@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 MOST_STEPS = 50
 
 
+SETTLED = 1e-8
+"""Change of the coordinates, relative to their scale, below which no further progress is rounding."""
+
+
 class Unstable(ArithmeticError):
     """No stable equilibrium was found."""
 
@@ -44,6 +48,7 @@ def stable_equilibrium(residual: Callable[[Floats], Floats], scale: Floats) -> F
     if not len(scale):
         return q
     steps = np.diag(1e-5 * scale)
+    before = np.inf
     for _ in range(MOST_STEPS):
         columns = [(residual(q - d) - residual(q + d)) / (2e-5 * s) for s, d in zip(scale, steps, strict=True)]
         tangent = np.array(columns).T
@@ -51,6 +56,9 @@ def stable_equilibrium(residual: Callable[[Floats], Floats], scale: Floats) -> F
             raise Unstable("the stiffness is not positive definite")
         change = np.linalg.solve(tangent, residual(q))
         q = q + change
-        if np.max(abs(change) / scale) < 1e-13 * (1.0 + np.max(abs(q) / scale)):
+        size = float(np.max(abs(change) / scale))
+        # Where a soft member holds a stiff crane, rounding ends the quadratic convergence earlier.
+        if size < 1e-13 * (1.0 + np.max(abs(q) / scale)) or 0.5 * before < size < SETTLED:
             return q
+        before = size
     raise Unstable("the search did not settle")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin
 
 from towercrane.faults import Fault, closest, shown
-from towercrane.schema import CaseFile, Quantity, Table, tables
+from towercrane.kinds import known_keys, known_to, of_kinds, plain_key
+from towercrane.schema import Quantity, Table, tables
+from towercrane.schema_cases import KINDS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from pydantic import ValidationError
     from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
@@ -18,35 +18,27 @@ SHOWS_KEYS = 12
 """At most so many known keys are listed in one message."""
 
 
-def explain(error: ValidationError) -> list[Fault]:
+def explain(error: ValidationError, kind: str = "radial") -> list[Fault]:
     """One fault per slip; a misspelt key is not reported again as missing. The faults' file is left open."""
     details = error.errors(include_url=False)
-    known = {_resolve(d["loc"])[0]: d for d in details}
+    known = {_resolve(d["loc"], kind)[0]: d for d in details}
     faults, misspelt = [], set()
     for key, detail in known.items():
         if detail["type"] == "extra_forbidden":
-            fault, meant = _unknown(key, detail)
+            fault, meant = _unknown(key, detail, kind)
             faults.append(fault)
             misspelt.add(meant)
     for key, detail in known.items():
         if detail["type"] != "extra_forbidden" and not (detail["type"] == "missing" and key in misspelt):
-            faults.append(_fault(key, detail))
+            faults.append(_fault(key, detail, kind))
     return faults
 
 
-def known_keys(table: type[Table] = CaseFile, prefix: str = "") -> Iterator[str]:
-    """Every dotted key that a case may have."""
-    for name, field in table.model_fields.items():
-        yield prefix + name
-        for inner in tables(field.annotation):
-            yield from known_keys(inner, f"{prefix}{name}.")
-
-
-def _resolve(loc: tuple[int | str, ...]) -> tuple[str, list[type[Table]], FieldInfo | None]:
+def _resolve(loc: tuple[int | str, ...], kind: str) -> tuple[str, list[type[Table]], FieldInfo | None]:
     """Dotted key of a location, the tables it lies in and its field; tags of the motion shapes drop out."""
     parts: list[str] = []
     owners: list[type[Table]] = []
-    inside: list[type[Table]] = [CaseFile]
+    inside: list[type[Table]] = [KINDS[kind]]
     field: FieldInfo | None = None
     for part in loc:
         tagged = [t for t in inside if len(inside) > 1 and part in get_args(_annotation(t, "shape"))]
@@ -65,39 +57,42 @@ def _annotation(table: type[Table], name: str) -> Any:
     return table.model_fields[name].annotation if name in table.model_fields else None
 
 
-def _unknown(key: str, detail: ErrorDetails) -> tuple[Fault, str]:
+def _unknown(key: str, detail: ErrorDetails, kind: str) -> tuple[Fault, str]:
     """Fault for a key that is not known, and the dotted key that was probably meant."""
     parent, _, name = key.rpartition(".")
-    names = list(dict.fromkeys(n for t in _resolve(detail["loc"])[1] for n in t.model_fields))
-    meant = closest(name, names)
+    names = list(dict.fromkeys(n for t in _resolve(detail["loc"], kind)[1] for n in t.model_fields))
+    elsewhere = known_to(plain_key(key))
+    meant = closest(name, names) if kind in elsewhere or not elsewhere else None
     if meant:
         hint = f'closest known key: "{meant}"'
+    elif elsewhere and kind not in elsewhere:
+        hint = f'a key of {of_kinds(elsewhere)}; this crane is of kind "{kind}"'
     else:
-        places = sorted({k for k in known_keys() if k.rpartition(".")[2] == name})
+        places = sorted({k for k in known_keys(KINDS[kind]) if k.rpartition(".")[2] == name})
         hint = f'"{name}" is known as {" or ".join(places)}' if places else ""
     listed = ", ".join(names[:SHOWS_KEYS]) + (", ..." if len(names) > SHOWS_KEYS else "")
     fault = Fault("", key, f"one of the keys {listed}", f'the unknown key "{name}"', hint)
     return fault, f"{parent}.{meant}" if parent else str(meant)
 
 
-def _fault(key: str, detail: ErrorDetails) -> Fault:
-    kind, context = detail["type"], detail.get("ctx", {})
-    field = _resolve(detail["loc"])[2]
+def _fault(key: str, detail: ErrorDetails, kind: str) -> Fault:
+    slip, context = detail["type"], detail.get("ctx", {})
+    field = _resolve(detail["loc"], kind)[2]
     got = shown(detail["input"])
-    if kind == "quantity":
+    if slip == "quantity":
         return Fault("", key, context["wanted"], context["got"], context["hint"])
-    if kind in ("union_tag_invalid", "union_tag_not_found"):
+    if slip in ("union_tag_invalid", "union_tag_not_found"):
         shapes = [s.strip(" '") for s in context.get("expected_tags", _shapes(field)).split(",")]
-        if kind == "union_tag_not_found":
+        if slip == "union_tag_not_found":
             return Fault("", f"{key}.shape", _one_of(shapes), "nothing: the key is missing")
         near = closest(context["tag"], shapes)
         hint = f'did you mean "{near}"?' if near else ""
         return Fault("", f"{key}.shape", _one_of(shapes), shown(context["tag"]), hint)
     wanted = _wanted(key, field) or detail["msg"]
-    if kind == "missing":
+    if slip == "missing":
         return Fault("", key, wanted, "nothing: the key is missing")
     hint = ""
-    if kind == "literal_error" and field and isinstance(detail["input"], str):
+    if slip == "literal_error" and field and isinstance(detail["input"], str):
         near = closest(detail["input"], get_args(field.annotation))
         hint = f'did you mean "{near}"?' if near else ""
     return Fault("", key, wanted, got, hint)

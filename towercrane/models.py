@@ -48,6 +48,11 @@ def slewing_builder(case: Case) -> Callable[[Any], LumpedModel]:
     from towercrane.cranes import slewing
     from towercrane.cranes.lumped import LumpedModel
 
-    crane = {"multi-mass": slewing.multi_mass, "enhanced": slewing.enhanced, "basic": slewing.basic}[case.kind]
+    builders: dict[str, Callable[[Any], Any]] = {
+        "multi-mass": slewing.multi_mass,
+        "enhanced": slewing.enhanced,
+        "basic": slewing.basic,
+    }
+    crane = builders[case.kind]
     load, as_rod = case.load(), case.rope.slack == "rod"
     return lambda parameters: LumpedModel(crane(parameters), load, as_rod)

@@ -126,42 +126,36 @@ def s_curve(start: float, end: float, speed: float, acceleration: float, jerk: f
     return _ramped(start, end, speed, acceleration, jerk)
 
 
-def smooth_ramp(start: float, end: float, speed: float, ramp_time: float) -> Motion:
-    """Speed that rises and falls without a jump in acceleration or jerk: two ramps 10 x^3 - 15 x^4 + 6 x^5.
+def speed_trapezoid(start: float, speed: float, ramp: float, hold: float) -> Motion:
+    """Speed that rises linearly, holds and falls linearly; the way is speed (ramp + hold).
 
     Parameters
     ----------
-    start, end : float
-        First and last value.
+    start : float
+        First value [m or rad].
     speed : float
-        Largest rate, positive; a way too short for it is travelled at way / ramp_time.
-    ramp_time : float
-        Time in which the speed rises, and again falls [s].
-
-    Notes
-    -----
-    The largest acceleration is 15/8 speed / ramp_time, half way up the ramp. The fall begins |end - start| / speed
-    after the start.
+        Speed while it holds [m/s or rad/s]; its sign is the direction.
+    ramp, hold : float
+        Time of each ramp, positive, and time between them, zero or more [s].
     """
-    for name, value in (("speed", speed), ("ramp_time", ramp_time)):
-        if not 0.0 < value < np.inf:
-            raise ValueError(f"smooth_ramp: {name} wants a positive finite number, got {value!r}")
-    way = end - start
-    if abs(way) < SHORTEST_WAY:
-        return rest(start)
-    rate = np.copysign(min(speed, abs(way) / ramp_time), way)
-    cruise = max(way / rate - ramp_time, 0.0)
-    unit = rate * ramp_time / ramp_time ** np.arange(7)
-    rise = np.array([0.0, 0.0, 0.0, 0.0, 2.5, -3.0, 1.0]) * unit
-    level = np.array([0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]) * unit
-    at_start = np.eye(7)[0]
-    pieces, times, value = [], [0.0], float(start)
-    for span, shape in ((ramp_time, rise), (cruise, level), (ramp_time, level - rise)):
-        if span > SAME_INSTANT:
-            pieces.append(shape + value * at_start)
-            times.append(times[-1] + span)
-            value = _polynomial(pieces[-1], span)
-    return Motion(np.array(times), np.array(pieces))
+    return _speed_ramps(start, speed, ramp, hold, (0.0, 0.0, 0.5))
+
+
+def smooth_ramps(start: float, speed: float, ramp: float, hold: float) -> Motion:
+    """Speed that rises and falls as 10 x^3 - 15 x^4 + 6 x^5, with x from 0 to 1 over each ramp.
+
+    Acceleration and jerk are continuous; the way is speed (ramp + hold).
+
+    Parameters
+    ----------
+    start : float
+        First value [m or rad].
+    speed : float
+        Speed while it holds [m/s or rad/s]; its sign is the direction.
+    ramp, hold : float
+        Time of each ramp, positive, and time between them, zero or more [s].
+    """
+    return _speed_ramps(start, speed, ramp, hold, (0.0, 0.0, 0.0, 0.0, 2.5, -3.0, 1.0))
 
 
 def sequence(*motions: Motion) -> Motion:
@@ -268,6 +262,21 @@ def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: f
         v += time * (sign * acc + time * sign * s / 2)
         times.append(times[-1] + time)
     return Motion(np.array(times), np.array(pieces)[:, : 3 if np.isinf(j) else 4])
+
+
+def _speed_ramps(start: float, speed: float, ramp: float, hold: float, rise: tuple[float, ...]) -> Motion:
+    """Ramps whose way, as a fraction of speed times ramp, is the polynomial ``rise`` of x, with rise(1) = 1/2."""
+    if not ramp > 0.0 or not hold >= 0.0:
+        raise ValueError(f"ramp, hold: wanted a positive time and zero or more, got {ramp!r} and {hold!r}")
+    way = speed * ramp
+    # Floats of Python raise where numpy would warn: a ramp of 1e-300 s is refused, not turned into infinities.
+    up = np.array([way * share / float(ramp) ** power for power, share in enumerate(rise)])
+    cruise, down = np.zeros_like(up), -up
+    cruise[1] = down[1] = speed
+    up[0], cruise[0], down[0] = start, start + way / 2, start + way / 2 + speed * hold
+    if hold == 0.0:
+        return Motion(np.array([0.0, ramp, 2 * ramp]), np.array([up, down]))
+    return Motion(np.array([0.0, ramp, ramp + hold, 2 * ramp + hold]), np.array([up, cruise, down]))
 
 
 def _ramp_time(speed: float, acceleration: float, jerk: float) -> float:

@@ -2,30 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any
 
-from pydantic import TypeAdapter, ValidationError
-
 from towercrane.casefile import leaves
-from towercrane.faults import CaseError, Fault, did_you_mean, shown
-from towercrane.profiles import profile
-from towercrane.schema import HoistMotion, TrolleyMotion
+from towercrane.faults import Fault, did_you_mean, shown
+from towercrane.kinds import known_to, plain_key
 from towercrane.units import UnitError, split, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
-    from pathlib import Path
-
-    from towercrane.motion import Motion
 
 MOST_SAMPLES = 5_000_000
 FASTEST = 10.0
 """Largest plausible speed of trolley and hook [m/s]."""
 
-ROUNDING = 1e-9
-"""Relative; a motion that ends at the jib's end may overshoot it by rounding."""
+FASTEST_TURN = 5.0
+"""Largest plausible speed of shaft and joints [rad/s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +38,8 @@ class Range:
         Units that the number may have been meant in.
     signed : bool
         Whether a negative value is judged by its size; elsewhere it is impossible, not implausible.
+    kind : str
+        Kind of crane that the range is for; ``*`` for all.
     """
 
     key: str
@@ -52,6 +48,7 @@ class Range:
     high: float
     likely: tuple[str, ...] = ()
     signed: bool = False
+    kind: str = "*"
 
     def fault(self, key: str, value: object) -> Fault | None:
         """Fault if ``value`` lies outside the range; a value that cannot be read is for others to report."""
@@ -72,6 +69,10 @@ class Range:
 
 LENGTHS = ("mm", "cm", "km", "ft")
 AREAS = ("cm^2", "mm^2")
+SPRINGS = ("kN/m", "MN/m", "N/mm")
+ROTARY_SPRINGS = ("kN m/rad", "MN m/rad")
+ANGLES = ("deg", "mrad")
+TURNS = ("rpm", "deg/s", "mrad/s")
 
 RANGES = (
     Range("crane.gravity", "m/s^2", 1, 30, ("cm/s^2", "mm/s^2")),
@@ -86,29 +87,67 @@ RANGES = (
     Range("crane.tower.lattice.panel_height", "m", 0.05, 20, LENGTHS),
     Range("crane.counter_jib.counterweight", "kg", 50, 1e6, ("t", "g")),
     Range("crane.trolley.mass", "kg", 5, 50e3, ("t", "g")),
+    Range("crane.geometry.*", "m", 0.02, 1000, LENGTHS),
+    Range("crane.mass.*", "kg", 0.05, 1e6, ("t", "g")),
+    Range("crane.mass.counter_moment", "kg m", 0.05, 1e8, ("t m",)),
+    Range("crane.*.inertia", "kg m^2", 1, 1e9, ("t m^2",)),
+    Range("crane.inertia.*", "kg m^2", 1e-4, 1e9, ("t m^2", "g m^2")),
+    Range("crane.stiffness.*", "N/m", 500, 1e12, SPRINGS),
+    Range("crane.stiffness.tower_torsion", "N m/rad", 500, 1e13, ROTARY_SPRINGS),
+    Range("crane.stiffness.*jib_lateral", "N m/rad", 500, 1e13, ROTARY_SPRINGS),
+    Range("crane.stiffness.jib_lateral", "N/m", 500, 1e12, SPRINGS, kind="basic"),
+    Range("crane.damping.*", "N s/m", 1e-3, 1e9, ("kN s/m",)),
+    Range("crane.damping.tower_torsion", "N m s/rad", 1e-3, 1e10, ("kN m s/rad",)),
+    Range("crane.damping.*jib_lateral", "N m s/rad", 1e-3, 1e10, ("kN m s/rad",)),
+    Range("crane.damping.jib_lateral", "N s/m", 1e-3, 1e9, ("kN s/m",), kind="basic"),
+    Range("crane.drive.*_stiffness", "N m/rad", 0.1, 1e12, ROTARY_SPRINGS),
+    Range("crane.drive.corner", "rad", 1e-6, 1.6, ANGLES),
+    Range("crane.drive.damping", "N m s/rad", 1e-3, 1e10, ("kN m s/rad",)),
+    Range("crane.friction.torque", "N m", 1e-3, 1e7, ("kN m",)),
+    Range("crane.friction.rate", "rad/s", 1e-9, 1, TURNS),
+    Range("crane.drag.*", "N s^2/m^2", 1e-6, 1e4, ("g/m",)),
+    Range("crane.post.height", "m", 0.1, 1000, LENGTHS),
+    Range("crane.*_boom.length", "m", 0.1, 200, LENGTHS),
     Range("payload.mass", "kg", 1, 1e6, ("t", "g")),
     Range("payload.rope_damping", "N m s/rad", 1e-6, 1e8, ("kN m s/rad",)),
     Range("payload.drag_area", "m^2", 1e-4, 1e3, AREAS),
+    Range("payload.drag", "N s^2/m^2", 1e-5, 1e3, ("g/m",)),
     Range("rope.length", "m", 0.1, 1000, LENGTHS),
-    Range("motion.*.speed", "m/s", 1e-3, FASTEST, ("m/min", "mm/s", "km/h")),
+    Range("motion.*.speed", "m/s", 1e-3, FASTEST, ("m/min", "mm/s", "km/h"), signed=True),
     Range("motion.*.acceleration", "m/s^2", 1e-4, 20, ("cm/s^2", "mm/s^2")),
     Range("motion.*.jerk", "m/s^3", 1e-5, 1e3, ("cm/s^3", "mm/s^3")),
+    *(
+        row
+        for joint, most in (("shaft", 100), ("slew", 100), ("luff", 3.2), ("fold", 6.4))
+        for row in (
+            Range(f"motion.{joint}.start", "rad", 1e-9, most, ANGLES, signed=True),
+            Range(f"motion.{joint}*.end", "rad", 1e-9, most, ANGLES, signed=True),
+            Range(f"motion.{joint}*.speed", "rad/s", 1e-5, FASTEST_TURN, TURNS, signed=True),
+            Range(f"motion.{joint}*.acceleration", "rad/s^2", 1e-7, 50, ("deg/s^2",)),
+            Range(f"motion.{joint}*.jerk", "rad/s^3", 1e-8, 1e3, ("deg/s^3",)),
+        )
+    ),
+    Range("motion.*.ramp", "s", 1e-3, 1e5, ("ms", "min")),
+    Range("motion.*.hold", "s", 1e-3, 1e5, ("ms", "min")),
     Range("motion.*.delay", "s", 1e-3, 1e5, ("ms", "min")),
     Range("motion.*.duration", "s", 1e-3, 1e5, ("ms", "min")),
     Range("model.*_damping_ratio", "1", 1e-6, 0.3, ("%",)),
-    Range("start.swing_angle", "rad", 1e-9, 1.6, ("deg", "mrad"), signed=True),
+    Range("start.swing_angle", "rad", 1e-9, 1.6, ANGLES, signed=True),
     Range("run.duration", "s", 0.01, 1e6, ("ms", "min", "h")),
     Range("run.output_step", "s", 1e-6, 1e4, ("ms",)),
     Range("solver.atol", "1", 1e-20, 1),
 )
+"""Of several rows that fit a key, the last holds."""
 
 
-def implausible(tree: dict[str, Any], allowed: Collection[str]) -> Iterator[Fault]:
-    """Values outside their range, except where the case allows them."""
+def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> Iterator[Fault]:
+    """Values outside their range for this kind of crane, except where the case allows them."""
     ruled = {}
     for key, value in leaves(tree):
+        if kind not in known_to(plain_key(key)):
+            continue
         for rule in RANGES:
-            if fnmatchcase(key, rule.key):
+            if fnmatchcase(key, rule.key) and fnmatchcase(kind, rule.kind):
                 ruled[key] = rule.fault(key, value)
     for key in allowed:
         if key not in ruled:
@@ -117,9 +156,15 @@ def implausible(tree: dict[str, Any], allowed: Collection[str]) -> Iterator[Faul
     yield from (fault for key, fault in ruled.items() if fault and key not in allowed)
 
 
-def check_output(tree: dict[str, Any]) -> Iterator[Fault]:
+def check_values(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Values that do not fit each other, motions apart."""
+    for check in (_check_output, _check_elements, _check_lattice, _check_drag, _check_friction):
+        yield from check(tree)
+
+
+def _check_output(tree: dict[str, Any]) -> Iterator[Fault]:
     """Output steps that do not fit the span."""
-    duration, step = _number(tree, "run.duration", "s"), _number(tree, "run.output_step", "s", 0.05)
+    duration, step = si_at(tree, "run.duration", "s"), si_at(tree, "run.output_step", "s", 0.05)
     if not (duration and step and duration > 0.0 and step > 0.0):
         return
     if step > duration:
@@ -130,146 +175,60 @@ def check_output(tree: dict[str, Any]) -> Iterator[Fault]:
         yield Fault("", "run.output_step", f"at most {MOST_SAMPLES} output samples", got, "ms or s mixed up?")
 
 
-def check_elements(tree: dict[str, Any]) -> Iterator[Fault]:
+def _check_elements(tree: dict[str, Any]) -> Iterator[Fault]:
     """Fewer unknowns than wanted modes."""
-    count, elements = _number(tree, "modes.count", "1", 4), _number(tree, "modes.elements", "1", 32)
+    count, elements = si_at(tree, "modes.count", "1", 4), si_at(tree, "modes.elements", "1", 32)
     if count and elements and count >= 2 * elements:
         wanted = f"more than {count / 2:g} elements for {count:g} modes"
         yield Fault("", "modes.elements", wanted, f"{elements:g}", "each element adds two unknowns")
 
 
-def check_lattice(tree: dict[str, Any]) -> Iterator[Fault]:
+def _check_lattice(tree: dict[str, Any]) -> Iterator[Fault]:
     """A lacing that lacks its members."""
-    lattice = _at(tree, "crane.tower.lattice")
+    lattice = at(tree, "crane.tower.lattice")
     key = "crane.tower.lattice.horizontal_area"
-    if isinstance(lattice, dict) and lattice.get("lacing") == "N" and not _number(tree, key, "m^2", 0.0):
+    if isinstance(lattice, dict) and lattice.get("lacing") == "N" and not si_at(tree, key, "m^2", 0.0):
         wanted = 'an area above 0, such as "8 cm^2": the lacing "N" needs horizontals'
         yield Fault("", key, wanted, shown(lattice.get("horizontal_area", "nothing")))
 
 
-@dataclass(frozen=True)
-class Way:
-    """Limits of a motion.
-
-    Parameters
-    ----------
-    key : str
-        Key of the motion.
-    high : float or None
-        Largest value [m]; None where it is not known.
-    open_low : bool
-        Whether zero itself is too low.
-    wanted, hint : str
-        For the message.
-    """
-
-    key: str
-    high: float | None
-    open_low: bool
-    wanted: str
-    hint: str
-
-    def keeps(self, value: float) -> bool:
-        """Whether a value lies within the limits."""
-        high = float("inf") if self.high is None else self.high * (1 + ROUNDING)
-        return (value > 0.0 if self.open_low else value >= -ROUNDING) and value <= high
-
-    def fault(self, key: str, got: str) -> Fault:
-        """Fault at ``key``."""
-        return Fault("", key, self.wanted, got, self.hint)
+def _check_drag(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Drag that is given twice."""
+    area, force = at(tree, "payload.drag_area"), at(tree, "payload.drag")
+    if area is not None and force is not None:
+        wanted = "the load's drag once: drag_area (an area) or drag (a force per squared speed)"
+        yield Fault("", "payload.drag", wanted, f"{shown(force)} beside drag_area = {shown(area)}", "leave one out")
 
 
-def check_motions(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Motion | None, Motion | None]:
-    """Trolley and rope motion, None where they cannot be built, and where they leave the jib or the air.
-
-    Parts of the case that are faulty themselves limit nothing, so that all faults show at once.
-    """
-    jib, tower = _number(tree, "crane.jib.length", "m"), _number(tree, "crane.tower.height", "m")
-    known = f"from 0 to {jib:g} m (the length of the jib)" if jib else "from 0 on"
-    on_jib = Way("motion.trolley", jib, False, f"positions on the jib, {known}", "the trolley leaves the jib")
-    faults = _out_of_way(tree, on_jib, ("start", "end"))
-    trolley, more = _motion(tree, on_jib, TypeAdapter(TrolleyMotion), folder, None)
-    for key, value in leaves(_at(tree, "modes.trolley_positions") or [], "modes.trolley_positions"):
-        position = _si(value, "m")
-        if position is not None and not on_jib.keeps(position):
-            faults.append(on_jib.fault(key, shown(value)))
-    faults += more if not any(f.key.startswith("motion.") for f in faults) else []
-
-    known = f"above 0 and up to {tower:g} m (the height of the tower)" if tower else "above 0"
-    hint = "the load would be in the ground or the rope wound up"
-    in_air = Way("motion.hoist", tower, True, f"rope lengths {known}", hint)
-    start = _number(tree, "rope.length", "m")
-    if start is not None and start > 0.0 and not in_air.keeps(start):
-        return [*faults, in_air.fault("rope.length", shown(_at(tree, "rope.length")))], trolley, None
-    hoisting = _out_of_way(tree, in_air, ("end",))
-    rope, more = _motion(tree, in_air, TypeAdapter(HoistMotion), folder, start)
-    return [*faults, *(hoisting or more)], trolley, rope
+def _check_friction(tree: dict[str, Any]) -> Iterator[Fault]:
+    """A law of friction that lacks its numbers."""
+    law = at(tree, "crane.friction.law")
+    needs = {"tanh": (("torque", "N m", "22 N m"), ("rate", "rad/s", "0.01 rad/s")),
+             "stick-slip": (("torque", "N m", "22 N m"),)}  # fmt: skip
+    for name, unit, example in needs.get(law, ()) if isinstance(law, str) else ():
+        key = f"crane.friction.{name}"
+        if si_at(tree, key, unit, 0.0) == 0.0:
+            wanted = f'a {name} above 0, such as "{example}": the law "{law}" needs it'
+            got = at(tree, key)
+            yield Fault("", key, wanted, "nothing: the key is missing" if got is None else shown(got))
 
 
-def _out_of_way(tree: dict[str, Any], way: Way, names: tuple[str, ...]) -> list[Fault]:
-    """Single values of a motion outside its limits."""
-    faults = []
-    for key, value in leaves(_at(tree, way.key), way.key):
-        position = _si(value, "m") if key.rpartition(".")[2] in names else None
-        if position is not None and not way.keeps(position):
-            faults.append(way.fault(key, shown(value)))
-    return faults
-
-
-def _motion(
-    tree: dict[str, Any], way: Way, adapter: TypeAdapter[Any], folder: Path, start: float | None
-) -> tuple[Motion | None, list[Fault]]:
-    """The motion at ``way.key`` and what is wrong with it as a whole; a rope without hoist rests."""
-    written = _at(tree, way.key)
-    if written is None and start is not None and start > 0.0:
-        written = {"shape": "rest"}
-    try:
-        described = adapter.validate_python(written)
-    except ValidationError:
-        return None, []
-    hoists = not hasattr(described, "start") and way.open_low
-    if hoists and start is None:
-        return None, []
-    begin = start if hoists and start is not None else getattr(described, "start", 0.0)
-    try:
-        motion = profile(described, begin, folder)
-    except CaseError as error:
-        named = f"named by {way.key}.file of the case"
-        return None, [replace(f, hint=f"{f.hint}; {named}" if f.hint else named) for f in error.faults]
-    except (ArithmeticError, ValueError) as error:
-        return None, [Fault("", way.key, "a motion that can be computed", str(error))]
-    key = f"{way.key}.file" if described.shape == "table" else way.key
-    if hoists and abs(float(motion(0.0)) - begin) > 1e-6:
-        got = f"a first length of {float(motion(0.0)):g} m"
-        return None, [Fault("", key, f"a table that begins with rope.length, {begin:g} m", got)]
-    fastest = max(abs(rate) for rate in motion.range(1))
-    if described.shape == "table" and fastest > FASTEST:
-        got, hint = (
-            f"a table that reaches {fastest:.3g} m/s",
-            "times in seconds? the curve through the points is smooth",
-        )
-        return None, [Fault("", key, f"speeds up to {FASTEST:g} m/s", got, hint)]
-    low, high = motion.range()
-    if not (way.keeps(low) and way.keeps(high)):
-        return None, [way.fault(key, f"a motion from {low:g} to {high:g} m")]
-    return motion, []
-
-
-def _at(tree: Any, key: str) -> Any:
+def at(tree: Any, key: str) -> Any:
     """Value at a dotted key, None if there is none."""
     for name in key.split("."):
         tree = tree.get(name) if isinstance(tree, dict) else None
     return tree
 
 
-def _si(value: object, unit: str) -> float | None:
+def si(value: object, unit: str) -> float | None:
+    """SI value; None if it cannot be read."""
     try:
         return to_si(value, unit)
     except UnitError:
         return None
 
 
-def _number(tree: dict[str, Any], key: str, unit: str, default: float | None = None) -> float | None:
+def si_at(tree: dict[str, Any], key: str, unit: str, default: float | None = None) -> float | None:
     """SI value at a dotted key; None if it cannot be read."""
-    value = _at(tree, key)
-    return default if value is None else _si(value, unit)
+    value = at(tree, key)
+    return default if value is None else si(value, unit)

@@ -6,40 +6,42 @@ import math
 from typing import TYPE_CHECKING
 
 from towercrane.faults import CaseError, Fault, shown
-from towercrane.schema import Points, Rest, SCurve, Sequence, Trapezoid
+from towercrane.schema_motions import Points, Rest, SCurve, Sequence, SmoothRamps, SpeedTrapezoid, Trapezoid
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from towercrane.motion import Motion
-    from towercrane.schema import AnyMotion
+    from towercrane.schema_motions import AnyMotion
 
 SHOWN_FAULTS = 5
 """At most so many faulty lines of one CSV file are reported."""
 
 
-def profile(described: AnyMotion, start: float, folder: Path) -> Motion:
+def profile(described: AnyMotion, start: float, folder: Path, unit: str = "m") -> Motion:
     """The motion that a case describes.
 
     Parameters
     ----------
     described : table of the case
     start : float
-        Value at which the motion begins [m]; a CSV table brings its own.
+        Value at which the motion begins [m or rad]; a CSV table brings its own.
     folder : Path
         Where a CSV file's name is relative to.
+    unit : str
+        "m", or "rad" for a turn.
 
     Raises
     ------
     CaseError
         If a CSV table cannot be used.
     """
-    from towercrane.motion import rest, s_curve, sequence, table, trapezoid
+    from towercrane.motion import rest, s_curve, sequence, smooth_ramps, speed_trapezoid, table, trapezoid
 
     moves: list[Motion] = []
     match described:
         case Points():
-            moves = [table(*read_points(folder / described.file))]
+            moves = [table(*read_points(folder / described.file, unit))]
             start = float(moves[0](0.0))
         case Rest():
             moves = [rest(start, described.duration)]
@@ -48,25 +50,30 @@ def profile(described: AnyMotion, start: float, folder: Path) -> Motion:
         case SCurve():
             d = described
             moves = [s_curve(start, d.end, d.speed, d.acceleration, d.jerk)]
+        case SpeedTrapezoid():
+            moves = [speed_trapezoid(start, described.speed, described.ramp, described.hold)]
+        case SmoothRamps():
+            moves = [smooth_ramps(start, described.speed, described.ramp, described.hold)]
         case Sequence():
             now = start
             for step in described.steps:
-                moves.append(profile(step, now, folder))
+                moves.append(profile(step, now, folder, unit))
                 now = moves[-1].end
     if described.delay:
         moves.insert(0, rest(start, described.delay))
     return moves[0] if len(moves) == 1 else sequence(*moves)
 
 
-def read_points(path: Path) -> tuple[list[float], list[float]]:
-    """Times [s] and values [m] of a CSV file with one header line and two columns.
+def read_points(path: Path, unit: str = "m") -> tuple[list[float], list[float]]:
+    """Times [s] and values [m or rad] of a CSV file with one header line and two columns.
 
     Raises
     ------
     CaseError
         If the file cannot be read, or a line is not two numbers, or the times do not increase from 0.
     """
-    wanted = "a CSV file: one header line, then time [s] and position or length [m] per line"
+    value = "position or length [m]" if unit == "m" else f"angle [{unit}]"
+    wanted = f"a CSV file: one header line, then time [s] and {value} per line"
     try:
         lines = path.read_text("utf-8-sig").splitlines()
     except (OSError, ValueError) as error:
@@ -79,7 +86,7 @@ def read_points(path: Path) -> tuple[list[float], list[float]]:
     times: list[float] = []
     values: list[float] = []
     for number, line in rows[1:]:
-        fault = _row_fault(line, times)
+        fault = _row_fault(line, times, "metres" if unit == "m" else "radians")
         if fault:
             faults.append(Fault(str(path), f"line {number}", *fault))
         pair = _numbers(line)
@@ -106,7 +113,7 @@ def _numbers(line: str) -> list[float]:
     return numbers
 
 
-def _row_fault(line: str, times: list[float]) -> tuple[str, str, str] | None:
+def _row_fault(line: str, times: list[float], units: str) -> tuple[str, str, str] | None:
     """Wanted, got and hint for a faulty line."""
     columns = line.split(",")
     if len(columns) != 2:
@@ -114,7 +121,7 @@ def _row_fault(line: str, times: list[float]) -> tuple[str, str, str] | None:
         return "two columns: time, value", f"{len(columns)} in {shown(line)}", hint
     numbers = _numbers(line)
     if len(numbers) != 2:
-        return "two finite numbers", shown(line), "numbers stand without units: seconds and metres"
+        return "two finite numbers", shown(line), f"numbers stand without units: seconds and {units}"
     if not times and numbers[0] != 0.0:
         return "a first time of 0", f"{numbers[0]:g}", "times count from the start of the motion"
     if times and numbers[0] <= times[-1]:

@@ -1,14 +1,13 @@
-"""The keys of a case file and their types; every quantity leaves as an SI float."""
+"""Quantities as pydantic fields, and the tables that cases of every kind share; SI floats leave."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, StrictBool, StrictInt
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, StrictInt
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from modal.lattice import Lacing  # noqa: TC001 - pydantic reads annotations when the class is made
 from towercrane.faults import shown
 from towercrane.units import UnitError, to_si, wanted
 
@@ -82,6 +81,20 @@ Speed = Annotated[float, Quantity("m/s", above=0)]
 Acceleration = Annotated[float, Quantity("m/s^2", above=0)]
 Jerk = Annotated[float, Quantity("m/s^3", above=0)]
 Angle = Annotated[float, Quantity("rad")]
+Turning = Annotated[float, Quantity("rad/s", above=0)]
+AngularAcceleration = Annotated[float, Quantity("rad/s^2", above=0)]
+AngularJerk = Annotated[float, Quantity("rad/s^3", above=0)]
+EitherSpeed = Annotated[float, Quantity("m/s")]
+EitherTurning = Annotated[float, Quantity("rad/s")]
+Inertia = Annotated[float, Quantity("kg m^2", above=0)]
+MassMomentOrNone = Annotated[float, Quantity("kg m", least=0)]
+Stiffness = Annotated[float, Quantity("N/m", above=0)]
+RotaryStiffness = Annotated[float, Quantity("N m/rad", above=0)]
+Corner = Annotated[float, Quantity("rad", above=0)]
+TorqueOrNone = Annotated[float, Quantity("N m", least=0)]
+TurningOrNone = Annotated[float, Quantity("rad/s", least=0)]
+Damping = Annotated[float, Quantity("N s/m", least=0)]
+Drag = Annotated[float, Quantity("N s^2/m^2", least=0)]
 HingeDamping = Annotated[float, Quantity("N m s/rad", least=0)]
 Ratio = Annotated[float, Quantity("1", least=0)]
 Root = Annotated[float, Quantity("1", above=0)]
@@ -94,69 +107,13 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-class Lattice(Table):
-    """Members of a laced tower."""
-
-    leg_area: Area
-    leg_spacing: Length
-    panel_height: Length
-    lacing: Lacing
-    diagonal_area: Area
-    horizontal_area: AreaOrNone = 0.0
-
-
-class Jib(Table):
-    """Jib as a uniform beam."""
-
-    length: Length
-    mass_per_length: MassPerLength
-    youngs_modulus: Modulus
-    second_moment_of_area: SecondMoment
-
-
-class Tower(Table):
-    """Tower as a uniform beam; roots that its source prints are shown beside the computed ones."""
-
-    height: Length
-    mass_per_length: MassPerLength
-    youngs_modulus: Modulus
-    second_moment_of_area: SecondMoment
-    published_roots: tuple[Root, ...] = ()
-    lattice: Lattice | None = None
-
-
-class CounterJib(Table):
-    """Counter-jib with the counterweight at its end."""
-
-    length: Reach
-    mass_per_length: MassPerLengthOrNone
-    counterweight: MassOrNone
-
-
-class Trolley(Table):
-    """Trolley."""
-
-    mass: MassOrNone
-
-
-class Crane(Table):
-    """Crane file."""
-
-    name: str
-    source: str = ""
-    gravity: Acceleration = 9.81
-    tower: Tower
-    jib: Jib
-    counter_jib: CounterJib
-    trolley: Trolley
-
-
 class Payload(Table):
-    """Load on the rope."""
+    """Load on the rope; its drag as an area or as a force per squared speed."""
 
     mass: Mass
     rope_damping: HingeDamping = 0.0
     drag_area: AreaOrNone = 0.0
+    drag: Drag = 0.0
 
 
 class Rope(Table):
@@ -164,108 +121,6 @@ class Rope(Table):
 
     length: Length
     slack: Literal["stop", "rod"] = "stop"
-
-
-class Begin(Table):
-    """Where a motion begins."""
-
-    start: Position
-
-
-class Delayed(Table):
-    """Wait before a motion begins."""
-
-    delay: Wait = 0.0
-
-
-class Rest(Delayed):
-    """No motion."""
-
-    shape: Literal["rest"]
-    duration: Wait = 0.0
-
-
-class Trapezoid(Delayed):
-    """Constant acceleration, speed, deceleration."""
-
-    shape: Literal["trapezoid"]
-    end: Position
-    speed: Speed
-    acceleration: Acceleration
-
-
-class SCurve(Delayed):
-    """Limited jerk."""
-
-    shape: Literal["s-curve"]
-    end: Position
-    speed: Speed
-    acceleration: Acceleration
-    jerk: Jerk
-
-
-Step = Annotated[Trapezoid | SCurve | Rest, Field(discriminator="shape")]
-
-
-class Sequence(Delayed):
-    """Steps, each from where the one before ends."""
-
-    shape: Literal["sequence"]
-    steps: Annotated[tuple[Step, ...], Field(min_length=1)]
-
-
-class Points(Delayed):
-    """Smooth motion through the points of a CSV file."""
-
-    shape: Literal["table"]
-    file: str
-
-
-class TrolleyRest(Begin, Rest):
-    """Trolley at rest."""
-
-
-class TrolleyTrapezoid(Begin, Trapezoid):
-    """Trolley on a trapezoid."""
-
-
-class TrolleySCurve(Begin, SCurve):
-    """Trolley on an s-curve."""
-
-
-class TrolleySequence(Begin, Sequence):
-    """Trolley in steps."""
-
-
-AnyMotion = Rest | Trapezoid | SCurve | Sequence | Points
-HoistMotion = Annotated[AnyMotion, Field(discriminator="shape")]
-TrolleyMotion = Annotated[
-    TrolleyRest | TrolleyTrapezoid | TrolleySCurve | TrolleySequence | Points, Field(discriminator="shape")
-]
-
-
-class Motions(Table):
-    """What the drives do."""
-
-    trolley: TrolleyMotion
-    hoist: HoistMotion | None = None
-
-
-class Model(Table):
-    """What the model includes."""
-
-    tower_modes: ModeCount = 2
-    jib_modes: ModeCount = 3
-    weight_softening: StrictBool = False
-    tower_damping_ratio: Ratio = 0.0
-    jib_damping_ratio: Ratio = 0.0
-
-
-class Start(Table):
-    """Initial state."""
-
-    state: Literal["equilibrium", "zero", "zero-no-self-weight"] = "equilibrium"
-    swing_angle: Angle = 0.0
 
 
 class Run(Table):
@@ -281,30 +136,6 @@ class Solver(Table):
     method: Literal["dop853", "dopri5", "scipy-dop853", "scipy-rk45", "scipy-radau", "scipy-lsoda"] = "dop853"
     rtol: Annotated[float, Quantity("1", least=1e-13, most=0.1)] = 1e-8
     atol: Annotated[float, Quantity("1", above=0)] = 1e-10
-
-
-class ModesRequest(Table):
-    """What ``towercrane modes`` shows; without positions, those at both ends of the trolley's way."""
-
-    count: Annotated[StrictInt, Field(ge=1, le=50)] = 4
-    trolley_positions: tuple[Position, ...] = ()
-    elements: Annotated[StrictInt, Field(ge=2, le=2000)] = 32
-
-
-class CaseFile(Table):
-    """Case file with its crane in place."""
-
-    title: str = ""
-    crane: Crane
-    payload: Payload
-    rope: Rope
-    motion: Motions
-    model: Model = Model()
-    start: Start = Start()
-    run: Run
-    solver: Solver = Solver()
-    modes: ModesRequest = ModesRequest()
-    allow_implausible: tuple[str, ...] = ()
 
 
 def tables(annotation: Any) -> Iterator[type[Table]]:

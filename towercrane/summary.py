@@ -149,7 +149,7 @@ def notices(case: Case, result: xr.Dataset, frequencies: list[float], swing: int
     gap = energy_balance(result)["relative_gap"]
     if gap > LOOSE:
         found.append(f"the energy balance is off by {gap:.1e} of the change: tighten solver.rtol and solver.atol")
-    lengths = ()
+    lengths: tuple[tuple[str, float], ...] = ()
     if case.kind == "radial":
         lengths = (("tower_tip_displacement", case.crane.tower.height), ("jib_tip_deflection", case.crane.jib.length))
     for name, length in lengths:
@@ -198,7 +198,7 @@ def _linearised(case: Case) -> list[float]:
 
     stop = max(motion.duration for motion in case.motions.values())
     found = linearise(model_of(case), case.motions, time=stop, outputs=[]).eigenvalues()
-    return sorted({round(e.frequency, 12) for e in found if e.frequency > 0.0})
+    return sorted(e.frequency for e in found if e.value.imag > 0.0)
 
 
 def _cycles(times: Any, frequencies: list[float]) -> float:

@@ -47,11 +47,12 @@ bar = 1e5 * pascal = bar
 psi = 6894.757293168361 * pascal = psi
 joule = newton * meter = J
 watt = joule / second = W
+revolution_per_minute = 0.10471975511965977 * radian / second = rpm
 """
 
 COMMON = (
     *("mm", "cm", "m", "km", "in", "ft", "g", "kg", "t", "lb", "ms", "s", "min", "h", "N", "kN", "MN"),
-    *("Pa", "kPa", "MPa", "GPa", "N/mm^2", "bar", "rad", "mrad", "deg", "rev", "Hz", "J", "W", "%"),
+    *("Pa", "kPa", "MPa", "GPa", "N/mm^2", "bar", "rad", "mrad", "deg", "rev", "rpm", "Hz", "J", "W", "%"),
 )
 """Units offered when one is unknown."""
 
@@ -67,12 +68,22 @@ KINDS = {
     "m/s^3": ("a jerk", "0.05 m/s^3"),
     "Pa": ("a stress or modulus", "206 GPa"),
     "rad": ("an angle", "5 deg"),
+    "rad/s": ("a rotary speed", "7 rpm"),
+    "rad/s^2": ("a rotary acceleration", "0.1 rad/s^2"),
+    "rad/s^3": ("a rotary jerk", "0.05 rad/s^3"),
+    "kg m": ("a mass moment", "90 kg m"),
+    "kg m^2": ("a moment of inertia", "6 kg m^2"),
+    "N m": ("a torque", "22 N m"),
+    "N/m": ("a stiffness", "60 kN/m"),
+    "N m/rad": ("a rotary stiffness", "40 kN m/rad"),
+    "N s/m": ("a damping", "60 N s/m"),
     "N m s/rad": ("a rotary damping", "10 N m s/rad"),
+    "N s^2/m^2": ("a drag force per squared speed", "0.08 kg/m"),
     "1": ("a plain number", "0.02"),
 }
 """What a quantity in this SI unit is called, and how one is written."""
 
-ALSO = {"N m s/rad": ("N m s",)}
+ALSO = {"N m s/rad": ("N m s",), "N m/rad": ("N m",)}
 """Units accepted as equal to the wanted one."""
 
 FLOAT = r"[+-]?(?:\d+(?:_\d+)*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)\b"

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 from towercrane.cranes.lumped import Drive, Link, LumpedCrane, Point, Reading, Spring
 
 if TYPE_CHECKING:
-    from towercrane.cranes.slewing_parameters import Basic, Enhanced, MultiMass
+    from towercrane.cranes.slewing_parameters import BasicParameters, EnhancedParameters, MultiMassParameters
 
 PLATFORM, TOWER, JIB = "platform_angle", "tower_angle", "jib_angle"
 TOWER_X, TOWER_Y, JIB_Z = "tower_x", "tower_y", "jib_vertical"
 COUNTER_JIB, COUNTER_JIB_Z = "counter_jib_angle", "counter_jib_vertical"
 
 
-def _drive(p: Basic | Enhanced | MultiMass) -> Drive:
+def _drive(p: BasicParameters | EnhancedParameters | MultiMassParameters) -> Drive:
     return Drive(
         on=PLATFORM,
         soft=p.drive_soft_stiffness,
@@ -32,7 +32,7 @@ def _drive(p: Basic | Enhanced | MultiMass) -> Drive:
     )
 
 
-def enhanced(p: Enhanced | MultiMass) -> LumpedCrane:
+def enhanced(p: EnhancedParameters | MultiMassParameters) -> LumpedCrane:
     """Eight degrees of freedom: platform, tower bending and torsion, jib lateral and vertical, and the load.
 
     The counterweight is part of the tower top's mass and inertia; its weight bends the tower by a steady moment.
@@ -79,7 +79,7 @@ def enhanced(p: Enhanced | MultiMass) -> LumpedCrane:
     )
 
 
-def multi_mass(p: MultiMass) -> LumpedCrane:
+def multi_mass(p: MultiMassParameters) -> LumpedCrane:
     """Ten degrees of freedom: the enhanced crane with its counterweight on a flexible counter-jib of its own."""
     from dataclasses import replace
 
@@ -118,7 +118,7 @@ def multi_mass(p: MultiMass) -> LumpedCrane:
     )
 
 
-def basic(p: Basic) -> LumpedCrane:
+def basic(p: BasicParameters) -> LumpedCrane:
     """Seven degrees of freedom: platform, three shifts of the jib tip, and the load on an elastic rope."""
     top, reach = p.geometry_tower_height + p.geometry_top_height, p.geometry_jib_radius
     x, y, z = "jib_radial", "jib_lateral", JIB_Z

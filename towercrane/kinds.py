@@ -1,0 +1,74 @@
+"""Which kind of crane a case is about, and which keys each kind knows."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from towercrane.casefile import leaves
+from towercrane.faults import Fault, closest, shown
+from towercrane.schema import Table, tables
+from towercrane.schema_cases import KINDS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+
+def kind_of(tree: dict[str, Any]) -> tuple[str, list[Fault]]:
+    """Kind of a case's crane and what is wrong with its statement.
+
+    Where the statement is missing, unknown or in a file that cannot be read, the kind that knows most of the
+    written keys is taken, so that the rest of the case is still judged by rules that fit it.
+    """
+    crane = tree.get("crane")
+    stated = crane.get("kind") if isinstance(crane, dict) else None
+    if isinstance(stated, str) and stated in KINDS:
+        return stated, []
+    likely = _likely(tree)
+    key, wanted = "crane.kind", "one of " + ", ".join(f'"{kind}"' for kind in KINDS)
+    if stated is not None:
+        near = closest(stated, KINDS) if isinstance(stated, str) else None
+        hint = f'did you mean "{near}"?' if near else f'the keys are those of kind "{likely}"'
+        return near or likely, [Fault("", key, wanted, shown(stated), hint)]
+    if not isinstance(crane, dict) or likely == next(iter(KINDS)):
+        return likely, []
+    hint = f'the keys are those of kind "{likely}"; a crane that states no kind is "{next(iter(KINDS))}"'
+    return likely, [Fault("", key, wanted, "nothing: the key is missing", hint)]
+
+
+def known_keys(table: type[Table] | None = None, prefix: str = "") -> Iterator[str]:
+    """Every dotted key of a table, without the numbers of list items; without a table, of all kinds of case."""
+    if table is None:
+        yield from dict.fromkeys(key for case in KINDS.values() for key in known_keys(case))
+        return
+    for name, field in table.model_fields.items():
+        yield prefix + name
+        for inner in tables(field.annotation):
+            yield from known_keys(inner, f"{prefix}{name}.")
+
+
+def known_to(key: str) -> list[str]:
+    """Kinds that know a dotted key."""
+    return [kind for kind in KINDS if key in _keys(kind)]
+
+
+def of_kinds(kinds: Iterable[str]) -> str:
+    """Kinds in words."""
+    *most, last = (f'"{kind}"' for kind in kinds)
+    return f"cranes of kind {', '.join(most)}{' or ' if most else ''}{last}"
+
+
+def plain_key(key: str) -> str:
+    """A dotted key without the numbers of list items."""
+    return ".".join(part for part in key.split(".") if not part.isdecimal())
+
+
+@cache
+def _keys(kind: str) -> frozenset[str]:
+    return frozenset(known_keys(KINDS[kind]))
+
+
+def _likely(tree: dict[str, Any]) -> str:
+    """The kind that knows most of the written keys; of equals the first."""
+    written = {plain_key(key) for key, _ in leaves(tree)}
+    return max(KINDS, key=lambda kind: len(written & _keys(kind)))

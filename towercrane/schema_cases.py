@@ -1,0 +1,131 @@
+"""Case files: one table per kind of crane."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, StrictBool, StrictInt
+
+from towercrane.schema import Angle, ModeCount, Payload, Position, Ratio, Rope, Run, Solver, Table
+from towercrane.schema_cranes import (  # noqa: TC001 - pydantic reads annotations when the class is made
+    BasicCrane,
+    Crane,
+    EnhancedCrane,
+    JibCrane,
+    MultiMassCrane,
+    SlewingCrane,
+)
+from towercrane.schema_motions import JibMotions, Motions, SlewingMotions  # noqa: TC001
+
+
+class Model(Table):
+    """What the model includes."""
+
+    tower_modes: ModeCount = 2
+    jib_modes: ModeCount = 3
+    weight_softening: StrictBool = False
+    tower_damping_ratio: Ratio = 0.0
+    jib_damping_ratio: Ratio = 0.0
+
+
+class Start(Table):
+    """Initial state of a crane in radial motion."""
+
+    state: Literal["equilibrium", "zero", "zero-no-self-weight"] = "equilibrium"
+    swing_angle: Angle = 0.0
+
+
+class ModesRequest(Table):
+    """What ``towercrane modes`` shows; without positions, those at both ends of the trolley's way."""
+
+    count: Annotated[StrictInt, Field(ge=1, le=50)] = 4
+    trolley_positions: tuple[Position, ...] = ()
+    elements: Annotated[StrictInt, Field(ge=2, le=2000)] = 32
+
+
+class RadialCase(Table):
+    """Case of a crane in radial motion."""
+
+    title: str = ""
+    crane: Crane
+    payload: Payload
+    rope: Rope
+    motion: Motions
+    model: Model = Model()
+    start: Start = Start()
+    run: Run
+    solver: Solver = Solver()
+    modes: ModesRequest = ModesRequest()
+    allow_implausible: tuple[str, ...] = ()
+
+
+class SlewingStart(Table):
+    """Initial state of a slewing crane; the angle is the rope's from the vertical, positive outward."""
+
+    state: Literal["equilibrium", "zero"] = "equilibrium"
+    swing_angle: Angle = 0.0
+
+
+class JibStart(Table):
+    """Initial state of a jib crane, whose booms go where their joints do."""
+
+    state: Literal["equilibrium"] = "equilibrium"
+    swing_angle: Angle = 0.0
+
+
+class SlewingCase(Table):
+    """Case of a lumped slewing crane."""
+
+    title: str = ""
+    crane: SlewingCrane
+    payload: Payload
+    rope: Rope
+    motion: SlewingMotions
+    start: SlewingStart = SlewingStart()
+    run: Run
+    solver: Solver = Solver()
+    allow_implausible: tuple[str, ...] = ()
+
+
+class MultiMassCase(SlewingCase):
+    """Case of the multi-mass model."""
+
+    crane: MultiMassCrane
+
+
+class BasicCase(SlewingCase):
+    """Case of the basic model."""
+
+    crane: BasicCrane
+
+
+class EnhancedCase(SlewingCase):
+    """Case of the enhanced model."""
+
+    crane: EnhancedCrane
+
+
+class JibCase(Table):
+    """Case of a jib crane."""
+
+    title: str = ""
+    crane: JibCrane
+    payload: Payload
+    rope: Rope
+    motion: JibMotions
+    start: JibStart = JibStart()
+    run: Run
+    solver: Solver = Solver()
+    allow_implausible: tuple[str, ...] = ()
+
+
+AnyCase = RadialCase | SlewingCase | JibCase
+
+KINDS: dict[str, type[RadialCase] | type[SlewingCase] | type[JibCase]] = {
+    "radial": RadialCase,
+    "multi-mass": MultiMassCase,
+    "basic": BasicCase,
+    "enhanced": EnhancedCase,
+    "jib": JibCase,
+}
+"""Case table of each kind of crane; the first is the kind where a crane file states none."""

@@ -1,0 +1,184 @@
+"""Motions of a case, and the limits that crane and ground set for them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from towercrane.casefile import leaves
+from towercrane.faults import CaseError, Fault, shown
+from towercrane.plausibility import FASTEST, FASTEST_TURN, at, si, si_at
+from towercrane.profiles import profile
+from towercrane.schema_motions import HoistMotion, JointMotion, TrolleyMotion
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from towercrane.motion import Motion
+
+ROUNDING = 1e-9
+"""Relative; a motion that ends at the jib's end may overshoot it by rounding."""
+
+JOINTS = {
+    "radial": (),
+    "multi-mass": ("shaft",),
+    "basic": ("shaft",),
+    "enhanced": ("shaft",),
+    "jib": ("slew", "luff", "fold"),
+}
+"""What turns, by kind of crane."""
+
+RESTS = ("slew",)
+"""Joints that rest at zero where the case does not name them."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """Limits of a motion along a line; a turn has none.
+
+    Parameters
+    ----------
+    key : str
+        Key of the motion.
+    high : float or None
+        Largest value [m]; None where it is not known.
+    open_low : bool
+        Whether zero itself is too low.
+    wanted, hint : str
+        For the message.
+    turns : bool
+        Whether the motion is a turn, in radians and without limits.
+    """
+
+    key: str
+    high: float | None = None
+    open_low: bool = False
+    wanted: str = ""
+    hint: str = ""
+    turns: bool = False
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the motion."""
+        return "rad" if self.turns else "m"
+
+    def keeps(self, value: float) -> bool:
+        """Whether a value lies within the limits."""
+        high = float("inf") if self.high is None else self.high * (1 + ROUNDING)
+        return self.turns or ((value > 0.0 if self.open_low else value >= -ROUNDING) and value <= high)
+
+    def fault(self, key: str, got: str) -> Fault:
+        """Fault at ``key``."""
+        return Fault("", key, self.wanted, got, self.hint)
+
+
+def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], dict[str, Motion]]:
+    """Motions by channel, without those that cannot be built, and where they leave the jib or the air.
+
+    Parts of the case that are faulty themselves limit nothing, so that all faults show at once.
+    """
+    faults: list[Fault] = []
+    motions: dict[str, Motion | None] = {}
+    if kind == "radial":
+        faults, motions["trolley"] = _trolley(tree, folder)
+    for joint in JOINTS[kind]:
+        way = Way(f"motion.{joint}", turns=True)
+        motions[joint], more = _motion(tree, way, TypeAdapter(JointMotion), folder, 0.0 if joint in RESTS else None)
+        faults += more
+    more, motions["rope"] = _rope(tree, folder, kind)
+    return [*faults, *more], {name: motion for name, motion in motions.items() if motion is not None}
+
+
+def channels(kind: str) -> tuple[str, ...]:
+    """Names of the motions that drive a crane of this kind."""
+    return (*(("trolley",) if kind == "radial" else JOINTS[kind]), "rope")
+
+
+def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Motion | None]:
+    jib = si_at(tree, "crane.jib.length", "m")
+    known = f"from 0 to {jib:g} m (the length of the jib)" if jib else "from 0 on"
+    on_jib = Way("motion.trolley", jib, False, f"positions on the jib, {known}", "the trolley leaves the jib")
+    faults = _out_of_way(tree, on_jib, ("start", "end"))
+    trolley, more = _motion(tree, on_jib, TypeAdapter(TrolleyMotion), folder, None)
+    for key, value in leaves(at(tree, "modes.trolley_positions") or [], "modes.trolley_positions"):
+        position = si(value, "m")
+        if position is not None and not on_jib.keeps(position):
+            faults.append(on_jib.fault(key, shown(value)))
+    faults += more if not any(f.key.startswith("motion.") for f in faults) else []
+    return faults, trolley
+
+
+def _rope(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], Motion | None]:
+    high, what = _height(tree, kind)
+    known = f"above 0 and up to {high:g} m ({what})" if high else "above 0"
+    hint = "the load would be in the ground or the rope wound up"
+    in_air = Way("motion.hoist", high, True, f"rope lengths {known}", hint)
+    start = si_at(tree, "rope.length", "m")
+    if start is not None and start > 0.0 and not in_air.keeps(start):
+        return [in_air.fault("rope.length", shown(at(tree, "rope.length")))], None
+    faults = _out_of_way(tree, in_air, ("end",))
+    rope, more = _motion(tree, in_air, TypeAdapter(HoistMotion), folder, start)
+    return faults or more, rope
+
+
+def _height(tree: dict[str, Any], kind: str) -> tuple[float | None, str]:
+    """Height that the rope hangs from and what it is; None where it is not known."""
+    keys, what = {
+        "radial": (("tower.height",), "the height of the tower"),
+        "jib": (("post.height", "primary_boom.length", "secondary_boom.length"), "post and booms upright"),
+    }.get(kind, (("geometry.tower_height", "geometry.top_height"), "the height of the tower with its top"))
+    parts = [si_at(tree, f"crane.{key}", "m") for key in keys]
+    # A post without height only says that its source gives none: heights count from its top.
+    if any(part is None or part < 0.0 for part in parts) or not parts[0]:
+        return None, what
+    return sum(part for part in parts if part is not None), what
+
+
+def _out_of_way(tree: dict[str, Any], way: Way, names: tuple[str, ...]) -> list[Fault]:
+    """Single values of a motion outside its limits."""
+    faults = []
+    for key, value in leaves(at(tree, way.key), way.key):
+        position = si(value, way.unit) if key.rpartition(".")[2] in names else None
+        if position is not None and not way.keeps(position):
+            faults.append(way.fault(key, shown(value)))
+    return faults
+
+
+def _motion(
+    tree: dict[str, Any], way: Way, adapter: TypeAdapter[Any], folder: Path, start: float | None
+) -> tuple[Motion | None, list[Fault]]:
+    """The motion at ``way.key`` and what is wrong with it as a whole; without one a known start is kept."""
+    written = at(tree, way.key)
+    if written is None and start is not None and (start > 0.0 or way.turns):
+        written = {"shape": "rest"}
+    try:
+        described = adapter.validate_python(written)
+    except ValidationError:
+        return None, []
+    hoists = not hasattr(described, "start") and way.open_low
+    if hoists and start is None:
+        return None, []
+    begin = start if hoists and start is not None else getattr(described, "start", 0.0)
+    try:
+        motion = profile(described, begin, folder, way.unit)
+    except CaseError as error:
+        named = f"named by {way.key}.file of the case"
+        return None, [replace(f, hint=f"{f.hint}; {named}" if f.hint else named) for f in error.faults]
+    except (ArithmeticError, ValueError) as error:
+        return None, [Fault("", way.key, "a motion that can be computed", str(error))]
+    key = f"{way.key}.file" if described.shape == "table" else way.key
+    if hoists and abs(float(motion(0.0)) - begin) > 1e-6:
+        got = f"a first length of {float(motion(0.0)):g} m"
+        return None, [Fault("", key, f"a table that begins with rope.length, {begin:g} m", got)]
+    fastest, limit = max(abs(rate) for rate in motion.range(1)), FASTEST_TURN if way.turns else FASTEST
+    if described.shape == "table" and fastest > limit:
+        got = f"a table that reaches {fastest:.3g} {way.unit}/s"
+        hint = "times in seconds? the curve through the points is smooth"
+        hint = f"angles in radians? {hint}" if way.turns else hint
+        return None, [Fault("", key, f"speeds up to {limit:g} {way.unit}/s", got, hint)]
+    low, high = motion.range()
+    if not (way.keeps(low) and way.keeps(high)):
+        return None, [way.fault(key, f"a motion from {low:g} to {high:g} m")]
+    return motion, []
