@@ -8,8 +8,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, least_squares
 from scipy.special import ellipj, ellipk, jv, yv
 
-from towercrane.cranes.jib_crane import DrivenJibCrane, JibCrane, PlannedJibCrane, TrackingJibCrane
+from towercrane.cranes.jib_crane import DrivenJibCrane, JibCrane, PlannedJibCrane
 from towercrane.cranes.jib_crane_linear import LinearSway, growth_rates, static_matrices, static_torques
+from towercrane.cranes.jib_crane_tracking import TrackingJibCrane
 from towercrane.integrate import integrate
 from towercrane.motion import Motion, phases, rest, smooth_ramps, trapezoid
 from towercrane.payload import Load
@@ -225,6 +226,15 @@ def test_gains_bring_a_crane_back_that_starts_off_its_plan():
     # Without gains the booms fall away from it.
     loose = integrate(TrackingJibCrane(HEAVY, LOAD).system, cut, start, np.array([0.0, 2.0]))
     assert peak(loose.states[-1, :3] - [0.0, 0.6, -0.2]) > 0.05
+
+
+def test_a_restart_puts_both_loads_back_on_their_ropes():
+    model = TrackingJibCrane(HEAVY, LOAD)
+    state = np.arange(1.0, 21.0)
+    model.system.restore(state)
+    for n, p in ((state[3:6], state[9:12]), (state[13:16], state[16:19])):
+        assert_allclose([np.linalg.norm(n), n @ p], [1.0, 0.0], atol=1e-14)
+    assert_allclose(state[[0, 6, 12, 19]], [1.0, 7.0, 13.0, 20.0])
 
 
 def test_torques_that_hold_the_crane_hold_it_and_errors_grow_as_predicted():

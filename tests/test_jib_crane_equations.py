@@ -13,7 +13,8 @@ from jib_cranes import HEAVY, LOAD, PRINTED, planned, smooth_plan, trapezoid_pla
 from scipy.integrate import solve_ivp
 
 from towercrane.cranes import jib_crane_kernel as kernel
-from towercrane.cranes.jib_crane import DrivenJibCrane, PlannedJibCrane, TrackingJibCrane
+from towercrane.cranes.jib_crane import DrivenJibCrane, PlannedJibCrane
+from towercrane.cranes.jib_crane_tracking import TrackingJibCrane
 from towercrane.motion import Motion
 from towercrane.payload import AIR_DENSITY, MASS, Load
 from towercrane.simulate import simulate

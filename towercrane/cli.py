@@ -115,6 +115,8 @@ def modes(
 ) -> None:
     """Natural frequencies of tower, jib and crane, each beside finite elements."""
     loaded = _load(case, changes)
+    if loaded.kind != "radial":
+        _fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
     _announce_compilation("modal.roots")
     from towercrane.natural import natural_frequencies
 
@@ -172,9 +174,11 @@ def run(
         if stale:
             typer.echo(f"removed, of an earlier run: {', '.join(stale)}")
         if changes:
-            _next("modes", case, *_set(changes))
-        else:
+            _next("modes" if loaded.kind == "radial" else "linearise", case, *_set(changes))
+        elif loaded.kind == "radial":
             _next("run", case, "--set", "model.jib_modes=5", "--out", f"results/{loaded.name}-5-jib-modes")
+        else:
+            _next("linearise", case)
     if summary["outcome"] == "interrupted":
         raise typer.Exit(INTERRUPTED)
     if summary["outcome"] != "finished":

@@ -7,7 +7,7 @@ vector, so there is no angle chart and no singular position; angles are outputs.
 Vectors have ``d`` inertial components, the vertical last: (x, z) in a plane, (x, y, z) in space. The state is
 ``y = (q, n, q', p, work)``: coordinates, unit vector from D to the load, rates, rate of the unit vector, and the
 work [J] that inputs and dissipation have put into the crane since the start. An elastic rope adds its stretch e:
-``y = (q, n, e, q', p, e', work)``.
+``y = (q, e, n, q', e', p, work)``.
 """
 
 from __future__ import annotations
@@ -78,7 +78,10 @@ def work_shape(coordinates: int) -> tuple[int, int]:
 
 
 def restore(state: Floats, coordinates: int, axes: int) -> None:
-    """Put the rope's direction back to unit length and its rate at right angles, in place."""
+    """Put the rope's direction back to unit length and its rate at right angles, in place.
+
+    The stretch of an elastic rope counts as a coordinate here.
+    """
     n = state[coordinates : coordinates + axes]
     p = state[(len(state) - 1) // 2 + coordinates :][:axes]
     n /= np.linalg.norm(n)
@@ -140,8 +143,10 @@ def hang_load(
     bound = mass
     if elastic:
         bound = 0.0
-        length += y[n + d]
-        rate += y[sway + d]
+        length += y[n]
+        rate += y[rates + n]
+        direction += 1
+        sway += 1
     norm, along = 0.0, 0.0
     for k in range(d):
         norm += y[direction + k] * y[direction + k]
@@ -159,8 +164,8 @@ def hang_load(
     power = -hinge * ww
     s = mass * (length * ww - acceleration - gravity * work[DIRECTION, d - 1])
     if elastic:
-        s = stiffness * y[n + d] + loss * y[sway + d]
-        power -= loss * y[sway + d] * y[sway + d]
+        s = stiffness * y[n] + loss * y[rates + n]
+        power -= loss * y[rates + n] * y[rates + n]
     for k in range(d):
         w = y[sway + k] - along * work[DIRECTION, k]
         air = -drag * speed * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w)
@@ -204,8 +209,8 @@ def hang_load(
         dy[sway + k] = -ww * work[DIRECTION, k] - across / length
         dy[direction + k] = y[sway + k]
     if elastic:
-        dy[n + d] = y[sway + d]
-        dy[sway + d] = length * ww - outward - tension / mass - acceleration
+        dy[n] = y[rates + n]
+        dy[rates + n] = length * ww - outward - tension / mass - acceleration
     dy[y.size - 1] = power - tension * winding
     return tension
 

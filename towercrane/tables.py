@@ -91,8 +91,8 @@ def modes_tables(report: dict[str, Any]) -> None:
 def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
     """Eigenvalues, as :func:`towercrane.natural.linear_report` gives them, without those of the drives themselves."""
     console = _console()
-    values = {signal["name"]: signal["value"] for signal in report["states"]}
-    where = ", ".join(f"{name} {values[name]:g} m" for name in drives)
+    values = {signal["name"]: f"{signal['value']:g} {signal['units']}" for signal in report["states"]}
+    where = ", ".join(f"{name} {values[name]}" for name in drives)
     title = f"{report['name']}: small motions about the equilibrium"
     table = _table(
         f"{title}, {where}", "moves most", "frequency [Hz]", "period [s]", "damping ratio", "eigenvalue [1/s]"
@@ -149,9 +149,9 @@ def run_tables(summary: dict[str, Any]) -> None:
         f"swing period          {f'{period:.4f} s' if period else 'none: no regular swing after the drives stopped'}"
     )
     shown = ", ".join(f"{f:.4f}" for f in summary["spectrum_peaks_hz"]) or "none"
-    console.print(f"tower spectrum peaks  {shown} Hz")
+    console.print(f"spectrum peaks        {shown} Hz")
     natural = ", ".join(f"{f:.4f}" for f in summary["natural_frequencies_hz"][:5]) or "none"
-    console.print(f"natural frequencies   {natural} Hz at the last trolley position")
+    console.print(f"natural frequencies   {natural} Hz where the run ended")
     balance, solver = summary["energy_balance"], summary["solver"]
     console.print(
         f"energy balance        {balance['largest_gap_j']:.2g} J off, {balance['relative_gap']:.1e} of the change"
@@ -215,6 +215,14 @@ def bench_tables(report: dict[str, Any]) -> None:
             console.print(f"  {note}", style="dim")
 
 
+MOST_ASSUMED = 8
+"""Assumed values that are explained one by one."""
+
+
 def _assumed(console: Console, assumed: list[dict[str, str]]) -> None:
+    if len(assumed) > MOST_ASSUMED:
+        values = ", ".join(f"{entry['key']} = {entry['value']}" for entry in assumed)
+        console.print(f"assumed  {len(assumed)} values that no source gives (reasons: --json): {values}")
+        return
     for entry in assumed:
         console.print(f"assumed  {entry['key']} = {entry['value']}: {entry['why']}")

@@ -41,7 +41,7 @@ class Scene:
     cut: Phases
     start: Floats
     grid: Floats
-    coordinates: int
+    rope: int
 
     def solve(self, method: str, rtol: float) -> Trajectory:
         """One run; nothing is watched for, on either side."""
@@ -50,7 +50,7 @@ class Scene:
 
     def direction(self, run: Trajectory) -> Floats:
         """Horizontal components of the rope's direction over time; shape (p, 2)."""
-        return run.states[:, self.coordinates : self.coordinates + 2]
+        return run.states[:, self.rope : self.rope + 2]
 
 
 def _scene(name: str) -> Scene:
@@ -58,7 +58,7 @@ def _scene(name: str) -> Scene:
     model = slewing_builder(case)(case.lumped_parameters())
     cut = phases(tuple(case.motions[channel] for channel in model.channels), case.run.duration)
     grid = np.arange(0.0, case.run.duration, STEP)
-    return Scene(model.system, cut, model.start(cut.inputs[0]), grid, model.coordinates)
+    return Scene(model.system, cut, model.start(cut.inputs[0]), grid, model.rope)
 
 
 def right_hand_sides(repeats: int) -> dict[str, Any]:

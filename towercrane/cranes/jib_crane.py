@@ -3,7 +3,8 @@
 Source: Al-Ajmi, Abu-El Yazied, Abu-El-Hagag, Makady, Dynamic modeling and load sway simulation of jib cranes; the
 equations are derived anew, see :mod:`towercrane.cranes.jib_crane_kernel`. Each model answers one question:
 :class:`PlannedJibCrane` which torques a plan needs and how the load then sways, :class:`DrivenJibCrane` how the
-crane moves under given torques, :class:`TrackingJibCrane` how it moves under the torques of its plan.
+crane moves under given torques, :class:`towercrane.cranes.jib_crane_tracking.TrackingJibCrane` how it moves under
+the torques of its plan.
 """
 
 from __future__ import annotations
@@ -83,8 +84,16 @@ class JibCrane:
 
 
 @dataclass(frozen=True, eq=False)
-class _JibModel:
-    """What the models of a jib crane share."""
+class JibModel:
+    """What the models of a jib crane share.
+
+    Parameters
+    ----------
+    crane : JibCrane
+    load : Load
+    rope_as_rod : bool
+        Let the rope push. Without it a slack rope ends the run.
+    """
 
     crane: JibCrane
     load: Load
@@ -107,7 +116,7 @@ class _JibModel:
         )  # fmt: skip
         return numbers
 
-    def _system(
+    def make_system(
         self,
         rhs: Any,
         works: tuple[int, ...],
@@ -142,7 +151,7 @@ class _JibModel:
 
 
 @dataclass(frozen=True, eq=False)
-class PlannedJibCrane(_JibModel):
+class PlannedJibCrane(JibModel):
     """Joints on prescribed paths: sway of the load, and the joint torques by inverse dynamics.
 
     Parameters
@@ -161,7 +170,7 @@ class PlannedJibCrane(_JibModel):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        return self._system(
+        return self.make_system(
             kernel.planned_rhs, (2 * kernel.AXES,), self.numbers, lambda y: restore(y, 0, kernel.AXES)
         )
 
@@ -186,7 +195,7 @@ class PlannedJibCrane(_JibModel):
         ValueError
             If the state is not one of the two.
         """
-        return np.concatenate([_hanging(float(inputs[0, 0]), state, swing_angle), np.zeros(kernel.AXES + 1)])
+        return np.concatenate([hanging(float(inputs[0, 0]), state, swing_angle), np.zeros(kernel.AXES + 1)])
 
     def observe(
         self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
@@ -207,7 +216,7 @@ class PlannedJibCrane(_JibModel):
 
 
 @dataclass(frozen=True, eq=False)
-class DrivenJibCrane(_JibModel):
+class DrivenJibCrane(JibModel):
     """Joints that move under given torques.
 
     Parameters
@@ -237,13 +246,13 @@ class DrivenJibCrane(_JibModel):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        return self._system(
+        return self.make_system(
             kernel.driven_rhs, (kernel.PLAN - 1,), self.numbers, lambda y: restore(y, kernel.JOINTS, kernel.AXES)
         )
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at the start angles with the load at rest; arguments as of :meth:`PlannedJibCrane.start`."""
-        return _driven_start(self.start_angles, self.start_rates, state, swing_angle)
+        return driven_start(self.start_angles, self.start_rates, state, swing_angle)
 
     def observe(
         self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
@@ -254,68 +263,7 @@ class DrivenJibCrane(_JibModel):
         return observe(self.numbers, self.load, motions, times, driven_rows(states), guards)
 
 
-@dataclass(frozen=True, eq=False)
-class TrackingJibCrane(_JibModel):
-    """Joints under the torques of their plan, with or without a controller that holds them to it.
-
-    Plan and crane are solved side by side: tau = tau_plan - stiffness (theta - theta_plan) - damping
-    (theta' - theta_plan'), where tau_plan is the inverse dynamics of the plan and its own load.
-
-    Parameters
-    ----------
-    crane : JibCrane
-    load : Load
-    stiffness : float
-        Torque per angle that a joint is off its plan, the same for each [N m/rad]; 0 is open loop.
-    damping : float
-        Torque per rate that a joint is off its plan [N m s/rad].
-    rope_as_rod : bool
-        Let the rope push. Without it a slack rope, of crane or plan, ends the run.
-
-    Raises
-    ------
-    ValueError
-        If a gain is negative.
-    """
-
-    stiffness: float = 0.0
-    damping: float = 0.0
-
-    def __post_init__(self) -> None:
-        for name in ("stiffness", "damping"):
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(f"TrackingJibCrane.{name}: wanted zero or more, got {getattr(self, name)!r}")
-
-    @cached_property
-    def system(self) -> System:
-        """The model as the solver sees it."""
-        numbers = self.numbers
-        numbers[kernel.STIFFNESS], numbers[kernel.DAMPING] = self.stiffness, self.damping
-
-        def put_back(y: Floats) -> None:
-            restore(y[: kernel.PLAN], kernel.JOINTS, kernel.AXES)
-            restore(y[kernel.PLAN :], 0, kernel.AXES)
-
-        works = (kernel.PLAN - 1, kernel.PLAN + 2 * kernel.AXES)
-        return self._system(kernel.tracking_rhs, works, numbers, put_back, (f"{SLACK_ROPE} in the plan",))
-
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
-        """State on the plan with both loads at rest; arguments as of :meth:`PlannedJibCrane.start`."""
-        angles, rates = inputs[: kernel.JOINTS, 0], inputs[: kernel.JOINTS, 1]
-        crane = _driven_start(angles, rates, state, swing_angle)
-        return np.concatenate([crane, _hanging(float(angles[0]), state, swing_angle), np.zeros(kernel.AXES + 1)])
-
-    def observe(
-        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
-    ) -> dict[str, Quantity]:
-        """Outputs over time, with the joints' errors; see :func:`towercrane.cranes.jib_crane_outputs.observe`."""
-        from towercrane.cranes.jib_crane_outputs import driven_rows, joint_error, observe
-
-        outputs = observe(self.numbers, self.load, motions, times, driven_rows(states), guards)
-        return {**outputs, "joint_error": joint_error(motions, times, states)}
-
-
-def _hanging(slew: float, state: str, swing_angle: float) -> Floats:
+def hanging(slew: float, state: str, swing_angle: float) -> Floats:
     """Direction of a rope that hangs in the booms' plane; shape (3,)."""
     if state not in ("equilibrium", "zero"):
         raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
@@ -323,7 +271,7 @@ def _hanging(slew: float, state: str, swing_angle: float) -> Floats:
     return np.array([outward * np.cos(slew), outward * np.sin(slew), -np.cos(swing_angle)])
 
 
-def _driven_start(angles: ArrayLike, rates: ArrayLike, state: str, swing_angle: float) -> Floats:
+def driven_start(angles: ArrayLike, rates: ArrayLike, state: str, swing_angle: float) -> Floats:
     """State (theta, n, theta', p, work) with the load at rest."""
     theta = np.asarray(angles, dtype=float)
-    return np.concatenate([theta, _hanging(theta[0], state, swing_angle), rates, np.zeros(kernel.AXES + 1)])
+    return np.concatenate([theta, hanging(theta[0], state, swing_angle), rates, np.zeros(kernel.AXES + 1)])

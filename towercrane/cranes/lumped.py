@@ -175,6 +175,11 @@ class LumpedCrane:
     rope_damping: float = 0.0
     gravity: float = 9.81
 
+    @property
+    def angles(self) -> frozenset[str]:
+        """Coordinates that are angles: arms turn with them, or they have moments of inertia."""
+        return frozenset(link.turns_with for p in self.points.values() for link in p.links) | frozenset(self.inertias)
+
     def row(self, form: Row) -> Floats:
         """A linear form as a vector over the coordinates, its constant last; shape (n + 1,).
 
@@ -220,9 +225,25 @@ class LumpedModel:
         return self.crane.rope_stiffness > 0.0
 
     @property
+    def rope(self) -> int:
+        """Where the rope's direction begins in the state: after the coordinates and the stretch, if there is one."""
+        return self.coordinates + self.elastic
+
+    @property
     def size(self) -> int:
         """Number of states."""
-        return 2 * (self.coordinates + 3 + self.elastic) + 1
+        return 2 * (self.rope + 3) + 1
+
+    @property
+    def channel_units(self) -> tuple[str, ...]:
+        """Units of the motions."""
+        return ("rad", "m")
+
+    @property
+    def state_names(self) -> dict[str, str]:
+        """Coordinates with their units, and the rope's stretch."""
+        names = {name: "rad" if name in self.crane.angles else "m" for name in self.crane.coordinates}
+        return names | ({"rope_stretch": "m"} if self.elastic else {})
 
     @cached_property
     def system(self) -> System:
@@ -275,7 +296,7 @@ class LumpedModel:
             tables=tables,
             # Three rows more for the point that is being added, or for the row of a coordinate that sticks.
             work_shape=(rows + 3, max(width, 4)),
-            restore=lambda state: restore(state, n, 3),
+            restore=lambda state: restore(state, self.rope, 3),
             switch=Transitions(driven=crane.coordinates.index(drive.on), rates=(self.size - 1) // 2),
         )
 
@@ -299,10 +320,10 @@ class LumpedModel:
         if state == "equilibrium":
             y[:n] = self.equilibrium(inputs)
             if self.elastic:
-                y[n + 3] = self.load.mass * self.crane.gravity / self.crane.rope_stiffness
+                y[n] = self.load.mass * self.crane.gravity / self.crane.rope_stiffness
         heading = y[self.crane.coordinates.index(self.crane.jib_angle)]
-        y[n : n + 3] = np.sin(swing_angle) * np.cos(heading), np.sin(swing_angle) * np.sin(heading), 0.0
-        y[n + 2] = -np.cos(swing_angle)
+        sideways = np.sin(swing_angle)
+        y[self.rope : self.rope + 3] = sideways * np.cos(heading), sideways * np.sin(heading), -np.cos(swing_angle)
         return y
 
     def equilibrium(self, inputs: Floats) -> Floats:

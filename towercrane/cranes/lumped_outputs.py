@@ -34,7 +34,7 @@ def observe(
     crane, drive, n = model.crane, model.crane.drive, model.coordinates
     rates = (model.size - 1) // 2
     q, qd = states[:, :n], states[:, rates : rates + n]
-    direction = states[:, n : n + 3]
+    direction = states[:, model.rope : model.rope + 3]
     direction = direction / np.linalg.norm(direction, axis=1)[:, None]
     heading = q[:, crane.coordinates.index(crane.jib_angle)]
     outward = direction[:, 0] * np.cos(heading) + direction[:, 1] * np.sin(heading)
@@ -45,7 +45,7 @@ def observe(
     elastic = -_coupling_torque(q[:, driven] - shaft, drive.soft, drive.stiff, drive.corner)
     total = elastic - drive.damping * (qd[:, driven] - shaft_rate)
     length = motions["rope"](times)
-    stretched = length + states[:, n + 3] if model.elastic else length
+    stretched = length + states[:, n] if model.elastic else length
     hung, _ = position(model, crane.points[crane.suspension], q, qd)
 
     def over_time(values: Floats, units: str, name: str) -> Quantity:
@@ -70,9 +70,8 @@ def observe(
     for name, reading in crane.readings.items():
         values = q @ crane.row(reading.of)[:-1] + qd @ crane.row(reading.of_rates)[:-1]
         outputs[name] = over_time(values, reading.units, reading.long_name)
-    angles = {link.turns_with for point in crane.points.values() for link in point.links} | set(crane.inertias)
     for i, name in enumerate(crane.coordinates):
-        unit = "rad" if name in angles else "m"
+        unit = "rad" if name in crane.angles else "m"
         outputs[name] = over_time(q[:, i], unit, f"coordinate: {name.replace('_', ' ')}")
     outputs |= {
         "payload_position": Quantity(
@@ -121,10 +120,11 @@ def total_energy(model: LumpedModel, motions: dict[str, Motion], times: Floats, 
     place, velocity = position(model, crane.points[crane.suspension], q, qd)
     length, haul = motions["rope"](times), motions["rope"](times, 1)
     if model.elastic:
-        stretch, stretching = states[:, n + 3], states[:, rates + n + 3]
+        stretch, stretching = states[:, n], states[:, rates + n]
         energy += 0.5 * crane.rope_stiffness * stretch**2
         length, haul = length + stretch, haul + stretching
-    direction, swing = states[:, n : n + 3], states[:, rates + n : rates + n + 3]
+    rope = model.rope
+    direction, swing = states[:, rope : rope + 3], states[:, rates + rope : rates + rope + 3]
     place = place + length[:, None] * direction
     velocity = velocity + haul[:, None] * direction + length[:, None] * swing
     energy += model.load.mass * (0.5 * (velocity**2).sum(axis=1) + crane.gravity * place[:, 2])
