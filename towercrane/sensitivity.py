@@ -153,11 +153,7 @@ def study(
     values = np.full((len(outputs), len(vary), len(percent), rows), np.nan)
     jobs = [(i, j) for i in range(len(vary)) for j in range(len(percent))]
     for done, (i, j) in enumerate(jobs):
-        fraction = percent[j] / 100.0
-        if "stiffness" in vary[i] or vary[i].startswith(("mass", "inertia", "geometry")):
-            fraction = max(fraction, NEAR_ZERO)
-        changed = dataclasses.replace(parameters, **{vary[i]: getattr(parameters, vary[i]) * fraction})
-        result = nominal if fraction == 1.0 else run(build(changed))
+        result = nominal if percent[j] == 100.0 else run(build(_scaled(parameters, vary[i], percent[j] / 100.0)))
         if result.attrs["outcome"] != "finished":
             ended.append(
                 f"{vary[i]} at {percent[j]:g} %: {result.attrs['outcome']} at {result.attrs['end_time']:.2f} s"
@@ -187,6 +183,17 @@ def study(
         ended=ended,
         coordinates=full.coordinates,
     )
+
+
+def _scaled(parameters: Any, name: str, fraction: float) -> Any:
+    """Parameter set with one value scaled; where zero makes no crane, near zero stands for it."""
+    if "stiffness" in name:
+        fraction = max(fraction, NEAR_ZERO)
+    value = getattr(parameters, name)
+    try:
+        return dataclasses.replace(parameters, **{name: value * fraction})
+    except ValueError:
+        return dataclasses.replace(parameters, **{name: value * NEAR_ZERO})
 
 
 def _change(result: xr.Dataset, nominal: xr.Dataset, outputs: Sequence[str]) -> dict[str, float | None]:
