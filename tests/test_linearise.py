@@ -61,6 +61,7 @@ def test_rigid_crane_is_a_pendulum_driven_by_the_trolley():
     assert_allclose(linear.d[tension], [0.0, -800.0], rtol=1e-12)
     assert_allclose(linear.point.outputs[tension], 800.0 * G, rtol=1e-14)
     assert linear.outputs[tension] == ("rope_tension", "N")
+    assert not {"total_energy", "input_work", "payload_position"} & set(names(linear.outputs))
     assert [signal.units for signal in linear.states] == ["rad", "rad/s", "m", "m", "m/s", "m/s"]
     assert [str(signal) for signal in linear.inputs] == [f"{n}_acceleration [m/s^2]" for n in ("trolley", "rope")]
 
@@ -105,6 +106,10 @@ def test_motion_at_a_time():
     assert_allclose(moving.point.states, [0, 0, 5.8, 18.0, 0.4, 0.0], atol=1e-14)
     assert_allclose(moving.point.inputs, [0.1, 0.0])
     assert_allclose(moving.point.slope, [0, -0.1 / 18.0, 0.4, 0.0, 0.1, 0.0], atol=1e-14)
+    rows = np.array([[5.0, 0.0, 0.05], [18.0, 0.0, 0.0]])
+    same = linearise(crane, rows, time=4.0, state=moving.point.full_state, outputs=[])
+    assert_allclose(same.point.states, moving.point.states, atol=1e-14)
+    assert_allclose(same.a, moving.a, atol=1e-14)
 
 
 @pytest.mark.parametrize(("axes", "angle", "rate"), [(2, 0.4, 0.3), (3, 0.4, 0.3), (3, -1.2, 0.8)])
@@ -358,6 +363,7 @@ def test_free_platform_in_steady_rotation_keeps_its_momentum():
     state = turning_state(rate, angle, leading=(angle, rate))
     linear = linearise(Arm(151.0), {}, state=state, turning="platform", outputs=[])
     assert_allclose(linear.point.slope, [rate, 0, 0, 0, 0, 0], atol=1e-12)
+    assert np.all(linear.a[:, 0] == 0.0)
     # Angle and momentum are free: two zero eigenvalues, and two oscillations.
     values = np.sort(abs(np.linalg.eigvals(linear.a)))
     assert np.max(values[:2]) < 1e-5 < 1.0 < values[2]
@@ -484,6 +490,7 @@ def test_command_prints_writes_and_says_what_is_next(tmp_path):
     for frequency in linear.frequencies:
         assert f" {frequency:.6f} " in done.stdout
     assert "sway outward" in done.stdout
+    assert "│ trolley " not in done.stdout  # a drive is no motion of the crane
     assert "-0.000000" not in done.stdout
     assert done.stdout.splitlines()[-2:] == ["written to out/crane.mat", "next: towercrane run qtz5613/condition-3"]
     assert_allclose(loadmat(tmp_path / "out" / "crane.mat")["A"], linear.a, rtol=1e-12, atol=1e-12)
