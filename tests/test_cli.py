@@ -145,6 +145,43 @@ def test_parametric_resonance_is_named(tmp_path):
     assert "the rope pushes" in notices
 
 
+@pytest.mark.parametrize("case", ["slewing/basic/example-1", "jib-crane/plan"])
+def test_other_kinds_run_and_suggest_what_works(case, tmp_path):
+    import shlex
+
+    done = towercrane("run", case, "--out", str(tmp_path), "--set", "run.duration=6 s")
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert summary["outcome"] == "finished"
+    assert summary["energy_balance"]["relative_gap"] < 1e-8
+    assert summary["natural_frequencies_hz"]
+    assert (tmp_path / "path.png").exists()
+    following = shlex.split(done.stdout.splitlines()[-1].removeprefix("next: towercrane "))
+    assert towercrane(*following).returncode == 0
+    refused = towercrane("modes", case)
+    assert refused.returncode == 2
+    assert f"towercrane linearise {case}" in refused.stderr
+
+
+def test_sensitivity_writes_ranking_surfaces_and_reduced_crane(tmp_path):
+    done = towercrane(
+        "sensitivity", "slewing/basic/cycle", "--vary", "stiffness_rope", "--step", "100", "--out", str(tmp_path),
+        "--json", "--set", "run.duration=12 s",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    report = json.loads(done.stdout)
+    assert report["degrees_of_freedom"] == 7
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "sensitivity.nc", "sensitivity.json", "ranking.png", "surface-stiffness_rope.png",
+    }  # fmt: skip
+    for wrong in (("--vary", "nonsense"), ("--step", "0"), ("--tolerance", "3")):
+        refused = towercrane("sensitivity", "slewing/basic/cycle", "--out", str(tmp_path / "no"), *wrong)
+        assert refused.returncode == 2
+        assert "wanted" in refused.stderr
+    assert towercrane("sensitivity", "qtz5613/condition-3", "--out", str(tmp_path / "no")).returncode == 2
+    assert not (tmp_path / "no").exists()
+
+
 def test_slack_rope_ends_the_run_with_exit_code_3_and_keeps_what_is_finished(tmp_path):
     done = towercrane(
         "run", "qtz5613/condition-4-zero", "--out", str(tmp_path), "--set", "rope.slack=stop", "--no-pictures"

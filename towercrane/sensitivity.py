@@ -57,12 +57,12 @@ class Study:
         Per elastic member, the least important first: ``member`` and ``change`` by output if it is made rigid;
         None where the output is read off that very member, which then has to stay.
     reduced : dict
-        ``rigid`` (members left out), ``coordinates``, ``change`` by output and ``cost``, evaluations relative to the
-        full crane's.
+        ``rigid`` (members left out), ``coordinates``, ``degrees_of_freedom``, ``change`` by output and ``cost``,
+        evaluations relative to the full crane's.
     ended : list of str
         Runs that ended before their time, with the outcome.
-    coordinates : int
-        Structural coordinates of the full crane.
+    degrees_of_freedom : int
+        Of the full crane with its load.
     """
 
     data: xr.Dataset
@@ -70,7 +70,7 @@ class Study:
     members: list[dict[str, Any]]
     reduced: dict[str, Any]
     ended: list[str]
-    coordinates: int
+    degrees_of_freedom: int
 
 
 def report(found: Study, case: Case) -> dict[str, Any]:
@@ -81,7 +81,7 @@ def report(found: Study, case: Case) -> dict[str, Any]:
         "changes": list(case.changes),
         "outputs": list(map(str, found.data.data_vars)),
         "percent": found.data["percent"].values.tolist(),
-        "coordinates": found.coordinates,
+        "degrees_of_freedom": found.degrees_of_freedom,
         "influence": found.influence,
         "members": found.members,
         "reduced": found.reduced,
@@ -177,11 +177,12 @@ def study(
         reduced={
             "rigid": leave,
             "coordinates": list(reduced_model.crane.coordinates),
+            "degrees_of_freedom": reduced_model.rope + 2,
             "change": _change(reduced, nominal, outputs),
             "cost": reduced.attrs["evaluations"] / nominal.attrs["evaluations"],
         },
         ended=ended,
-        coordinates=full.coordinates,
+        degrees_of_freedom=full.rope + 2,
     )
 
 

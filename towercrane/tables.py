@@ -190,10 +190,10 @@ def sensitivity_tables(summary: dict[str, Any]) -> None:
     reduced = summary["reduced"]
     table = _table(
         f"Reduced crane, rigid in {', '.join(reduced['rigid']).replace('_', ' ') or 'nothing'}, beside the full one",
-        "coordinates", *heads, "evaluations",
+        "degrees of freedom", *heads, "evaluations",
     )  # fmt: skip
     table.add_row(
-        f"{len(reduced['coordinates'])} of {summary['coordinates']}",
+        f"{reduced['degrees_of_freedom']} of {summary['degrees_of_freedom']}",
         *cells(reduced["change"]),
         f"{reduced['cost']:.0%}",
     )

@@ -25,7 +25,9 @@ def surface(data: xr.Dataset, parameter: str) -> Figure:
     rows = np.atleast_1d(figure.subplots(len(outputs), 1, sharex=True))
     for axes, name in zip(rows, outputs, strict=True):
         factor, unit = SHOWN.get(data[name].attrs["units"], (1.0, data[name].attrs["units"]))
+        # What is there at rest, such as the moment of the weights, would drown the rest.
         values = factor * data[name].sel(parameter=parameter).values
+        values = values - values[:, :1]
         # Symmetric colours show what is positive and negative at a glance.
         largest = float(np.nanmax(abs(values)))
         mesh = axes.pcolormesh(
@@ -36,7 +38,9 @@ def surface(data: xr.Dataset, parameter: str) -> Figure:
         axes.set_ylabel("% of nominal [1]", fontsize=8)
         figure.colorbar(mesh, ax=axes, label=f"{str(name).replace('_', ' ')}\n[{unit}]")
     rows[-1].set_xlabel("time [s]")
-    figure.suptitle(f"{parameter.replace('_', ' ')} from 0 to twice its value, {data.attrs['crane']}")
+    figure.suptitle(
+        f"{parameter.replace('_', ' ')} from 0 to twice its value, change since the start, {data.attrs['crane']}"
+    )
     return figure
 
 

@@ -88,7 +88,7 @@ def path_from_above(results: list[xr.Dataset]) -> Figure:
     axes.plot(0.0, 0.0, "+", color="black", ms=9)
     axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
     legend(axes)
-    return titled(figure, "Load from above; + axis, o start, square end", results)
+    return titled(figure, "Load from above, o start, square end", results)
 
 
 def run_pictures(result: xr.Dataset) -> dict[str, Figure]:

@@ -1,0 +1,64 @@
+"""Pictures of slewing and jib cranes and of studies: units, names, nothing left out."""
+
+import json
+
+import numpy as np
+import pytest
+from lab_crane import crane, motions
+
+from towercrane.case import load_case
+from towercrane.plots import jib, sensitivity, slewing
+from towercrane.simulate import run_case, simulate
+
+NOTE = json.dumps([["crane.mass.jib_tip", "14 kg", "not printed"]])
+
+
+@pytest.fixture(scope="module")
+def turned():
+    result = simulate(crane("basic"), motions(), 5.0, output_step=0.05)
+    result.attrs |= {"case": "slewing/basic/example-1", "assumed": NOTE}
+    return result
+
+
+def check(figures):
+    for name, figure in figures.items():
+        figure.canvas.draw()
+        assert any(axes.get_legend() is not None for axes in figure.axes), name
+        assert all("[" in axes.get_ylabel() for axes in figure.axes), name
+        assert any("[" in axes.get_xlabel() for axes in figure.axes), name
+
+
+def test_slewing_pictures(turned):
+    figures = slewing.run_pictures(turned)
+    assert set(figures) == {"overview.png", "sway.png", "moments.png", "torque.png", "angles.png", "path.png"}
+    check(figures)
+    for figure in figures.values():
+        assert "14 kg" in figure._supxlabel.get_text()
+
+
+def test_several_runs_share_a_picture(turned):
+    lines = slewing.sway([turned, turned]).axes[0].get_lines()
+    assert len(lines) == 2
+    assert lines[0].get_linestyle() != lines[1].get_linestyle()
+
+
+def test_jib_crane_pictures():
+    result = run_case(load_case("jib-crane/plan"))
+    figures = jib.run_pictures(result)
+    assert set(figures) == {"plan.png", "sway.png", "torques.png", "path.png"}
+    check(figures)
+
+
+def test_surface_shows_every_output_over_time_and_percent(turned):
+    import xarray as xr
+
+    values = np.stack([turned["sway_radial"].values * f for f in (0.5, 1.0, 2.0)])[None]
+    data = xr.Dataset(
+        {"sway_radial": (("parameter", "percent", "time"), values, turned["sway_radial"].attrs)},
+        {"parameter": ["drive_corner"], "percent": [0.0, 100.0, 200.0], "time": turned["time"].values},
+        {"crane": "laboratory crane"},
+    )
+    figure = sensitivity.surface(data, "drive_corner")
+    figure.canvas.draw()
+    assert figure.axes[0].get_ylabel() == "% of nominal [1]"
+    assert "[deg]" in figure.axes[1].get_ylabel()
