@@ -1,0 +1,156 @@
+"""Commands that study a case instead of running it: sensitivity and linearise."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from towercrane.terminal import (
+    ENDED_EARLY,
+    AsJson,
+    CaseName,
+    Changes,
+    announce_compilation,
+    fail,
+    folder_for_results,
+    load,
+    options_of,
+    say,
+    suggest,
+    write,
+)
+
+if TYPE_CHECKING:
+    from towercrane.case import Case
+
+
+def sensitivity(
+    case: CaseName,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option("--vary", metavar="PATTERN", help='Parameters, e.g. --vary "stiffness_*"; all by default.'),
+    ] = None,
+    step: Annotated[float, typer.Option("--step", help="Percent of nominal between two values.")] = 20.0,
+    tolerance: Annotated[
+        float, typer.Option("--tolerance", help="Change of every output below which a member is made rigid.")
+    ] = 0.02,
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+) -> None:
+    """Which parameters and degrees of freedom of a slewing crane matter, and the reduced crane that follows."""
+    loaded = load(case, changes)
+    folder = out if out is not None else Path("results") / f"{loaded.name}-sensitivity"
+    folder_for_results(folder)
+    if not 1.0 <= step <= 100.0:
+        fail(f"--step {step:g}: wanted percents from 1 to 100")
+    if not 0.0 < tolerance < 1.0:
+        fail(f"--tolerance {tolerance:g}: wanted a fraction between 0 and 1")
+    parameters = loaded.lumped_parameters()
+    from towercrane.sensitivity import parameters_of
+
+    names = parameters_of(parameters, vary or ["*"])
+    if not names:
+        known = ", ".join(parameters_of(parameters))
+        fail(f"--vary {' '.join(vary or [])}: wanted patterns that match some of {known}")
+    announce_compilation("towercrane.stepper")
+    study = _study(loaded, names, step, tolerance)
+    from towercrane.sensitivity import report
+
+    summary = report(study, loaded)
+    files: dict[str, Any] = {"sensitivity.nc": study.data, "sensitivity.json": json.dumps(summary, indent=2) + "\n"}
+    if pictures:
+        from towercrane.plots import sensitivity as pictured
+
+        files["ranking.png"] = pictured.ranking(study)
+        files |= {f"surface-{name}.png": pictured.surface(study.data, name) for name in names}
+    write(folder, files)
+    if as_json:
+        typer.echo(json.dumps(summary, indent=2))
+        return
+    from towercrane.tables import sensitivity_tables
+
+    sensitivity_tables(summary)
+    typer.echo(f"written to {folder}: {len(files)} files")
+    suggest("run", case, *options_of(changes))
+
+
+def linearise(
+    case: CaseName,
+    at: Annotated[
+        float,
+        typer.Option("--at", metavar="SECONDS", min=0.0, help="When: trolley and rope stand where they are then."),
+    ] = 0.0,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE", help="Write A, B, C, D to a .mat or .npz file.")
+    ] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+) -> None:
+    """Linear state-space model of a case: eigenvalues, and a file for MATLAB or Python."""
+    from towercrane.statespace import FILE_TYPES
+
+    loaded = load(case, changes)
+    if not at < float("inf"):
+        fail(f"--at {at}: wanted a finite number of seconds")
+    if out is not None:
+        if out.suffix.lower() not in FILE_TYPES or out.is_dir():
+            fail(f"--out {out}: wanted a file that ends in {' or '.join(FILE_TYPES)}")
+        folder_for_results(out.parent)
+    announce_compilation("towercrane.cranes.radial_kernel")
+    from towercrane.natural import linear_model, linear_report
+    from towercrane.system import NoEquilibrium
+
+    try:
+        linear = linear_model(loaded, at)
+    except NoEquilibrium as failure:
+        say(f"{failure.outcome}: {failure}")
+        raise typer.Exit(ENDED_EARLY) from None
+    if out is not None:
+        linear.save(out)
+    report = linear_report(loaded, at, linear)
+    if as_json:
+        typer.echo(json.dumps(report, indent=2, allow_nan=False))
+        return
+    from towercrane.tables import linear_tables
+
+    linear_tables(report, tuple(loaded.motions))
+    if out is not None:
+        typer.echo(f"written to {out}")
+        suggest("run", case, *options_of(changes))
+    else:
+        suggest(
+            "linearise",
+            case,
+            *(("--at", f"{at:g}") if at else ()),
+            *options_of(changes),
+            "--out",
+            f"results/{loaded.name}.mat",
+        )
+
+
+def _study(case: Case, names: list[str], step: float, tolerance: float) -> Any:
+    """Run a sensitivity study with a progress bar if somebody is looking."""
+    from functools import partial
+
+    from towercrane.models import slewing_builder
+    from towercrane.sensitivity import study
+
+    percent = [step * i for i in range(int(200.0 / step) + 1)]
+    run = partial(
+        study, case.lumped_parameters(), slewing_builder(case), case.motions, case.run.duration,
+        vary=names, percent=percent, tolerance=tolerance,
+    )  # fmt: skip
+    if not sys.stderr.isatty():
+        return run()
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(f"{len(names)} parameters, {len(percent)} values each", total=1.0)
+        return run(progress=lambda done: bar.update(task, completed=done))

@@ -1,0 +1,81 @@
+"""What the commands share at the terminal: options, exit codes, messages, the folder of results."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+
+import typer
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from towercrane.case import Case
+
+BAD_INPUT, ENDED_EARLY, INTERRUPTED = 2, 3, 130
+"""Exit codes besides 0: bad input; the run ended before its time with a named outcome; Ctrl-C."""
+
+CaseName = Annotated[str, typer.Argument(metavar="CASE", help="A case file, or the name of a shipped case.")]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help='Change a key, e.g. --set payload.mass="1200 kg".'),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
+
+
+def load(name: str, changes: list[str] | None) -> Case:
+    """Read and check a case."""
+    from towercrane.case import load_case
+
+    return load_case(name, changes or [])
+
+
+def announce_compilation(module: str) -> None:
+    """Say so if kernels have to be compiled first."""
+    from modal.compiled import is_compiled
+
+    if not is_compiled(module):
+        say("compiling for the first time, about ten seconds; later runs start at once ...")
+
+
+def folder_for_results(folder: Path) -> None:
+    """Refuse a folder that cannot be written before the work, not after it."""
+    from towercrane.folder import obstacle
+
+    if reason := obstacle(folder):
+        fail(f"--out {folder}: {reason}")
+
+
+def write(folder: Path, files: Mapping[str, Any]) -> None:
+    """Put files into a folder, each whole."""
+    from towercrane import folder as results
+
+    folder_for_results(folder)
+    try:
+        results.write(folder, files)
+    except OSError as error:
+        fail(f"{folder}: cannot be written: {error.strerror or error}")
+
+
+def options_of(changes: list[str] | None) -> list[str]:
+    """The changes as options again."""
+    return [part for change in changes or [] for part in ("--set", change)]
+
+
+def say(text: str) -> None:
+    """Tell the person, not the pipe."""
+    typer.echo(text, err=True)
+
+
+def suggest(*arguments: str) -> None:
+    """Print the next useful command, quoted so that it works as it stands."""
+    import shlex
+
+    typer.echo(f"next: {shlex.join(['towercrane', *arguments])}")
+
+
+def fail(message: str) -> NoReturn:
+    """Say what is wrong with the input and end with its exit code."""
+    say(message)
+    sys.exit(BAD_INPUT)
