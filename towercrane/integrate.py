@@ -279,10 +279,12 @@ def _scipy(
         if fallen := [index for index in watched if guards[index] < system.floors[index]]:
             return system.guards[fallen[0]]
         try:
-            solution = solve_ivp(
-                rhs, (run.time, stop), run.state, method=method, rtol=run.rtol, atol=atol, dense_output=True,
-                events=[watch(index) for index in watched],
-            )  # fmt: skip
+            # Radau widens the difference of a state that no slope depends on, such as the work, until it is infinite.
+            with np.errstate(over="ignore"):
+                solution = solve_ivp(
+                    rhs, (run.time, stop), run.state, method=method, rtol=run.rtol, atol=atol, dense_output=True,
+                    events=[watch(index) for index in watched],
+                )  # fmt: skip
         except KeyboardInterrupt:
             return INTERRUPTED
         reached = wanted[wanted <= solution.t[-1]]
