@@ -1,11 +1,16 @@
 """The laboratory crane of the tests, without a case file; what no source prints is assumed."""
 
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
+
+import numpy as np
 
 from towercrane.cranes import slewing
 from towercrane.cranes.lumped import LumpedModel
-from towercrane.motion import rest, trapezoid
+from towercrane.integrate import evaluate, integrate
+from towercrane.motion import phases, rest, trapezoid
 from towercrane.payload import AIR_DENSITY, Load
+from towercrane.system import Switch
 
 MULTI_MASS = SimpleNamespace(
     name="laboratory crane",
@@ -73,3 +78,49 @@ def crane(kind: str = "multi-mass", **changes) -> LumpedModel:
 def motions(ramp: float = 0.71, hold: float = 8.0, speed: float = 0.738, rope: float = 2.0) -> dict:
     """Trapezoid of the shaft's speed, rope at rest."""
     return {"shaft": trapezoid(0.0, speed * (ramp + hold), speed, speed / ramp), "rope": rest(rope)}
+
+
+def lossless(kind: str = "multi-mass", **changes) -> LumpedModel:
+    """Model without dampers, drag and friction."""
+    none = {name: 0.0 for name in vars(PARAMETERS[kind]) if name.startswith(("damping", "drag"))}
+    return replace(crane(kind, **{**none, "drive_damping": 0.0, "friction_law": "none", **changes}), load=Load(50.5))
+
+
+@dataclass
+class Counted:
+    """Switch that writes down which guards were met."""
+
+    switch: Switch
+    met: list
+
+    @property
+    def changes_equations(self):
+        return self.switch.changes_equations
+
+    def begin(self, *arguments):
+        self.switch.begin(*arguments)
+
+    def cross(self, guard, *arguments):
+        self.met.append(guard)
+        return self.switch.cross(guard, *arguments)
+
+
+def run(
+    model: LumpedModel, drive: dict, duration: float, start=None, step: float = 0.05, rtol: float = 1e-8, **options
+):
+    """Run from any start: trajectory, outputs by name, and the guards that were met on the way."""
+    cut = phases((drive["shaft"], drive["rope"]), duration)
+    start = model.start(cut.inputs[0]) if start is None else start
+    counted = Counted(model.system.switch, [])
+    system = replace(model.system, switch=counted)
+    times = np.minimum(np.arange(round(duration / step) + 1) * step, duration)
+    found = integrate(system, cut, start, times, rtol=rtol, atol=1e-2 * rtol, **options)
+    _, guards = evaluate(model.system, cut, found.times, found.states)
+    outputs = model.observe(drive, found.times, found.states, guards)
+    return found, {name: quantity.values for name, quantity in outputs.items()}, counted.met
+
+
+def imbalance(outputs: dict) -> float:
+    """Largest gap between energy gained and work put in, relative to the energy's range."""
+    energy, work = outputs["total_energy"], outputs["input_work"]
+    return float(np.max(abs(energy - energy[0] - work)) / max(np.ptp(energy), np.ptp(work)))

@@ -250,3 +250,53 @@ def test_state_without_weight_does_not_steer_the_step():
 def test_unknown_method_is_refused():
     with pytest.raises(ValueError, match=r"method: wanted one of dop853.*got 'euler'"):
         solve(kepler(), method="euler")
+
+
+# --- equations that switch -----------------------------------------------------------------------------
+
+
+class _Never:
+    """Switch that leaves everything as it is."""
+
+    def __init__(self, changes_equations):
+        self.changes_equations = changes_equations
+
+    def begin(self, state, numbers, floors, guards_at):
+        pass
+
+    def cross(self, guard, state, numbers, floors, guards_at):
+        return True
+
+
+def test_switching_without_progress_is_a_named_outcome():
+    system = dataclasses.replace(_system(_falling, 2, ("never", "landed")), switch=_Never(True))
+    run = integrate(system, phases((rest(0.0),), 10.0), np.array([20.0, 0.0]), np.arange(0.0, 10.0, 0.1))
+    assert run.outcome == "switching without progress"
+    assert_allclose(run.end_time, np.sqrt(2 * 20 / 9.81), rtol=1e-10)
+    assert 0.0 < run.smallest_step < run.end_time
+
+
+def test_scipy_is_refused_where_equations_switch():
+    # It would not call the switch, and so solve other equations than those of the crane.
+    system = dataclasses.replace(_system(_falling, 2, ("never", "landed")), switch=_Never(True))
+    arguments = phases((rest(0.0),), 10.0), np.array([20.0, 0.0]), np.zeros(1)
+    with pytest.raises(ValueError, match=r"method: wanted one of dop853, dopri5 .*switch.*got 'scipy-lsoda'"):
+        integrate(system, *arguments, method="scipy-lsoda")
+    merely_restarts = dataclasses.replace(system, switch=_Never(False))
+    assert integrate(merely_restarts, *arguments, method="scipy-lsoda").outcome == "landed"
+
+
+@kernel(rhs_signature())
+def _relaxation(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
+    dy[0] = y[1]
+    dy[1] = 20.0 * (1.0 - y[0] ** 2) * y[1] - y[0]
+    dy[2] = y[0] * y[1]
+
+
+def test_radau_copes_with_a_state_that_nothing_depends_on():
+    # Its differences for the Jacobian grow tenfold each time; a warning would fail this test.
+    system = dataclasses.replace(_system(_relaxation, 3), scale=np.array([1.0, 1.0, np.inf]))
+    arguments = phases((rest(0.0),), 60.0), np.array([2.0, 0.0, 0.0]), np.array([60.0])
+    implicit = integrate(system, *arguments, method="scipy-radau", rtol=1e-7, atol=1e-9)
+    explicit = integrate(system, *arguments, rtol=1e-9, atol=1e-11)
+    assert_allclose(implicit.states, explicit.states, atol=1e-5)

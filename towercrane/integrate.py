@@ -57,7 +57,8 @@ class Trajectory:
         Sample times [s].
     states : ndarray, shape (p, size)
     outcome : str
-        "finished", the name of a guard, "step size collapsed", "state not finite" or "interrupted".
+        "finished", the name of a guard, "step size collapsed", "state not finite", "switching without progress" or
+        "interrupted".
     end_time : float
         Time at which the run ended [s].
     end_state : ndarray, shape (size,)
@@ -118,12 +119,18 @@ def integrate(
     Raises
     ------
     ValueError
-        If the method is unknown or the combination is not offered.
+        If the method is unknown or the combination is not offered: SciPy's methods know no switch.
     """
     if method not in METHODS:
         raise ValueError(f"method: wanted one of {', '.join(METHODS)}, got {method!r}")
     if len(start) != system.size:
         raise ValueError(f"start: wanted {system.size} states, got {len(start)}")
+    if method not in TABLEAUS and system.switch is not None and system.switch.changes_equations:
+        # They would take a sign for a smooth function and creep to a halt at the first reversal.
+        raise ValueError(
+            f"method: wanted one of {', '.join(TABLEAUS)} for equations that switch, as friction that sticks, "
+            f"got {method!r}"
+        )
     began, began_cpu = time.perf_counter(), time.process_time()
     run = _Run(system, rtol, atol, np.array(start, dtype=float), np.empty((len(sample_times), system.size)))
     if method not in TABLEAUS:
@@ -210,7 +217,7 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
                 stalled = stalled + 1 if clock[stepper.TIME] - before < SAME_INSTANT else 0
                 if stalled > MOST_STALLED:
                     run.counts += counts
-                    run.time = begin + float(clock[stepper.TIME])
+                    run.time, run.smallest_step = begin + float(clock[stepper.TIME]), float(clock[stepper.SMALLEST])
                     return STALLED
                 crossed = int(counts[stepper.GUARD_INDEX])
                 if system.switch.cross(crossed, run.state, numbers, floors, guards_at):
@@ -272,10 +279,12 @@ def _scipy(
         if fallen := [index for index in watched if guards[index] < system.floors[index]]:
             return system.guards[fallen[0]]
         try:
-            solution = solve_ivp(
-                rhs, (run.time, stop), run.state, method=method, rtol=run.rtol, atol=atol, dense_output=True,
-                events=[watch(index) for index in watched],
-            )  # fmt: skip
+            # Radau widens the difference of a state that no slope depends on, such as the work, until it is infinite.
+            with np.errstate(over="ignore"):
+                solution = solve_ivp(
+                    rhs, (run.time, stop), run.state, method=method, rtol=run.rtol, atol=atol, dense_output=True,
+                    events=[watch(index) for index in watched],
+                )  # fmt: skip
         except KeyboardInterrupt:
             return INTERRUPTED
         reached = wanted[wanted <= solution.t[-1]]

@@ -38,6 +38,10 @@ class Switch(Protocol):
     guards with them.
     """
 
+    @property
+    def changes_equations(self) -> bool:
+        """Whether a run needs it; without, it only restarts the step control where the equations bend."""
+
     def begin(self, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
         """Set the equations that hold at the start of a phase."""
 

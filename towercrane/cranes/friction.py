@@ -31,10 +31,13 @@ class Transitions:
         Coordinate that drive and friction act on.
     rates : int
         Where the rates begin in the state.
+    changes_equations : bool
+        Whether friction is set-valued. Otherwise only the coupling's corner is watched.
     """
 
     driven: int
     rates: int
+    changes_equations: bool
 
     def begin(self, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
         """Set corner and friction from the state."""

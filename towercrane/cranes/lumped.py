@@ -297,7 +297,11 @@ class LumpedModel:
             # Three rows more for the point that is being added, or for the row of a coordinate that sticks.
             work_shape=(rows + 3, max(width, 4)),
             restore=lambda state: restore(state, self.rope, 3),
-            switch=Transitions(driven=crane.coordinates.index(drive.on), rates=(self.size - 1) // 2),
+            switch=Transitions(
+                driven=crane.coordinates.index(drive.on),
+                rates=(self.size - 1) // 2,
+                changes_equations=drive.friction == "stick-slip",
+            ),
         )
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:

@@ -1,4 +1,4 @@
-"""The slewing cranes of three papers as data.
+"""The slewing cranes of two papers as data.
 
 Multi-mass: Marinovic, Sprecic, Jerman (2012), ten degrees of freedom with the load. Basic (seven) and enhanced
 (eight): Jerman (2006). The frames follow the first: the tower's top moves by x and y in the frame that turns with the

@@ -1,0 +1,410 @@
+"""The slewing cranes over time: balances, limits with known answers, and what the sources report of them.
+
+The sources print the load, the arms and the shaft's speed; all other parameters are assumed, so their measured curves
+cannot be met to the last digit. What they say in words is checked against the figures reached here.
+"""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from lab_crane import (
+    LOAD,
+    MULTI_MASS,
+    PARAMETERS,
+    crane,
+    imbalance,
+    lossless,
+    motions,
+    run,
+)
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+from towercrane.cranes import slewing
+from towercrane.cranes.lumped import Link, LumpedModel, Point
+from towercrane.cranes.lumped_outputs import position
+from towercrane.motion import phases, rest, sequence, trapezoid
+from towercrane.payload import Load
+
+KINDS = tuple(PARAMETERS)
+STILL = {"shaft": rest(0.0), "rope": rest(2.0)}
+HOIST = sequence(rest(2.0, 2.0), trapezoid(2.0, 1.0, 0.3, 0.5), rest(1.0, 1.0), trapezoid(1.0, 2.5, 0.4, 0.5))
+
+
+def inputs(rope: float = 2.0) -> np.ndarray:
+    return phases((rest(0.0), rest(rope)), 1.0).inputs[0]
+
+
+def kicked(model: LumpedModel, swing_angle: float, size: float, ahead: float) -> np.ndarray:
+    """Start with the load drawn outward and pushed ahead, and random rates of the structure."""
+    state, n, rates = model.start(inputs(), "zero", swing_angle), model.coordinates, (model.size - 1) // 2
+    state[rates : rates + n] = size * np.random.default_rng(1).normal(size=n)
+    state[rates + model.rope + 1] = ahead
+    return state
+
+
+def degrees(outputs: dict, name: str) -> np.ndarray:
+    return np.degrees(outputs[f"sway_{name}"])
+
+
+def times(outputs: dict, step: float = 0.01) -> np.ndarray:
+    return step * np.arange(len(outputs["sway_radial"]))
+
+
+# --- balances ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_energy_stays_without_losses(kind):
+    model = replace(lossless(kind), rope_as_rod=True)
+    trajectory, outputs, met = run(model, STILL, 25.0, kicked(model, 0.6, 0.05, 0.4), rtol=1e-12)
+    assert trajectory.outcome == "finished"
+    assert len(met) > 3  # the corner of the coupling is crossed again and again
+    energy = outputs["total_energy"]
+    lowest = run(model, STILL, 0.05)[1]["total_energy"][0]
+    assert np.max(abs(energy - energy[0])) < 1e-9 * (energy[0] - lowest)
+
+
+@pytest.mark.parametrize("law", ["none", "tanh", "stick-slip"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_energy_balance_while_slewing_and_hoisting_with_every_loss(kind, law):
+    lossy = replace(crane(kind, friction_law=law, drag_jib_tip=0.5), load=Load(50.5, 20.0, 1.0))
+    trajectory, outputs, _ = run(lossy, {**motions(), "rope": HOIST}, 15.0, rtol=1e-11)
+    assert trajectory.outcome == "finished"
+    assert imbalance(outputs) < 3e-11
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_angular_momentum_stays_when_nothing_holds_the_platform(kind):
+    # Dampers, springs and the rope act within the crane; only drive, friction, air and the rope's hinge, which
+    # damps the swing in space, act from outside.
+    free = {"drive_soft_stiffness": 0.0, "drive_stiff_stiffness": 0.0, "drive_damping": 0.0, "drag_jib_tip": 0.0}
+    model = replace(crane(kind, friction_law="none", **free), load=Load(50.5), rope_as_rod=True)
+    drive = {"shaft": rest(0.0), "rope": trapezoid(2.0, 1.0, 0.3, 0.5)}
+    trajectory, outputs, _ = run(model, drive, 20.0, kicked(model, 0.6, 0.3, 0.9), rtol=1e-12)
+    assert trajectory.outcome == "finished"
+    n, rates, y = model.coordinates, (model.size - 1) // 2, trajectory.states
+    q, qd = y[:, :n], y[:, rates : rates + n]
+    hung, moving = position(model, model.crane.points["jib tip"], q, qd)
+    haul = drive["rope"](trajectory.times, 1)
+    if model.elastic:
+        haul = haul + y[:, rates + n]
+    length = np.linalg.norm(outputs["payload_position"] - hung, axis=1)
+    rope = model.rope
+    direction, swing = y[:, rope : rope + 3], y[:, rates + rope : rates + rope + 3]
+    load = outputs["payload_position"], moving + haul[:, None] * direction + length[:, None] * swing
+    points = [(point.mass, *position(model, point, q, qd)) for point in model.crane.points.values()]
+    momentum = qd @ model.crane.row(model.crane.inertias)[:-1]
+    for mass, place, velocity in [*points, (50.5, *load)]:
+        momentum = momentum + mass * (place[:, 0] * velocity[:, 1] - place[:, 1] * velocity[:, 0])
+    assert_allclose(momentum, momentum[0], rtol=2e-11)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_accelerations_turn_with_the_crane(kind):
+    rng = np.random.default_rng(4)
+    model = replace(crane(kind, drag_jib_tip=0.5), load=Load(50.5, 20.0, 1.0))
+    n, rates = model.coordinates, (model.size - 1) // 2
+    angles = np.array([name.endswith("angle") for name in model.crane.coordinates])
+    for _ in range(50):
+        state, drive = rng.normal(size=model.size), rng.normal(size=(2, 3))
+        drive[1, 0] = 2.0
+        state[model.rope : model.rope + 3] /= np.linalg.norm(state[model.rope : model.rope + 3])
+        turn = rng.uniform(-3, 3)
+        matrix = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
+        turned = state.copy()
+        turned[:n] += turn * angles
+        for first in (model.rope, rates + model.rope):
+            turned[first : first + 3] = matrix @ state[first : first + 3]
+        slope, guards = model.system.slope(0.0, state, drive)
+        expected = slope.copy()
+        for first in (model.rope, rates + model.rope):
+            expected[first : first + 3] = matrix @ slope[first : first + 3]
+        drive[0, 0] += turn
+        found, guards_turned = model.system.slope(0.0, turned, drive)
+        assert_allclose(found, expected, atol=1e-12 * np.max(abs(expected)))
+        assert_allclose(guards_turned[0], guards[0], atol=1e-12 * np.max(abs(expected)) * 50.5)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_mass_matrix_is_symmetric_positive_definite_anywhere(kind):
+    # Read off the accelerations that unit forces cause, so the solution of the equations is checked as well.
+    rng = np.random.default_rng(5)
+    model = crane(kind)
+    system, n, rates = model.system, model.coordinates, (model.size - 1) // 2
+    forces = system.vectors[1]
+    own, drive, least = forces.copy(), np.zeros((2, 3)), np.inf
+    drive[1, 0] = 2.0
+    size = np.ones(model.size)
+    size[:n] = [1.0 if name.endswith("angle") else 0.1 for name in model.crane.coordinates]
+    for _ in range(5000):
+        state = size * rng.normal(size=model.size)
+        still = system.slope(0.0, state, drive)[0][rates : rates + n]
+        responses = np.empty((n, n))
+        for i in range(n):
+            forces[i] = own[i] + 1e6
+            responses[i] = (system.slope(0.0, state, drive)[0][rates : rates + n] - still) / 1e6
+            forces[i] = own[i]
+        scale = 1 / np.sqrt(np.diag(responses))
+        scaled = responses * np.outer(scale, scale)
+        assert np.max(abs(scaled - scaled.T)) < 1e-9
+        least = min(least, np.linalg.eigvalsh(0.5 * (scaled + scaled.T)).min())
+    assert least > 1e-3
+
+
+# --- limits --------------------------------------------------------------------------------------------
+
+
+def test_static_equilibrium_in_closed_form():
+    at_rest = dict(zip(crane().crane.coordinates, crane().equilibrium(inputs()), strict=True))
+    expected = {
+        "jib_vertical": -64.5 * 9.81 / 6e4,
+        "counter_jib_vertical": -100 * 9.81 / 1.2e5,
+        "tower_x": 2 * 9.81 * (64.5 * 2 - 100 * 0.9) / (1.8 * 1.6e5),
+    }
+    for name, value in at_rest.items():
+        assert_allclose(value, expected.get(name, 0.0), rtol=1e-12, atol=1e-15)
+    assert_allclose(crane("enhanced").equilibrium(inputs())[3], expected["tower_x"], rtol=1e-12)
+    basic = crane("basic").start(inputs())
+    assert_allclose(basic[[0, 4]], [-64.5 * 9.81 / 6e4, 50.5 * 9.81 / 7.5e5], rtol=1e-12)
+
+
+def frequencies(model: LumpedModel, held: LumpedModel | None = None) -> np.ndarray:
+    """Angular frequencies of small motions about the rest of a model (or of one like it that something holds)."""
+    rest_state, rates = (held or model).start(inputs()), (model.size - 1) // 2
+    kept = [i for i in range(rates) if i != model.coordinates + 2]  # the rope's direction has two freedoms
+    kept += [rates + i for i in kept]
+    columns = []
+    for i in kept:
+        step = np.zeros(model.size)
+        step[i] = 1e-5
+        near, far = (
+            model.system.slope(0.0, rest_state + s, inputs())[0]
+            - model.system.slope(0.0, rest_state - s, inputs())[0]
+            for s in (step, 2 * step)
+        )
+        # Of fourth order: the third derivatives grow with the stiffness of the rigid members.
+        columns.append((8 * near - far)[kept] / 12e-5)
+    roots = np.linalg.eigvals(np.array(columns).T)
+    return np.sort(roots.imag[roots.imag > 1e-3])
+
+
+def stiff(drive: float, stiffness: float = 1e10, **soft) -> LumpedModel:
+    """Lossless crane whose members are all but rigid, except some."""
+    rigid = {name: stiffness for name in vars(MULTI_MASS) if name.startswith("stiffness")}
+    return lossless(**{**rigid, "drive_soft_stiffness": drive, "drive_stiff_stiffness": drive, **soft})
+
+
+INERTIA = 6.0 + 8.0 + 14.0 * 2.0**2 + 100.0 * 0.9**2
+
+
+def drive_and_pendulum(stiffness: float) -> np.ndarray:
+    """Platform on a spring with the pendulum across its arm."""
+    mass = np.array([[INERTIA + 50.5 * 2.0**2, 50.5 * 2.0], [50.5 * 2.0, 50.5]])
+    return np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(mass, np.diag([stiffness, 50.5 * 9.81 / 2.0]))).real))
+
+
+def test_frequencies_with_one_soft_member_in_closed_form():
+    pendulum = np.sqrt(9.81 / 2.0)
+    assert_allclose(frequencies(stiff(1e10))[:2], pendulum, rtol=1e-6)
+    free = np.sqrt(9.81 / 2.0 * (1 + 50.5 * 2.0**2 / INERTIA))
+    assert_allclose(free, 3.38625, atol=5e-6)
+    assert_allclose(frequencies(stiff(0.0), stiff(1e10))[-9:-7], [pendulum, free], rtol=1e-6)
+    assert_allclose(frequencies(stiff(1e12, 1e12, stiffness_jib_vertical=6e4))[2], np.sqrt(6e4 / 64.5), rtol=1e-6)
+    counter = frequencies(stiff(1e12, 1e12, stiffness_counter_jib_vertical=1.2e5))
+    assert_allclose(counter[2], np.sqrt(1.2e5 / 100), rtol=1e-6)
+    coupled = drive_and_pendulum(750.0)
+    assert_allclose(coupled, [1.28363, 3.84524], atol=5e-6)
+    found = frequencies(stiff(750.0))[:3]
+    assert_allclose(found, np.sort([*coupled, pendulum]), rtol=1e-6)
+
+
+def test_frequencies_of_the_multi_mass_crane_at_rest():
+    expected = [0.2371, 2.2130, 3.3742, 15.17, 24.17, 33.50, 68.17, 68.56, 85.68, 151.6]
+    digits = [4, 4, 4, 2, 2, 2, 2, 2, 2, 1]
+    for found, value, places in zip(frequencies(lossless()), expected, digits, strict=True):
+        assert abs(found - value) <= 0.5 * 10.0**-places
+
+
+def pendulum_on_an_arm(drive: dict, at: np.ndarray) -> np.ndarray:
+    """Load ahead of and outward from the tip of a rigid arm that turns as the shaft; shape (p, 2)."""
+
+    def rhs(t, y, coefficients):
+        a, b, c = coefficients
+        angle, rate = a + t * (b + t * c), b + 2 * c * t
+        arm, side = np.array([np.cos(angle), np.sin(angle), 0]), np.array([-np.sin(angle), np.cos(angle), 0])
+        n, p = y[:3], y[3:]
+        velocity = 2.0 * rate * side + 2.0 * p
+        pull = -0.08 / 50.5 * np.linalg.norm(velocity) * velocity - [0, 0, 9.81]
+        pull = pull - 2.0 * (2 * c * side - rate**2 * arm)
+        return np.r_[p, (pull - (pull @ n) * n) / 2.0 - (p @ p) * n]
+
+    cut, y = phases((drive["shaft"],), at[-1]), np.array([0, 0, -1.0, 0, 0, 0])
+    found = [y[None]]
+    for (start, stop), coefficients in zip(pairwise(cut.times), cut.inputs[:, 0], strict=True):
+        leg = solve_ivp(
+            rhs, (0, stop - start), y, "DOP853", args=(coefficients,), rtol=1e-10, atol=1e-11, dense_output=True
+        )
+        found.append(leg.sol(at[(at > start) & (at <= stop)] - start).T)
+        y = leg.y[:, -1]
+    n, angle = np.vstack(found)[:, :3], drive["shaft"](at)
+    across, along = (
+        n[:, 1] * np.cos(angle) - n[:, 0] * np.sin(angle),
+        n[:, 0] * np.cos(angle) + n[:, 1] * np.sin(angle),
+    )
+    return 2.0 * np.column_stack([across, along])
+
+
+def test_stiffer_springs_approach_a_pendulum_on_a_rigid_arm_at_first_order():
+    drive, at = motions(hold=4.0), 0.05 * np.arange(161)
+    rigid, gaps = pendulum_on_an_arm(drive, at), []
+    for factor in (10, 100, 1000):
+        stiffer = {n: factor * v for n, v in vars(MULTI_MASS).items() if n.startswith("stiffness")}
+        coupling = {"drive_soft_stiffness": 4e4 * factor, "drive_stiff_stiffness": 4e4 * factor}
+        trajectory, outputs, _ = run(crane(**stiffer, **coupling), drive, 8.0)
+        assert trajectory.outcome == "finished"
+        across, along = np.tan(outputs["sway_tangential"]), np.tan(outputs["sway_radial"])
+        found = 2.0 * np.column_stack([across, along]) / np.sqrt(1 + across**2 + along**2)[:, None]
+        gaps.append(np.max(abs(found - rigid)))
+    assert_allclose(gaps, [1.80e-2, 1.81e-3, 1.83e-4], rtol=0.02)
+
+
+def rigid_counterweight() -> LumpedModel:
+    """Multi-mass crane whose counterweight turns with the tower: two coordinates fewer."""
+    whole = slewing.multi_mass(MULTI_MASS)
+    weight = whole.points["counterweight"]
+    gone = slewing.COUNTER_JIB, slewing.COUNTER_JIB_Z
+    fixed = Point(
+        weight.mass,
+        (weight.links[0], Link(slewing.TOWER, {"": -0.9})),
+        {name: value for name, value in weight.height.items() if name not in gone},
+    )
+    reduced = replace(
+        whole,
+        coordinates=tuple(name for name in whole.coordinates if name not in gone),
+        points={**whole.points, "counterweight": fixed},
+        springs=tuple(spring for spring in whole.springs if not set(spring.stretch) & set(gone)),
+    )
+    return LumpedModel(reduced, LOAD)
+
+
+def test_multi_mass_crane_with_a_rigid_counter_jib_is_the_enhanced_one():
+    drive, names = motions(), ("tangential", "radial")
+    reference = run(rigid_counterweight(), drive, 14.0, step=0.02)[1]
+
+    def gap(model):
+        found = run(model, drive, 14.0, step=0.02)[1]
+        return np.array([np.max(abs(degrees(found, name) - degrees(reference, name))) for name in names])
+
+    stiffer = {
+        factor: crane(stiffness_counter_jib_vertical=1.2e5 * factor, stiffness_counter_jib_lateral=6e4 * factor)
+        for factor in (1, 10, 100)
+    }
+    gaps = [gap(model) for model in stiffer.values()]
+    assert_allclose(gaps[0], [0.184, 0.093], rtol=0.01)
+    for a, b in pairwise(gaps):
+        assert np.all((a / b > 9.5) & (a / b < 10.6))
+    # The enhanced crane carries the counterweight's mass at the tower's axis: a small difference remains.
+    assert_allclose(gap(crane("enhanced")), [0.109, 0.075], atol=1e-3)
+
+
+# --- outputs -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_readings_follow_their_definitions(kind):
+    drive = motions()
+    model = crane(kind)
+    trajectory, outputs, _ = run(model, drive, 6.0, step=0.5)
+    p, reach = PARAMETERS[kind], 2.0
+    if kind == "basic":
+        bending = reach * p.stiffness_jib_lateral * outputs["jib_lateral"]
+    else:
+        bending = p.stiffness_jib_lateral * (outputs["jib_angle"] - outputs["tower_angle"])
+    assert_allclose(outputs["jib_moment_horizontal"], bending, rtol=1e-9, atol=1e-9)
+    assert_allclose(outputs["jib_moment_vertical"], -reach * 6e4 * outputs["jib_vertical"], rtol=1e-12)
+    assert_allclose(outputs["jib_moment_vertical"][0], 64.5 * 9.81 * reach, rtol=1e-10)
+    twist = outputs["platform_angle"] - drive["shaft"](trajectory.times)
+    slopes = np.gradient(outputs["platform_angle"], 0.5)
+    elastic = -np.clip(twist, -0.25, 0.25) * 20.0 - np.sign(twist) * np.maximum(abs(twist) - 0.25, 0.0) * 750.0
+    assert_allclose(outputs["drive_torque_elastic"], elastic, rtol=1e-10, atol=1e-10)
+    rate = trajectory.states[:, (model.size - 1) // 2 + model.crane.coordinates.index("platform_angle")]
+    assert np.max(abs(rate - slopes)) < 0.5
+    assert_allclose(
+        outputs["drive_torque"], elastic - 60.0 * (rate - drive["shaft"](trajectory.times, 1)), rtol=1e-9, atol=1e-9
+    )
+
+
+def test_sway_is_positive_outward_and_in_the_turning_sense():
+    for angle, name, sign in ((0.3, "radial", 1), (-0.3, "radial", -1)):
+        start = crane().start(inputs(), "equilibrium", angle)
+        assert_allclose(run(crane(), STILL, 0.05, start)[1][f"sway_{name}"][0], sign * 0.3, rtol=1e-12)
+    # The shaft starts to turn counter-clockwise: the load falls behind.
+    assert degrees(run(crane(), motions(), 1.9)[1], "tangential")[-1] < -10
+
+
+# --- what the sources report ---------------------------------------------------------------------------
+
+EXAMPLES = {1: (0.71, 8.0), 2: (1.42, 8.0), 3: (2.13, 6.0), 4: (2.84, 6.0), 5: (3.55, 6.0), 6: (4.26, 6.0)}
+"""Ramp and constant speed of the shaft in the examples of Marinovic et al. [s]."""
+
+
+@pytest.fixture(scope="module")
+def examples():
+    return {n: run(crane(), motions(*drive), 25.0, step=0.01)[1] for n, drive in EXAMPLES.items()}
+
+
+def test_sway_along_the_jib_falls_with_longer_ramps(examples):
+    # Reported: up to 26 degrees, in constant rotation.
+    peaks = {n: degrees(found, "radial").max() for n, found in examples.items()}
+    assert_allclose(list(peaks.values()), [26.489, 26.391, 25.281, 23.064, 20.081, 16.843], atol=2e-3)
+    at = times(examples[1])[degrees(examples[1], "radial").argmax()]
+    assert_allclose(at, 3.52, atol=0.011)
+    assert 0.71 < at < 8.71
+
+
+def test_first_example_in_its_course(examples):
+    along, across = degrees(examples[1], "radial"), degrees(examples[1], "tangential")
+    at, platform = times(examples[1]), examples[1]["platform_angle"]
+    # Reported: the load first moves inward, by a third of a degree measured and up to 2 computed.
+    assert_allclose((along[at < 3].min(), at[along[at < 3].argmin()]), (-1.734, 1.83), atol=0.011)
+    assert_allclose(across.min(), -14.416, atol=2e-3)
+    assert_allclose(at[across.argmin()], 1.94, atol=0.011)
+    # Reported: the platform starts after the shaft, for the coupling has to wind up first.
+    assert_allclose(platform[at <= 0.71][-1], 0.00869, atol=1e-5)
+    assert_allclose(examples[1]["shaft_angle"][at <= 0.71][-1], 0.262, atol=1e-3)
+    tenth = at[np.gradient(platform, 0.01) > 0.0738][0]
+    assert_allclose(tenth, 0.81, atol=0.011)
+    assert_allclose(platform[-1], 6.5274, atol=1e-4)
+
+
+def test_what_is_reported_but_not_reproduced(examples):
+    # Reported: the largest tangential sway comes after the stop, and its mean in constant rotation is slightly
+    # positive. Here it comes before, and the mean is negative; both hang on data that the source does not give.
+    at, across = times(examples[1]), degrees(examples[1], "tangential")
+    before, after = at < 9.42, at >= 9.42
+    assert_allclose(across[before].max(), 12.320, atol=2e-3)
+    assert_allclose(at[across.argmax()], 6.33, atol=0.011)
+    assert_allclose(across[after].max(), 6.935, atol=2e-3)
+    constant = across[(at > 0.71) & (at < 8.71)]
+    assert_allclose(constant.mean(), -0.459, atol=2e-3)
+
+
+@pytest.mark.parametrize(("kind", "peak"), [("enhanced", 26.461), ("basic", 26.394)])
+def test_smaller_models_have_nearly_the_same_sway(kind, peak):
+    found = run(crane(kind), motions(), 25.0, step=0.01)[1]
+    assert_allclose(degrees(found, "radial").max(), peak, atol=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("width", "sway", "platform"),
+    [(0.1, 0.008, 6.4095), (0.01, 0.035, 6.5274), (1e-3, 0.554, 6.5447), (1e-4, 0.706, 6.5468)],
+)
+def test_width_of_the_friction_decides_how_the_platform_comes_to_rest(width, sway, platform):
+    method = "scipy-lsoda" if width < 1e-3 else "dop853"
+    trajectory, found, _ = run(crane(friction_rate=width), motions(), 25.0, method=method)
+    assert trajectory.outcome == "finished"
+    assert_allclose(degrees(found, "tangential")[-1], sway, atol=6e-4)
+    assert_allclose(found["platform_angle"][-1], platform, atol=6e-5)
