@@ -23,7 +23,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from towercrane.cranes import slewing
-from towercrane.cranes.lumped import Link, LumpedModel, Point
+from towercrane.cranes.lumped import LumpedModel
+from towercrane.cranes.lumped_data import Link, Point
 from towercrane.cranes.lumped_outputs import position
 from towercrane.motion import phases, rest, sequence, trapezoid
 from towercrane.payload import Load

@@ -10,7 +10,8 @@ from numpy.testing import assert_allclose
 from scipy.special import ellipj, ellipk
 
 from towercrane.cranes import lumped_kernel as kernel
-from towercrane.cranes.lumped import Drive, Link, LumpedCrane, LumpedModel, Point
+from towercrane.cranes.lumped import LumpedModel
+from towercrane.cranes.lumped_data import Drive, Link, LumpedCrane, Point
 from towercrane.integrate import integrate
 from towercrane.motion import phases, rest, trapezoid
 from towercrane.payload import Load

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.case import Case
-    from towercrane.cranes.lumped import LumpedCrane, LumpedModel
+    from towercrane.cranes.lumped import LumpedModel
+    from towercrane.cranes.lumped_data import LumpedCrane
     from towercrane.motion import Motion
 
     Floats = NDArray[np.float64]

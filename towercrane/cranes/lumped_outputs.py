@@ -12,7 +12,8 @@ from towercrane.results import Quantity
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.lumped import LumpedModel, Point
+    from towercrane.cranes.lumped import LumpedModel
+    from towercrane.cranes.lumped_data import Point
     from towercrane.motion import Motion
 
     Floats = NDArray[np.float64]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
-    from towercrane.cranes.lumped import LumpedCrane, Row
+    from towercrane.cranes.lumped_data import LumpedCrane, Row
 
 
 def make_rigid(crane: LumpedCrane, members: Collection[str]) -> LumpedCrane:

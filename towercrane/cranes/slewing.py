@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from towercrane.cranes.lumped import Drive, Link, LumpedCrane, Point, Reading, Spring
+from towercrane.cranes.lumped_data import Drive, Link, LumpedCrane, Point, Reading, Spring
 
 if TYPE_CHECKING:
     from towercrane.cranes.slewing_parameters import BasicParameters, EnhancedParameters, MultiMassParameters
