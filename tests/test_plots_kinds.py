@@ -60,5 +60,5 @@ def test_surface_shows_every_output_over_time_and_percent(turned):
     )
     figure = sensitivity.surface(data, "drive_corner")
     figure.canvas.draw()
-    assert figure.axes[0].get_ylabel() == "% of nominal [1]"
+    assert figure.axes[0].get_ylabel() == "value [% of nominal]"
     assert "[deg]" in figure.axes[1].get_ylabel()

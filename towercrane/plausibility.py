@@ -158,8 +158,16 @@ def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> It
 
 def check_values(tree: dict[str, Any]) -> Iterator[Fault]:
     """Values that do not fit each other, motions apart."""
-    for check in (_check_output, _check_elements, _check_lattice, _check_drag, _check_friction):
+    for check in (_check_output, _check_elements, _check_lattice, _check_drag, _check_friction, _check_method):
         yield from check(tree)
+
+
+def _check_method(tree: dict[str, Any]) -> Iterator[Fault]:
+    """A solver that cannot follow friction from sticking to slipping."""
+    law, method = at(tree, "crane.friction.law"), at(tree, "solver.method")
+    if law == "stick-slip" and isinstance(method, str) and method.startswith("scipy-"):
+        hint = 'friction that sticks and slips switches equations; "tanh" friction needs no switching'
+        yield Fault("", "solver.method", '"dop853" or "dopri5" with stick-slip friction', shown(method), hint)
 
 
 def _check_output(tree: dict[str, Any]) -> Iterator[Fault]:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.reduce import make_rigid
+from towercrane.integrate import INTERRUPTED
 from towercrane.simulate import simulate
 
 if TYPE_CHECKING:
@@ -138,13 +139,18 @@ def study(
     ------
     ValueError
         If a parameter or an output does not exist.
+    KeyboardInterrupt
+        If somebody interrupts one of the runs: half a study ranks nothing.
     """
     vary = list(vary) if vary is not None else parameters_of(parameters)
     if unknown := set(vary) - set(parameters_of(parameters)):
         raise ValueError(f"vary: wanted parameters that are not zero, got {', '.join(sorted(unknown))}")
 
     def run(model: LumpedModel) -> xr.Dataset:
-        return simulate(model, motions, duration, output_step=output_step, rtol=rtol, atol=atol)
+        result = simulate(model, motions, duration, output_step=output_step, rtol=rtol, atol=atol)
+        if result.attrs["outcome"] == INTERRUPTED:
+            raise KeyboardInterrupt
+        return result
 
     full = build(parameters)
     nominal = run(full)

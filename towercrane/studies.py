@@ -141,7 +141,7 @@ def _study(case: Case, names: list[str], step: float, tolerance: float) -> Any:
     from towercrane.models import slewing_builder
     from towercrane.sensitivity import study
 
-    percent = [step * i for i in range(int(200.0 / step) + 1)]
+    percent = sorted({step * i for i in range(int(200.0 / step) + 1)} | {50.0, 100.0, 150.0})
     run = partial(
         study, case.lumped_parameters(), slewing_builder(case), case.motions, case.run.duration,
         vary=names, percent=percent, tolerance=tolerance,

@@ -76,6 +76,7 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         "end_time_s": float(attributes["end_time"]),
         "output_step_s": float(attributes["output_step"]),
         "peaks": peaks(result),
+        "spectrum_of": signals.vibration,
         "spectrum_peaks_hz": spectrum_peaks(times[calm], result[signals.vibration].values[calm]),
         "swing_period_s": swing_period(times[free], result[signals.swing].values[free]),
         "natural_frequencies_hz": frequencies,

@@ -123,7 +123,9 @@ def run_tables(summary: dict[str, Any]) -> None:
     """Summary of a run, as :func:`towercrane.summary.summarise` gives it."""
     console = _console()
     table = _table(
-        f"{summary['crane']}: {summary['title']}",
+        summary["title"]
+        if summary["title"].startswith(summary["crane"])
+        else f"{summary['crane']}: {summary['title']}",
         "variable",
         "maximum",
         "at [s]",
@@ -149,7 +151,7 @@ def run_tables(summary: dict[str, Any]) -> None:
         f"swing period          {f'{period:.4f} s' if period else 'none: no regular swing after the drives stopped'}"
     )
     shown = ", ".join(f"{f:.4f}" for f in summary["spectrum_peaks_hz"]) or "none"
-    console.print(f"spectrum peaks        {shown} Hz")
+    console.print(f"spectrum peaks        {shown} Hz in {summary['spectrum_of'].replace('_', ' ')}")
     natural = ", ".join(f"{f:.4f}" for f in summary["natural_frequencies_hz"][:5]) or "none"
     console.print(f"natural frequencies   {natural} Hz where the run ended")
     balance, solver = summary["energy_balance"], summary["solver"]

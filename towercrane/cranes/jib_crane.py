@@ -105,6 +105,11 @@ class JibModel:
         return PLAN
 
     @property
+    def channel_units(self) -> tuple[str, ...]:
+        """Units of the motions."""
+        return ("rad", "rad", "rad", "m")
+
+    @property
     def numbers(self) -> Floats:
         """Constants of the compiled structure; shape (13,)."""
         crane, load = self.crane, self.load
@@ -242,6 +247,16 @@ class DrivenJibCrane(JibModel):
     def channels(self) -> tuple[str, ...]:
         """Motions: the three joint torques [N m] and the rope's length [m]."""
         return TORQUES
+
+    @property
+    def channel_units(self) -> tuple[str, ...]:
+        """Units of the motions."""
+        return ("N m", "N m", "N m", "m")
+
+    @property
+    def state_names(self) -> dict[str, str]:
+        """Joint angles with their units."""
+        return {"slew_angle": "rad", "luff_angle": "rad", "fold_angle": "rad"}
 
     @cached_property
     def system(self) -> System:

@@ -35,7 +35,7 @@ def surface(data: xr.Dataset, parameter: str) -> Figure:
             shading="nearest", rasterized=True,
         )  # fmt: skip
         axes.axhline(100.0, color="black", lw=0.5)
-        axes.set_ylabel("% of nominal [1]", fontsize=8)
+        axes.set_ylabel("value [% of nominal]", fontsize=7)
         figure.colorbar(mesh, ax=axes, label=f"{str(name).replace('_', ' ')}\n[{unit}]")
     rows[-1].set_xlabel("time [s]")
     figure.suptitle(
