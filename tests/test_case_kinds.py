@@ -554,6 +554,7 @@ def test_any_value_at_any_key_is_read_or_explained(case, key, value):
 
 def test_friction_that_sticks_refuses_solvers_that_cannot_switch():
     changes = ["crane.friction.law=stick-slip", "solver.method=scipy-radau"]
-    with pytest.raises(CaseError, match='solver.method\n  wanted: "dop853" or "dopri5" with stick-slip friction'):
+    with pytest.raises(CaseError) as caught:
         load_case("slewing/basic/example-1", changes)
+    assert 'wanted: "dop853" or "dopri5" with stick-slip friction' in str(caught.value)
     assert load_case("slewing/basic/example-1", changes[:1]).lumped_parameters().friction_law == "stick-slip"
