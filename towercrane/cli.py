@@ -124,7 +124,7 @@ def modes(
     loaded = load(case, changes)
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
-    announce_compilation("modal.roots")
+    announce_compilation(loaded.kind, "modal.roots")
     from towercrane.natural import natural_frequencies
 
     report = natural_frequencies(loaded)
@@ -156,7 +156,7 @@ def run(
     loaded = load(case, changes)
     folder = out if out is not None else Path("results") / loaded.name
     folder_for_results(folder)
-    announce_compilation("towercrane.stepper")
+    announce_compilation(loaded.kind, "towercrane.stepper")
     from towercrane.folder import remove_stale
     from towercrane.simulate import run_case
     from towercrane.summary import summarise
@@ -202,7 +202,7 @@ def figures(
 ) -> None:
     """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
     folder_for_results(out)
-    announce_compilation("towercrane.stepper")
+    announce_compilation("radial", "towercrane.stepper")
     from towercrane.plots import radial
     from towercrane.simulate import run_case
 
@@ -223,7 +223,7 @@ def bench(
     as_json: AsJson = False,
 ) -> None:
     """Measure speed against error on this machine."""
-    announce_compilation("towercrane.stepper")
+    announce_compilation("radial", "towercrane.stepper")
     from towercrane.bench import measure
     from towercrane.tables import bench_tables
 

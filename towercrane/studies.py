@@ -58,7 +58,7 @@ def sensitivity(
     if not names:
         known = ", ".join(parameters_of(parameters))
         fail(f"--vary {' '.join(vary or [])}: wanted patterns that match some of {known}")
-    announce_compilation("towercrane.stepper")
+    announce_compilation(loaded.kind, "towercrane.stepper")
     study = _study(loaded, names, step, tolerance)
     from towercrane.sensitivity import report
 
@@ -102,7 +102,7 @@ def linearise(
         if out.suffix.lower() not in FILE_TYPES or out.is_dir():
             fail(f"--out {out}: wanted a file that ends in {' or '.join(FILE_TYPES)}")
         folder_for_results(out.parent)
-    announce_compilation("towercrane.cranes.radial_kernel")
+    announce_compilation(loaded.kind)
     from towercrane.natural import linear_model, linear_report
     from towercrane.system import NoEquilibrium
 
