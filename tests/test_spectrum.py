@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from towercrane.spectrum import amplitude_spectrum, spectrum_peaks, swing_period
+from towercrane.spectrum import _stands_out, amplitude_spectrum, spectrum_peaks, swing_period
 
 TIMES = np.arange(2401) * 0.05
 
@@ -44,3 +44,10 @@ def test_period_of_a_swing_off_centre():
 def test_a_last_row_off_the_grid_does_not_shift_the_peaks():
     times = np.append(TIMES, TIMES[-1] + 0.013)
     assert_allclose(spectrum_peaks(times, np.sin(2 * np.pi * 0.5 * times)), [0.5], atol=1e-4)
+
+
+def test_a_shoulder_on_a_flank_is_no_peak():
+    # The dip before the higher neighbour has to reach two thirds of the peak.
+    assert not _stands_out(np.array([0.0, 10.0, 8.0, 9.0, 2.0, 0.0]), 3)
+    assert _stands_out(np.array([0.0, 10.0, 5.0, 9.0, 2.0, 0.0]), 3)
+    assert _stands_out(np.array([0.0, 10.0, 8.0, 9.0, 2.0, 0.0]), 1)

@@ -39,7 +39,7 @@ def surface(data: xr.Dataset, parameter: str) -> Figure:
         figure.colorbar(mesh, ax=axes, label=f"{str(name).replace('_', ' ')}\n[{unit}]")
     rows[-1].set_xlabel("time [s]")
     figure.suptitle(
-        f"{parameter.replace('_', ' ')} from 0 to twice its value, change since the start, {data.attrs['crane']}"
+        f"{parameter.replace('_', ' ')}: change of the outputs since the start\n{data.attrs['crane']}", fontsize=10
     )
     return figure
 
@@ -52,14 +52,18 @@ def ranking(study: Study) -> Figure:
     height = 0.8 / len(outputs)
     places = np.arange(len(study.influence))
     for k, name in enumerate(outputs):
-        sizes = [max(100.0 * entry["near"][name], 1e-4) for entry in study.influence]
+        sizes = [max(100.0 * entry["near"][name], 1e-3) for entry in study.influence]
         axes.barh(
             places + (k - 0.5 * len(outputs)) * height, sizes, height, color=COLOURS[k % 6],
             label=str(name).replace("_", " "),
         )  # fmt: skip
     axes.set_yticks(places, [entry["parameter"].replace("_", " ") for entry in study.influence], fontsize=8)
     axes.invert_yaxis()
-    axes.set(xscale="log", xlabel="largest change of the output within 50 to 150 % of nominal [% of its peak]")
+    axes.set(
+        xscale="log",
+        xlim=(1e-3, 200.0),
+        xlabel="largest change of the output within 50 to 150 % of nominal [% of its peak]",
+    )
     axes.set_ylabel("parameter [varied alone]")
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, fontsize=8, frameon=False)
     return figure
