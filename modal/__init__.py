@@ -7,18 +7,28 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from modal.beam import Beam, EndBody
+    from modal.chain import Chain, Foundation, Pendulum, Segment
     from modal.elements import finite_element_frequencies
     from modal.frame import frame_frequencies
     from modal.lattice import LacedColumn
     from modal.roots import characteristic_roots
     from modal.shapes import Modes, cantilever_modes
+    from modal.structure import Structure, Unstable, chain_frequencies, chain_structure
 
 __all__ = [
     "Beam",
+    "Chain",
     "EndBody",
+    "Foundation",
     "LacedColumn",
     "Modes",
+    "Pendulum",
+    "Segment",
+    "Structure",
+    "Unstable",
     "cantilever_modes",
+    "chain_frequencies",
+    "chain_structure",
     "characteristic_roots",
     "finite_element_frequencies",
     "frame_frequencies",
@@ -26,10 +36,18 @@ __all__ = [
 
 _HOME = {
     "Beam": "beam",
+    "Chain": "chain",
     "EndBody": "beam",
+    "Foundation": "chain",
     "LacedColumn": "lattice",
     "Modes": "shapes",
+    "Pendulum": "chain",
+    "Segment": "chain",
+    "Structure": "structure",
+    "Unstable": "structure",
     "cantilever_modes": "shapes",
+    "chain_frequencies": "structure",
+    "chain_structure": "structure",
     "characteristic_roots": "roots",
     "finite_element_frequencies": "elements",
     "frame_frequencies": "frame",

@@ -1,0 +1,252 @@
+"""Chain: a tower or jib of beam segments one on the other, with what stands, hangs and rests on it; SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import inf
+from typing import TYPE_CHECKING, Literal, get_args
+
+if TYPE_CHECKING:
+    from modal.beam import EndBody
+
+ShearTheory = Literal["haringx", "engesser"]
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """Straight piece of a beam, uniform or with a breadth that changes linearly along it.
+
+    With the ratio r of the breadth at the far end to that at the near end, every property p of the section is
+    ``p (1 + (r - 1) z / length)^power`` at the distance z from the near end.
+
+    Parameters
+    ----------
+    length : float
+        Length [m].
+    mass_per_length : float
+        Mass per unit length at the near end [kg/m].
+    bending_stiffness : float
+        Bending stiffness E I at the near end [N m^2].
+    shear_stiffness : float
+        Shear stiffness S at the near end, including any shear factor [N]; ``inf``: no shear strain.
+    rotary_inertia : float
+        Moment of inertia of the section per unit length, rho I, at the near end [kg m].
+    end_ratio : float
+        Breadth at the far end over that at the near end [1]; 1 is uniform.
+    mass_power, bending_power, shear_power : float
+        Powers of the breadth [1]: 1 and 3 for a wedge, 2 and 4 for a cone, 0 and 2 for four legs that draw
+        together. The rotary inertia goes with the bending stiffness.
+
+    Raises
+    ------
+    ValueError
+        If a value is out of range or not a number.
+    """
+
+    length: float
+    mass_per_length: float
+    bending_stiffness: float
+    shear_stiffness: float = inf
+    rotary_inertia: float = 0.0
+    end_ratio: float = 1.0
+    mass_power: float = 0.0
+    bending_power: float = 2.0
+    shear_power: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("length", "mass_per_length", "bending_stiffness", "end_ratio"):
+            value = getattr(self, name)
+            if not 0.0 < value < inf:
+                raise ValueError(f"Segment.{name}: wanted a positive finite number, got {value!r}")
+        if not self.shear_stiffness > 0.0:
+            raise ValueError(f"Segment.shear_stiffness: wanted a positive number, got {self.shear_stiffness!r}")
+        for name in ("rotary_inertia", "mass_power", "bending_power", "shear_power"):
+            value = getattr(self, name)
+            if not 0.0 <= value < inf:
+                raise ValueError(f"Segment.{name}: wanted a finite number, zero or more, got {value!r}")
+
+    @property
+    def mass(self) -> float:
+        """Total mass [kg]."""
+        return self.mass_within(0.0, self.length)
+
+    def mass_within(self, near: float, far: float) -> float:
+        """Mass between two distances from the near end [kg]."""
+        slope, power = (self.end_ratio - 1.0) / self.length, self.mass_power
+        if abs(slope) * self.length < 1e-12 or power == 0.0:
+            return self.mass_per_length * (far - near)
+        ends = [(1.0 + slope * z) ** (power + 1.0) for z in (near, far)]
+        return float(self.mass_per_length * (ends[1] - ends[0]) / (slope * (power + 1.0)))
+
+    def split(self, distance: float) -> tuple[Segment, Segment]:
+        """The same piece as two, cut at a distance from its near end [m].
+
+        Raises
+        ------
+        ValueError
+            If the distance is not inside the segment.
+        """
+        if not 0.0 < distance < self.length:
+            raise ValueError(f"distance: wanted a cut inside 0 to {self.length!r} m, got {distance!r}")
+        breadth = 1.0 + (self.end_ratio - 1.0) * distance / self.length
+        powers = self.mass_power, self.bending_power, self.shear_power
+        near = Segment(
+            distance, self.mass_per_length, self.bending_stiffness, self.shear_stiffness, self.rotary_inertia,
+            breadth, *powers,
+        )  # fmt: skip
+        far = Segment(
+            self.length - distance,
+            self.mass_per_length * breadth**self.mass_power,
+            self.bending_stiffness * breadth**self.bending_power,
+            self.shear_stiffness * breadth**self.shear_power,
+            self.rotary_inertia * breadth**self.bending_power,
+            self.end_ratio / breadth,
+            *powers,
+        )
+        return near, far
+
+
+@dataclass(frozen=True, slots=True)
+class Foundation:
+    """Springs between the foot of a chain and the ground.
+
+    Parameters
+    ----------
+    rotation_stiffness : float
+        Moment per rotation of the foot [N m/rad]; ``inf`` clamps it.
+    translation_stiffness : float
+        Force per sideways motion of the foot [N/m]; ``inf`` holds it.
+
+    Raises
+    ------
+    ValueError
+        If a stiffness is not positive.
+    """
+
+    rotation_stiffness: float = inf
+    translation_stiffness: float = inf
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"Foundation.{name}: wanted a positive number, got {getattr(self, name)!r}")
+
+
+@dataclass(frozen=True, slots=True)
+class Pendulum:
+    """Load on a rope that hangs from the end of a chain and swings across it.
+
+    Parameters
+    ----------
+    mass : float
+        Mass of the load [kg].
+    rope_length : float
+        Length of the rope [m].
+    gravity : float
+        Acceleration of gravity [m/s^2].
+
+    Raises
+    ------
+    ValueError
+        If a value is not a positive finite number.
+    """
+
+    mass: float
+    rope_length: float
+    gravity: float = 9.81
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            value = getattr(self, name)
+            if not 0.0 < value < inf:
+                raise ValueError(f"Pendulum.{name}: wanted a positive finite number, got {value!r}")
+
+    @property
+    def stiffness(self) -> float:
+        """Horizontal force per horizontal distance between load and suspension [N/m]."""
+        return self.mass * self.gravity / self.rope_length
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """Segments end to end from the foot up, in one plane of bending.
+
+    Parameters
+    ----------
+    segments : tuple of Segment
+        From the foot to the end; at least one.
+    bodies : dict of int to EndBody
+        Rigid bodies by node: 0 is the foot, n the end of the n-th segment. Their offset counts along the chain.
+    foundation : Foundation
+        What the foot stands on; clamped by default.
+    axial_load : float
+        Compression at the end of the chain, besides the weights [N]; negative: tension.
+    gravity : float
+        Acceleration that gives segments and bodies their weight, which compresses what is below [m/s^2];
+        0: weight softens nothing.
+    pendulum : Pendulum, optional
+        Load that hangs from the end; its weight compresses the chain where `gravity` is not zero.
+    shear_theory : {"haringx", "engesser"}
+        Whether the axial force acts normal to the section or along the deflected axis; they differ only where
+        there is both shear strain and axial force.
+
+    Raises
+    ------
+    ValueError
+        If there is no segment, a body's node does not exist, a body is infinite, or a number is out of range.
+    """
+
+    segments: tuple[Segment, ...]
+    bodies: dict[int, EndBody] = field(default_factory=dict)
+    foundation: Foundation = Foundation()
+    axial_load: float = 0.0
+    gravity: float = 0.0
+    pendulum: Pendulum | None = None
+    shear_theory: ShearTheory = "haringx"
+
+    def __post_init__(self) -> None:
+        if not self.segments:
+            raise ValueError("Chain.segments: wanted at least one, got none")
+        for node, body in self.bodies.items():
+            if not 0 <= node <= len(self.segments):
+                raise ValueError(f"Chain.bodies: wanted nodes 0 to {len(self.segments)}, got {node!r}")
+            if not (body.mass < inf and body.rotary_inertia < inf):
+                raise ValueError(f"Chain.bodies[{node}]: wanted finite mass and inertia, got {body!r}")
+        if not abs(self.axial_load) < inf:
+            raise ValueError(f"Chain.axial_load: wanted a finite number, got {self.axial_load!r}")
+        if not 0.0 <= self.gravity < inf:
+            raise ValueError(f"Chain.gravity: wanted a finite number, zero or more, got {self.gravity!r}")
+        if self.shear_theory not in get_args(ShearTheory):
+            raise ValueError(f"Chain.shear_theory: wanted one of {get_args(ShearTheory)}, got {self.shear_theory!r}")
+
+    @property
+    def length(self) -> float:
+        """Length of all segments together [m]."""
+        return sum(segment.length for segment in self.segments)
+
+    @property
+    def mass(self) -> float:
+        """Mass of all segments together, without bodies [kg]."""
+        return sum(segment.mass for segment in self.segments)
+
+    @property
+    def nodes(self) -> tuple[float, ...]:
+        """Positions of the nodes, from 0 to the length [m]."""
+        positions = [0.0]
+        for segment in self.segments:
+            positions.append(positions[-1] + segment.length)
+        return tuple(positions)
+
+    def end_compressions(self) -> list[tuple[float, float]]:
+        """Axial force at the near and the far end of each segment, compression positive [N]."""
+        above = self.axial_load
+        if self.pendulum is not None:
+            above += self.gravity * self.pendulum.mass
+        forces = []
+        for k in range(len(self.segments), 0, -1):
+            if k in self.bodies:
+                above += self.gravity * self.bodies[k].mass
+            below = above + self.gravity * self.segments[k - 1].mass
+            forces.append((below, above))
+            above = below
+        return forces[::-1]

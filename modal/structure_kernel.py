@@ -1,0 +1,280 @@
+"""Compiled assembly of segments and bodies into a dynamic stiffness, the count of its modes and their search.
+
+Kernels take a structure as four arrays: ``segments`` (s, 12), properties of `modal.stiffness`; ``unknowns`` (s, 4),
+which of the n unknowns are (v, theta) of a segment's near and far end, -1 where they are held; ``factors`` (s, 4), by
+which to multiply them; ``points`` (3, n, n), stiffness of springs, geometric stiffness of bodies under unit load (to
+be taken away), mass of bodies. A circular frequency and a load factor say which dynamic stiffness is meant.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import types
+
+from modal.compiled import kernel
+from modal.stiffness import (
+    BENDING,
+    BENDING_POWER,
+    LENGTH,
+    RATIO,
+    TERMS,
+    WEIGHT,
+    cell_end,
+    coefficients,
+    join,
+    piece_stiffness,
+    pieces_within,
+    state_series,
+)
+
+UNSTABLE = 1 << 30
+"""Count where a segment has no shear stiffness left (Engesser)."""
+
+SPRINGS, GEOMETRIC, BODIES = range(3)
+"""Entries of ``points``."""
+
+_one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+_whole = types.int64[:, ::1]
+_structure = (_two, _whole, _two, _three)
+
+
+@kernel()
+def _segment_stiffness(
+    segment: Any, omega2: float, load: float, series: Any, state: Any, T: Any, piece: Any, recovery: Any, total: Any
+) -> int:
+    """Dynamic stiffness (4, 4) of a whole segment into ``total``; its count of fixed-end modes."""
+    count, first, near = 0, True, 0.0
+    uniform = segment[RATIO] == 1.0 and load * segment[WEIGHT] == 0.0
+    while near < segment[LENGTH]:
+        far = cell_end(segment, near)
+        pieces = pieces_within(segment, near, far, omega2, load)
+        if pieces == 0:
+            return UNSTABLE
+        length = (far - near) / pieces
+        for i in range(pieces):
+            if i == 0 or not uniform:
+                piece_stiffness(segment, near + i * length, length, omega2, load, series, state, T, piece)
+            if first:
+                for row in range(4):
+                    for column in range(4):
+                        total[row, column] = piece[row, column]
+                first = False
+            else:
+                count += join(total, piece, recovery)
+        near = far
+    return count
+
+
+@kernel()
+def _assemble(
+    omega2: float, load: float, segments: Any, unknowns: Any, factors: Any, points: Any,
+    series: Any, state: Any, T: Any, piece: Any, recovery: Any, total: Any, out: Any,
+) -> int:  # fmt: skip
+    """Dynamic stiffness (n, n) of the structure into ``out``; count of fixed-end modes of all segments."""
+    n = out.shape[0]
+    for i in range(n):
+        for j in range(n):
+            out[i, j] = points[SPRINGS, i, j] - load * points[GEOMETRIC, i, j] - omega2 * points[BODIES, i, j]
+    count = 0
+    for s in range(segments.shape[0]):
+        inside = _segment_stiffness(segments[s], omega2, load, series, state, T, piece, recovery, total)
+        if inside == UNSTABLE:
+            return UNSTABLE
+        count += inside
+        for a in range(4):
+            for b in range(4):
+                i, j = unknowns[s, a], unknowns[s, b]
+                if i >= 0 and j >= 0:
+                    out[i, j] += factors[s, a] * factors[s, b] * total[a, b]
+    return count
+
+
+@kernel()
+def _spectrum(
+    x: float, by_load: bool, segments: Any, unknowns: Any, factors: Any, points: Any, scale: Any,
+    series: Any, state: Any, T: Any, piece: Any, recovery: Any, total: Any, matrix: Any, values: Any,
+) -> int:  # fmt: skip
+    """Eigenvalues (n,) of the scaled dynamic stiffness into ``values``; count of fixed-end modes."""
+    omega2, load = (0.0, x) if by_load else (x * x, 1.0)
+    inside = _assemble(
+        omega2, load, segments, unknowns, factors, points, series, state, T, piece, recovery, total, matrix
+    )
+    if inside != UNSTABLE:
+        for i in range(matrix.shape[0]):
+            for j in range(matrix.shape[0]):
+                matrix[i, j] *= scale[i] * scale[j]
+        values[:] = np.linalg.eigvalsh(matrix)
+    return int(inside)
+
+
+@kernel()
+def _crossing(inside: int, values: Any, k: int) -> float:
+    """The eigenvalue that crosses zero, downward, at the k-th root."""
+    if inside >= k:
+        return -np.inf
+    index = k - inside - 1
+    return float(values[index]) if index < values.size else np.inf
+
+
+@kernel()
+def _between(near: float, f_near: float, far: float, f_far: float, third: float, f_third: float) -> float:
+    """Next trial in a bracket: inverse quadratic interpolation where it is safe, else halving (Chandrupatla 1997)."""
+    middle = 0.5 * (near + far)
+    if not np.isfinite(f_third) or f_third in (f_near, f_far) or third in (near, far):
+        x = near - f_near * (far - near) / (f_far - f_near)
+    else:
+        # The bracket's newest end is the one that is not beside the third point.
+        xi, phi = (near - far) / (third - far), (f_near - f_far) / (f_third - f_far)
+        if not (phi * phi < xi and (1.0 - phi) * (1.0 - phi) < 1.0 - xi):
+            return middle
+        x = (
+            near * f_far / (f_near - f_far) * f_third / (f_near - f_third)
+            + far * f_near / (f_far - f_near) * f_third / (f_far - f_third)
+            + third * f_near / (f_third - f_near) * f_far / (f_third - f_far)
+        )
+    # Keep off the ends by a little, so that a trial next to the root closes the bracket from its other side.
+    margin = max(2.3e-16 * far, 1e-3 * min(x - near, far - x))
+    return min(max(x, near + margin), far - margin)
+
+
+@kernel(types.int64(types.float64, types.float64, *_structure, _two))
+def dynamic_stiffness(
+    omega2: float, load: float, segments: Any, unknowns: Any, factors: Any, points: Any, out: Any
+) -> int:
+    """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments."""
+    series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
+    piece, recovery, total = np.zeros((4, 4)), np.zeros((2, 4)), np.zeros((4, 4))
+    return int(
+        _assemble(omega2, load, segments, unknowns, factors, points, series, state, T, piece, recovery, total, out)
+    )
+
+
+@kernel(types.boolean(*_structure, types.boolean, types.float64, types.float64, _one))
+def find_roots(
+    segments: Any, unknowns: Any, factors: Any, points: Any, by_load: bool, guess: float, limit: float, roots: Any
+) -> bool:
+    """Lowest circular frequencies, or critical load factors, ascending and with their multiplicity, into ``roots``.
+
+    The k-th is bracketed by counts and then followed as the zero of one eigenvalue, whose sign changes at no other
+    place in the bracket; where a fixed-end mode of a segment lies in the bracket, by halving alone. False if there
+    are fewer below ``limit``.
+    """
+    n = points.shape[1]
+    series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
+    piece, recovery, total = np.zeros((4, 4)), np.zeros((2, 4)), np.zeros((4, 4))
+    matrix, values, scale = np.zeros((n, n)), np.zeros(n), np.ones(n)
+    _assemble(0.0, 0.0, segments, unknowns, factors, points, series, state, T, piece, recovery, total, matrix)
+    for i in range(n):
+        scale[i] = 1.0 / np.sqrt(matrix[i, i])
+    low, high = np.zeros(roots.size), np.full(roots.size, np.inf)
+
+    for k in range(1, roots.size + 1):
+        near, f_near, inside_near = low[k - 1], np.inf, -1
+        far, f_far, inside_far = high[k - 1], -np.inf, -2
+        x = max(guess, 2.0 * near) if np.isinf(far) else 0.5 * (near + far)
+        third, f_third = far, f_far
+        for _ in range(400):
+            inside = _spectrum(
+                x, by_load, segments, unknowns, factors, points, scale,
+                series, state, T, piece, recovery, total, matrix, values,
+            )  # fmt: skip
+            count = inside
+            if inside != UNSTABLE:
+                for i in range(n):
+                    if values[i] < 0.0:
+                        count += 1
+            for i in range(roots.size):
+                if count > i:
+                    high[i] = min(high[i], x)
+                else:
+                    low[i] = max(low[i], x)
+            f = _crossing(inside, values, k)
+            if f > 0.0:
+                third, f_third = near, f_near
+                near, f_near, inside_near = x, f, inside
+            else:
+                third, f_third = far, f_far
+                far, f_far, inside_far = x, f, inside
+            if np.isinf(far):
+                if x > limit:
+                    return False
+                x = max(guess, 2.0 * x)
+                continue
+            if f == 0.0 or far - near <= 2.3e-16 * far:
+                break
+            x = 0.5 * (near + far)
+            if inside_near == inside_far and np.isfinite(f_near) and np.isfinite(f_far):
+                x = _between(near, f_near, far, f_far, third, f_third)
+            if not near < x < far:
+                break
+        roots[k - 1] = near if f_near < -f_far else far
+    return True
+
+
+@kernel(types.int64(_one, types.float64, types.float64, _one))
+def piece_ends(segment: Any, omega2: float, load: float, out: Any) -> int:
+    """Ends of a segment's pieces into ``out`` as far as it reaches; number of pieces."""
+    total, near = 0, 0.0
+    out[0] = 0.0
+    while near < segment[LENGTH]:
+        far = cell_end(segment, near)
+        pieces = pieces_within(segment, near, far, omega2, load)
+        for i in range(1, pieces + 1):
+            total += 1
+            if total < out.size:
+                out[total] = far if i == pieces else near + (far - near) * i / pieces
+        near = far
+    return total
+
+
+@kernel(types.void(_one, _one, types.float64, types.float64, _one, _three))
+def segment_shape(segment: Any, ends: Any, omega2: float, load: float, held: Any, out: Any) -> None:
+    """Taylor coefficients of (v, theta, V, M, v') in every piece of a segment, from (v, theta) at its two ends.
+
+    Parameters
+    ----------
+    segment : ndarray, shape (12,)
+    ends : ndarray, shape (p + 1,)
+        Ends of the pieces.
+    held : ndarray, shape (4,)
+        (v, theta) at the near and the far end.
+    out : ndarray, shape (p, TERMS + 1, 5)
+        Coefficients in the fraction of the piece's length.
+    """
+    pieces = ends.size - 1
+    series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
+    total, recovery = np.zeros((4, 4)), np.zeros((pieces, 2, 4))
+    stiffness, nodes = np.zeros((pieces, 4, 4)), np.zeros((pieces + 1, 2))
+    for p in range(pieces):
+        piece_stiffness(segment, ends[p], ends[p + 1] - ends[p], omega2, load, series, state, T, stiffness[p])
+        if p == 0:
+            total[:] = stiffness[0]
+        else:
+            join(total, stiffness[p], recovery[p])
+    nodes[0, 0], nodes[0, 1], nodes[pieces, 0], nodes[pieces, 1] = held[0], held[1], held[2], held[3]
+    for p in range(pieces - 1, 0, -1):
+        for i in range(2):
+            nodes[p, i] = (
+                recovery[p, i, 0] * nodes[0, 0]
+                + recovery[p, i, 1] * nodes[0, 1]
+                + recovery[p, i, 2] * nodes[p + 1, 0]
+                + recovery[p, i, 3] * nodes[p + 1, 1]
+            )
+    for p in range(pieces):
+        length = ends[p + 1] - ends[p]
+        terms = coefficients(segment, ends[p], length, omega2, load, series)
+        breadth = 1.0 + (segment[RATIO] - 1.0) * ends[p] / segment[LENGTH]
+        bending = segment[BENDING] * breadth ** segment[BENDING_POWER]
+        force, moment = 0.0, 0.0
+        for j in range(2):
+            force -= stiffness[p, 0, j] * nodes[p, j] + stiffness[p, 0, 2 + j] * nodes[p + 1, j]
+            moment -= stiffness[p, 1, j] * nodes[p, j] + stiffness[p, 1, 2 + j] * nodes[p + 1, j]
+        units = (length, 1.0, bending / length**2, bending / length, 1.0)
+        state[0, 0], state[0, 1] = nodes[p, 0] / length, nodes[p, 1]
+        state[0, 2], state[0, 3] = force / units[2], moment / units[3]
+        state_series(series, terms, state)
+        for k in range(TERMS + 1):
+            for i in range(5):
+                out[p, k, i] = state[k, i] * units[i]
