@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from modal.beam import Beam, EndBody
     from modal.chain import Chain, Foundation, Pendulum, Segment
+    from modal.crane_frame import CraneFrame, crane_structure
     from modal.elements import finite_element_frequencies
     from modal.frame import frame_frequencies
     from modal.lattice import LacedColumn
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Beam",
     "Chain",
+    "CraneFrame",
     "EndBody",
     "Foundation",
     "LacedColumn",
@@ -30,6 +32,7 @@ __all__ = [
     "chain_frequencies",
     "chain_structure",
     "characteristic_roots",
+    "crane_structure",
     "finite_element_frequencies",
     "frame_frequencies",
 ]
@@ -37,6 +40,7 @@ __all__ = [
 _HOME = {
     "Beam": "beam",
     "Chain": "chain",
+    "CraneFrame": "crane_frame",
     "EndBody": "beam",
     "Foundation": "chain",
     "LacedColumn": "lattice",
@@ -49,6 +53,7 @@ _HOME = {
     "chain_frequencies": "structure",
     "chain_structure": "structure",
     "characteristic_roots": "roots",
+    "crane_structure": "crane_frame",
     "finite_element_frequencies": "elements",
     "frame_frequencies": "frame",
 }

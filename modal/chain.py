@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf
 from typing import TYPE_CHECKING, Literal, get_args
 
@@ -236,6 +236,27 @@ class Chain:
         for segment in self.segments:
             positions.append(positions[-1] + segment.length)
         return tuple(positions)
+
+    def with_node(self, position: float) -> tuple[Chain, int]:
+        """The same chain with a node at a position [m], and that node's number.
+
+        Raises
+        ------
+        ValueError
+            If the position is off the chain.
+        """
+        nodes = self.nodes
+        if not 0.0 <= position <= nodes[-1]:
+            raise ValueError(f"position: wanted 0 to {nodes[-1]!r} m, got {position!r}")
+        nearest = min(range(len(nodes)), key=lambda node: abs(nodes[node] - position))
+        # A piece far shorter than all else would only cost digits.
+        if abs(nodes[nearest] - position) < 1e-9 * nodes[-1]:
+            return self, nearest
+        before = sum(node < position for node in nodes) - 1
+        pieces = self.segments[before].split(position - nodes[before])
+        segments = (*self.segments[:before], *pieces, *self.segments[before + 1 :])
+        bodies = {node + (node > before): body for node, body in self.bodies.items()}
+        return replace(self, segments=segments, bodies=bodies), before + 1
 
     def end_compressions(self) -> list[tuple[float, float]]:
         """Axial force at the near and the far end of each segment, compression positive [N]."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, isinf, sqrt
 from typing import TYPE_CHECKING
@@ -43,6 +43,10 @@ class Member:
         Axial force at the near end [N].
     gravity : float
         Acceleration of gravity along the segment towards its near end [m/s^2]: its own weight compresses it.
+    part : str
+        Chain that the segment belongs to: "tower", "jib", "counter-jib".
+    position : float
+        Distance of the near end from that chain's foot [m].
     """
 
     segment: Segment
@@ -50,6 +54,8 @@ class Member:
     factors: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     compression: float = 0.0
     gravity: float = 0.0
+    part: str = "tower"
+    position: float = 0.0
 
     def cut(self, parts: int, first: int) -> list[Member]:
         """The same member as several, on new unknowns from ``first`` on.
@@ -62,17 +68,28 @@ class Member:
         for i in range(parts - 1):
             near, far = rest.segment.split(float(lengths[i]))
             node = (first + 2 * i, first + 2 * i + 1)
-            lower, upper = rest.unknowns[:2], rest.unknowns[2:]
-            below, above = rest.factors[:2], rest.factors[2:]
-            force = rest.compression - rest.gravity * near.mass
-            members.append(Member(near, (*lower, *node), (*below, 1.0, 1.0), rest.compression, self.gravity))
-            rest = Member(far, (*node, *upper), (1.0, 1.0, *above), force, self.gravity)
+            members.append(
+                replace(
+                    rest,
+                    segment=near,
+                    unknowns=(rest.unknowns[0], rest.unknowns[1], *node),
+                    factors=(rest.factors[0], rest.factors[1], 1.0, 1.0),
+                )
+            )
+            rest = replace(
+                rest,
+                segment=far,
+                unknowns=(*node, rest.unknowns[2], rest.unknowns[3]),
+                factors=(1.0, 1.0, rest.factors[2], rest.factors[3]),
+                compression=rest.compression - rest.gravity * near.mass,
+                position=rest.position + near.length,
+            )
         return [*members, rest]
 
 
 @dataclass(eq=False)
 class Structure:
-    """Segments and bodies on common unknowns; made by `chain_structure` or `modal.crane.crane_structure`.
+    """Segments and bodies on common unknowns; made by `chain_structure` or `modal.crane_frame.crane_structure`.
 
     Parameters
     ----------
@@ -95,6 +112,32 @@ class Structure:
     def __post_init__(self) -> None:
         n = len(self.unknowns)
         self.springs, self.geometric, self.bodies = np.zeros((n, n)), np.zeros((n, n)), np.zeros((n, n))
+
+    def add_unknown(self, unit: str, stiffness: float = 0.0) -> int:
+        """A further unknown on a spring to the ground; `HELD` where that is infinitely stiff."""
+        if isinf(stiffness):
+            return HELD
+        self.unknowns += (unit,)
+        for name in ("springs", "geometric", "bodies"):
+            setattr(self, name, np.pad(getattr(self, name), (0, 1)))
+        self.springs[-1, -1] = stiffness
+        return len(self.unknowns) - 1
+
+    def add_chain(
+        self, chain: Chain, foot: tuple[int, int], factors: tuple[float, float] = (1.0, 1.0), part: str = "tower"
+    ) -> tuple[int, int]:
+        """Put a chain with its bodies on two unknowns, times factors, that move its foot; its end's unknowns."""
+        near, position = foot, 0.0
+        nodes = [foot]
+        for segment, (below, _) in zip(chain.segments, chain.end_compressions(), strict=True):
+            far = self.add_unknown("m"), self.add_unknown("rad")
+            member = Member(segment, (*near, *far), (*factors, 1.0, 1.0), below, chain.gravity, part, position)
+            self.members.append(member)
+            near, factors, position = far, (1.0, 1.0), position + segment.length
+            nodes.append(far)
+        for node, body in chain.bodies.items():
+            self.add_body(body, *nodes[node], chain.gravity * body.mass)
+        return near
 
     def add_body(self, body: EndBody, deflection: int, rotation: int, weight: float = 0.0) -> None:
         """Put a rigid body on a node; its weight [N] topples it where it stands above the node."""
@@ -227,26 +270,13 @@ def chain_structure(chain: Chain) -> Structure:
     The unknowns are deflection and rotation of every node that can move, from the foot up, then the load's motion.
     """
     foot = chain.foundation
-    held = isinf(foot.translation_stiffness), isinf(foot.rotation_stiffness)
-    numbers: list[tuple[int, int]] = []
-    units: list[str] = []
-    for node in range(len(chain.segments) + 1):
-        fixed = held if node == 0 else (False, False)
-        numbers.append((HELD if fixed[0] else len(units), HELD if fixed[1] else len(units) + (not fixed[0])))
-        units += [unit for unit, still in zip(("m", "rad"), fixed, strict=True) if not still]
+    stiffnesses = foot.translation_stiffness, foot.rotation_stiffness
+    structure = Structure((), shear_theory=chain.shear_theory)
+    springs = [structure.add_unknown(unit, k) for unit, k in zip(("m", "rad"), stiffnesses, strict=True)]
+    end = structure.add_chain(chain, (springs[0], springs[1]))
     if chain.pendulum is not None:
-        units.append("m")
-    structure = Structure(tuple(units), shear_theory=chain.shear_theory)
-    for k, (segment, (below, _)) in enumerate(zip(chain.segments, chain.end_compressions(), strict=True)):
-        ends = (*numbers[k], *numbers[k + 1])
-        structure.members.append(Member(segment, ends, compression=below, gravity=chain.gravity))
-    for node, body in chain.bodies.items():
-        structure.add_body(body, *numbers[node], chain.gravity * body.mass)
-    for unknown, stiffness in zip(numbers[0], (foot.translation_stiffness, foot.rotation_stiffness), strict=True):
-        if unknown != HELD:
-            structure.springs[unknown, unknown] += stiffness
-    if chain.pendulum is not None:
-        structure.add_pendulum(chain.pendulum.stiffness, chain.pendulum.mass, numbers[-1][0], len(units) - 1)
+        load = structure.add_unknown("m")
+        structure.add_pendulum(chain.pendulum.stiffness, chain.pendulum.mass, end[0], load)
     return structure
 
 
