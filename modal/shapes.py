@@ -47,6 +47,11 @@ class Modes:
         return int(self.roots.size)
 
     @property
+    def length(self) -> float:
+        """Length of the beam [m]."""
+        return self.beam.length
+
+    @property
     def angular_frequencies(self) -> NDArray[np.float64]:
         """Natural angular frequencies [rad/s], shape (n,)."""
         beam = self.beam
@@ -89,6 +94,10 @@ class Modes:
         values = evaluate(self.roots, self.coefficients, where.ravel() / length, int(derivative))
         return values.reshape(self.count, *where.shape) / length**derivative
 
+    def rotation(self, position: ArrayLike) -> NDArray[np.float64]:
+        """Rotation of the section at positions along the beam: the slope, as there is no shear strain."""
+        return self(position, 1)
+
     def mass_matrix(self) -> NDArray[np.float64]:
         """Mass of the beam alone, ``int m phi_i phi_j dx`` [1], shape (n, n)."""
         return self.beam.mass * product_integrals(self.roots, self.coefficients, 0)
@@ -106,15 +115,15 @@ class Modes:
         """
         return product_integrals(self.roots, self.coefficients, 1) / self.beam.length
 
-    def weighted_slope_matrix(self) -> NDArray[np.float64]:
-        """Products of slopes with weight, ``int (L - x) phi_i' phi_j' dx`` [1/kg], shape (n, n).
+    def weight_matrix(self) -> NDArray[np.float64]:
+        """What an upright beam's own weight takes from its stiffness under unit gravity [1/m], shape (n, n).
 
-        Times the weight per unit length it is the geometric stiffness of an upright beam's own weight.
+        That is ``int m (L - x) phi_i' phi_j' dx``.
         """
-        return product_integrals(self.roots, self.coefficients, 1, "from_end")
+        return self.beam.mass_per_length * product_integrals(self.roots, self.coefficients, 1, "from_end")
 
-    def bending_matrix(self) -> NDArray[np.float64]:
-        """Bending stiffness ``int E I phi_i'' phi_j'' dx`` [1/s^2], shape (n, n).
+    def stiffness_matrix(self) -> NDArray[np.float64]:
+        """Stiffness ``int E I phi_i'' phi_j'' dx`` [1/s^2], shape (n, n).
 
         It is diag(omega^2) but for rounding, whatever the end body.
         """

@@ -158,9 +158,9 @@ def test_orthonormal_in_the_mass_of_beam_and_body(ratios, ten, sixty):
     ("ratios", "bound"),
     [(FREE, 2e-14), (QTZ5613, 2e-14), (OFFSET, 2e-14), (HEAVY, 2e-14), ((INF, 3.0, 0.2), 2e-14)],
 )
-def test_bending_matrix_is_the_diagonal_of_squared_frequencies(ratios, bound):
+def test_stiffness_matrix_is_the_diagonal_of_squared_frequencies(ratios, bound):
     modes = modes_of(ratios, 60)
-    scaled = modes.bending_matrix() / np.outer(modes.angular_frequencies, modes.angular_frequencies)
+    scaled = modes.stiffness_matrix() / np.outer(modes.angular_frequencies, modes.angular_frequencies)
     assert np.abs(scaled - np.eye(60)).max() < bound
 
 
@@ -185,8 +185,8 @@ def test_integrals_against_quadrature(ratios, count):
     pairs = [
         (modes.mass_matrix(), (m * weights * shape) @ shape.T),
         (modes.slope_matrix(), (weights * slope) @ slope.T),
-        (modes.weighted_slope_matrix(), (weights * (LENGTH - x) * slope) @ slope.T),
-        (modes.bending_matrix(), (EI * weights * curvature) @ curvature.T),
+        (modes.weight_matrix(), (m * weights * (LENGTH - x) * slope) @ slope.T),
+        (modes.stiffness_matrix(), (EI * weights * curvature) @ curvature.T),
     ]
     for ours, theirs in pairs:
         size = np.sqrt(np.diag(theirs))
@@ -236,7 +236,7 @@ def test_no_modes_give_empty_arrays_of_the_right_shape():
     assert modes(3.0).shape == (0,)
     assert modes(np.zeros((2, 5)), 3).shape == (0, 2, 5)
     assert [moment.shape for moment in modes.mass_moments()] == [(0,), (0,)]
-    for matrix in (modes.mass_matrix, modes.slope_matrix, modes.weighted_slope_matrix, modes.bending_matrix):
+    for matrix in (modes.mass_matrix, modes.slope_matrix, modes.weight_matrix, modes.stiffness_matrix):
         assert matrix().shape == (0, 0)
 
 

@@ -251,16 +251,13 @@ def _pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
 
 
 def _mode_picture(case: Case) -> Any:
-    from modal import cantilever_modes
     from towercrane.plots import radial
 
     crane, count = case.radial_crane(), case.modes.count
     # The shapes rest on the equivalent beams, not on the lattice's members.
     beams = [a for a in case.assumed if a.key.startswith("crane.") and ".lattice." not in a.key]
     notes = [(a.key, str(a.value), a.why) for a in beams]
-    return radial.modes(
-        cantilever_modes(crane.tower, count, crane.end_body), cantilever_modes(crane.jib, count), notes
-    )
+    return radial.modes(crane.tower_modes(count), crane.jib_modes(count), notes)
 
 
 def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Dataset:

@@ -38,13 +38,13 @@ def natural_frequencies(case: Case) -> dict[str, Any]:
 
     crane = case.radial_crane()
     count, elements = case.modes.count, case.modes.elements
-    modes = cantilever_modes(crane.tower, count, crane.end_body)
-    tower, body = crane.tower, crane.end_body
+    modes = cantilever_modes(case.tower_beam(), count, crane.end_body)
+    tower, body = case.tower_beam(), crane.end_body
     ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
     _, seconds = _timed(lambda: characteristic_roots(*ratios, count))
     jib = cantilever_modes(crane.jib, count)
     checked, check_seconds = _timed(
-        lambda: finite_element_frequencies(crane.tower, count, crane.end_body, elements=elements)
+        lambda: finite_element_frequencies(case.tower_beam(), count, crane.end_body, elements=elements)
     )
     report: dict[str, Any] = {
         "case": case.name,
@@ -88,7 +88,7 @@ def _coupled(case: Case, position: float) -> dict[str, Any]:
     row |= {"frequencies_hz": (found / (2 * np.pi)).tolist(), "swing_mode": swing + 1}
     if model.tower_modes and model.jib_modes and not model.weight_softening:
         frame = frame_frequencies(
-            crane.tower,
+            case.tower_beam(),
             crane.jib,
             head_mass=crane.counter_mass,
             head_inertia=crane.counter_inertia,

@@ -23,8 +23,8 @@ def roots(repeats: int) -> dict[str, Any]:
     """Characteristic roots of the QTZ5613's tower, and finite elements for the same frequencies."""
     from modal import characteristic_roots, finite_element_frequencies
 
-    crane = load_case(CASE).radial_crane()
-    tower, body = crane.tower, crane.end_body
+    case = load_case(CASE)
+    tower, body = case.tower_beam(), case.radial_crane().end_body
     ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
     unit = tower.length**2 * np.sqrt(tower.mass_per_length / tower.bending_stiffness)
 

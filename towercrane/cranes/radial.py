@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from modal.shapes import Modes, cantilever_modes
 from towercrane.cranes import radial_kernel as kernel
 from towercrane.equilibrium import Unstable, stable_equilibrium
 from towercrane.payload import FORCE, JACOBIAN, MASS, Load, restore, work_shape
@@ -21,6 +20,8 @@ from towercrane.system import NoEquilibrium, System
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from modal.chain_modes import ChainModes
+    from modal.shapes import Modes
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.motion import Motion
     from towercrane.results import Quantity
@@ -109,26 +110,25 @@ class RadialModel:
         return 2 * (self.coordinates + self.axes) + 1
 
     @cached_property
-    def tower(self) -> Modes:
+    def tower(self) -> Modes | ChainModes:
         """Modes of the tower with the slewing part on its end."""
-        return cantilever_modes(self.crane.tower, self.tower_modes, self.crane.end_body)
+        return self.crane.tower_modes(self.tower_modes)
 
     @cached_property
     def jib(self) -> Modes:
         """Modes of the jib, clamped at the tower top and free at its end."""
-        return cantilever_modes(self.crane.jib, self.jib_modes)
+        return self.crane.jib_modes(self.jib_modes)
 
     @cached_property
     def geometric_stiffness(self) -> Floats:
         """Stiffness that the weight takes from the tower modes, int N phi' phi' (tower, tower) [1/s^2].
 
-        N(s) = (m_r + m_c + m_p + m_t (l_t - s)) g at the height s.
+        N(s) is the weight of all that is above the height s; of the tower and its own bodies with self_weight.
         """
         crane = self.crane
         own = 1.0 if self.self_weight else 0.0
         above = own * crane.slewing_mass + crane.trolley_mass + self.load.mass
-        along = own * crane.tower.mass_per_length * self.tower.weighted_slope_matrix()
-        return crane.gravity * (above * self.tower.slope_matrix() + along)
+        return crane.gravity * (above * self.tower.slope_matrix() + own * self.tower.weight_matrix())
 
     @cached_property
     def system(self) -> System:
@@ -137,7 +137,7 @@ class RadialModel:
         n, tower = self.coordinates, self.tower_modes
         vectors = np.zeros((5, n))
         vectors[kernel.TIP, :tower] = self.tower(crane.tower.length)
-        vectors[kernel.SLOPE, :tower] = self.tower(crane.tower.length, 1)
+        vectors[kernel.SLOPE, :tower] = self.tower.rotation(crane.tower.length)
         vectors[kernel.JIB_MASS, tower:], vectors[kernel.JIB_MOMENT, tower:] = self.jib.mass_moments()
         tip, slope = vectors[kernel.TIP], vectors[kernel.SLOPE]
         omega = np.concatenate([self.tower.angular_frequencies, self.jib.angular_frequencies])
@@ -152,6 +152,7 @@ class RadialModel:
         base[:tower, tower:] = -np.outer(slope[:tower], vectors[kernel.JIB_MOMENT, tower:])
         base[tower:, :tower] = base[:tower, tower:].T
         stiffness = np.diag(omega**2)
+        stiffness[:tower, :tower] = self.tower.stiffness_matrix()
         if self.weight_softening:
             stiffness[:tower, :tower] -= self.geometric_stiffness
 
@@ -183,7 +184,7 @@ class RadialModel:
     def _scale(self) -> Floats:
         """Tolerances are metres where a mode moves most, radians of swing; the work steers nothing."""
         # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
-        largest = [abs(m(np.linspace(0.0, m.beam.length, 201))).max(axis=1) for m in (self.tower, self.jib)]
+        largest = [abs(m(np.linspace(0.0, m.length, 201))).max(axis=1) for m in (self.tower, self.jib)]
         scale = np.concatenate([1.0 / np.concatenate(largest), np.ones(self.axes)])
         return np.concatenate([scale, scale, [np.inf]])
 
@@ -272,7 +273,7 @@ class RadialModel:
     def _buckling_message(self) -> str:
         if not self.tower_modes:
             return "the tower is rigid"
-        geometric = np.linalg.eigvals(self.geometric_stiffness / self.tower.angular_frequencies**2)
+        geometric = np.linalg.eigvals(np.linalg.solve(self.tower.stiffness_matrix(), self.geometric_stiffness))
         return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
 
     def _at_rest(self, q: Floats, inputs: Floats) -> Floats:

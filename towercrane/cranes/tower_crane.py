@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from modal.beam import Beam, EndBody
+
+if TYPE_CHECKING:
+    from modal.chain import Chain
+    from modal.chain_modes import ChainModes
+    from modal.shapes import Modes
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,8 +20,11 @@ class TowerCrane:
     Parameters
     ----------
     name : str
-    tower, jib : Beam
-        Their lengths are the tower's height and the jib's radius.
+    tower : Beam or Chain
+        The tower below the slewing part: a uniform clamped Euler beam, or a chain of segments on its foundation with
+        bodies of its own. Its length is the tower's height.
+    jib : Beam
+        Its length is the jib's radius.
     counter_jib_length : float
         Distance of the counterweight from the tower axis [m].
     counter_jib_mass_per_length : float
@@ -29,7 +38,7 @@ class TowerCrane:
     """
 
     name: str
-    tower: Beam
+    tower: Beam | Chain
     jib: Beam
     counter_jib_length: float
     counter_jib_mass_per_length: float
@@ -71,3 +80,19 @@ class TowerCrane:
     def end_body(self) -> EndBody:
         """The slewing part as the tower's end body: what Gao et al. (2023), Eq. 26, calls m_r and J_r."""
         return EndBody(self.slewing_mass, self.slewing_inertia)
+
+    def tower_modes(self, count: int) -> Modes | ChainModes:
+        """Modes of the tower with the slewing part on its end."""
+        if isinstance(self.tower, Beam):
+            from modal.shapes import cantilever_modes
+
+            return cantilever_modes(self.tower, count, self.end_body)
+        from modal.chain_modes import chain_modes
+
+        return chain_modes(self.tower, count, self.end_body)
+
+    def jib_modes(self, count: int) -> Modes:
+        """Modes of the jib, clamped at the tower top and free at its end."""
+        from modal.shapes import cantilever_modes
+
+        return cantilever_modes(self.jib, count)

@@ -15,17 +15,18 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from modal import Modes
+    from modal.chain_modes import ChainModes
 
 MOST_SHAPES = 6
 """Mode shapes in one picture; more could not be told apart."""
 
 
-def modes(tower: Modes, jib: Modes, notes: list[tuple[str, str, str]] | None = None) -> Figure:
+def modes(tower: Modes | ChainModes, jib: Modes, notes: list[tuple[str, str, str]] | None = None) -> Figure:
     """Mode shapes of tower and jib, each scaled to a largest deflection of one."""
     figure = figure_of(9.0, 6.0)
     left, right = figure.subplots(1, 2, width_ratios=(1, 1.4))
     for axes, shapes, upright in ((left, tower, True), (right, jib, False)):
-        along = np.linspace(0.0, shapes.beam.length, 400)
+        along = np.linspace(0.0, shapes.length, 400)
         for i, deflection in enumerate(shapes(along)[:MOST_SHAPES]):
             deflection = deflection / max(abs(deflection).max(), 1e-300)
             line = {"color": COLOURS[i % 6], "ls": DASHES[i % 4]}
