@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from modal.beam import Beam, EndBody
-    from modal.chain import Chain, Foundation, Pendulum, Segment
+    from modal.chain import Chain, Foundation, Pendulum
     from modal.crane_frame import CraneFrame, crane_structure
     from modal.elements import finite_element_frequencies
     from modal.frame import frame_frequencies
     from modal.lattice import LacedColumn
     from modal.roots import characteristic_roots
+    from modal.segment import Segment
     from modal.shapes import Modes, cantilever_modes
     from modal.structure import Structure, Unstable, chain_frequencies, chain_structure
 
@@ -46,7 +47,7 @@ _HOME = {
     "LacedColumn": "lattice",
     "Modes": "shapes",
     "Pendulum": "chain",
-    "Segment": "chain",
+    "Segment": "segment",
     "Structure": "structure",
     "Unstable": "structure",
     "cantilever_modes": "shapes",

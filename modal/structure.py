@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from modal.beam import EndBody
-    from modal.chain import Chain, Segment, ShearTheory
+    from modal.chain import Chain, ShearTheory
+    from modal.segment import Segment
 
     Floats = NDArray[np.float64]
 

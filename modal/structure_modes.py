@@ -93,6 +93,10 @@ class PartShapes:
         weighted = self.at_points(left) * (density * self.weights)
         return np.tensordot(weighted, self.at_points(right), ((1, 2), (1, 2)))
 
+    def energies(self, density: Floats | float, quantity: int) -> Floats:
+        """Integrals of density times the square of a quantity of each mode, shape (n,)."""
+        return np.tensordot(self.at_points(quantity) ** 2, density * self.weights, 2)
+
     def mass_matrix(self) -> Floats:
         """Mass along the part, ``int m v v + rho I theta theta dx``, shape (n, n)."""
         return self.product(self.mass_per_length, DEFLECTION, DEFLECTION) + self.product(
@@ -273,8 +277,7 @@ def _coefficient_shape() -> tuple[int, int]:
 def _properties(member: Member, ends: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """Mass, rotary inertia, bending stiffness and shear flexibility at the Gauss points of a segment's pieces."""
     s = member.segment
-    z = ends[:-1, None] + np.diff(ends)[:, None] * _gauss()[0]
-    breadth = 1.0 + (s.end_ratio - 1.0) * z / s.length
+    breadth = s.breadth(ends[:-1, None] + np.diff(ends)[:, None] * _gauss()[0])
     return (
         s.mass_per_length * breadth**s.mass_power,
         s.rotary_inertia * breadth**s.bending_power,
