@@ -55,11 +55,11 @@ class PartShapes:
         ValueError
             If a position is off the part or not a number, or the order is negative or no integer.
         """
-        where, length = np.asarray(position, dtype=float), self.ends[-1]
+        where, length = np.asarray(position, dtype=float), float(self.ends[-1])
         # A position that was added up from parts may pass the end by rounding.
         on_part = (where >= -1e-12 * length) & (where <= (1 + 1e-12) * length)
         if not on_part.all():
-            raise ValueError(f"position: wanted 0 to {length!r} m, got {where[~on_part].flat[0]!r}")
+            raise ValueError(f"position: wanted 0 to {length!r} m, got {float(where[~on_part].flat[0])!r}")
         if derivative != int(derivative) or derivative < 0:
             raise ValueError(f"derivative: wanted an integer, zero or more, got {derivative!r}")
         flat = where.ravel()

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from towercrane.cranes import radial_kernel as kernel
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
     from towercrane.cranes.radial import RadialModel
@@ -31,15 +30,15 @@ def truncation_error(model: RadialModel, trolley_position: float, rope_length: f
     Returns
     -------
     ndarray, shape (coordinates + 1,)
-        By how much each frequency is too high, relative [1]. Measured on the QTZ5613: 0.85 to 1.0 times the true error
-        below 1e-3, 0.8 up to 1e-2; above `TRUSTED` the true error may be many times larger.
+        By how much each frequency is too high, relative [1]. Measured on the QTZ5613: 0.85 to 1.0 times the true
+        error below 1e-3, 0.8 up to 1e-2; above `TRUSTED` the true error may be many times larger.
 
     Notes
     -----
-    A Ritz mode leaves forces on the jib that the kept modes cannot balance: at the trolley ``lambda m_k z_c`` with its
-    mass m_k and its vertical motion z_c, and along the jib ``-lambda m gamma x`` from the tower's tilt. Through the
-    static flexibility of the modes left out, that is the closed form of the cantilever less the kept modes, they do
-    work that lowers lambda = omega^2.
+    A Ritz mode leaves forces on the jib that the kept modes cannot balance: at the trolley ``lambda m_k z_c`` with
+    its mass m_k and its vertical motion z_c, and along the jib ``-lambda m gamma x`` from the tower's tilt. Through
+    the static flexibility of the modes left out, that is the closed form of the cantilever less the kept modes, they
+    do work that lowers lambda = omega^2.
     """
     from scipy.linalg import eigh
 
