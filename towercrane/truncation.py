@@ -59,4 +59,5 @@ def truncation_error(model: RadialModel, trolley_position: float, rope_length: f
     mixed = m * (x**5 - 10 * L**2 * x**3 + 20 * L**3 * x**2) / (120 * EI) - (moment * at_trolley) @ soft
     along = 11 * m**2 * L**7 / (420 * EI) - moment**2 @ soft
     # Half, as this is the change of omega^2.
-    return 0.5 * (trolley * force**2 + 2 * mixed * force * turning + along * turning**2) / squared
+    change: Floats = (trolley * force**2 + 2 * mixed * force * turning + along * turning**2) / squared
+    return 0.5 * change
