@@ -1,4 +1,4 @@
-"""Natural frequencies and mode shapes of beams, lattice columns and plane frames of two beams."""
+"""Natural frequencies and mode shapes of beams, lattice columns and plane frames."""
 
 from __future__ import annotations
 
@@ -9,12 +9,15 @@ if TYPE_CHECKING:
     from modal.beam import Beam, EndBody
     from modal.chain import Chain, Foundation, Pendulum, Segment
     from modal.crane_frame import CraneFrame, crane_structure
-    from modal.elements import finite_element_frequencies
-    from modal.frame import frame_frequencies
     from modal.lattice import LacedColumn
     from modal.roots import characteristic_roots
     from modal.shapes import Modes, cantilever_modes
     from modal.structure import Structure, Unstable, chain_frequencies, chain_structure
+    from modal.structure_elements import (
+        StructureElements,
+        finite_element_frequencies,
+        finite_element_structure_frequencies,
+    )
 
 __all__ = [
     "Beam",
@@ -27,6 +30,7 @@ __all__ = [
     "Pendulum",
     "Segment",
     "Structure",
+    "StructureElements",
     "Unstable",
     "cantilever_modes",
     "chain_frequencies",
@@ -34,7 +38,7 @@ __all__ = [
     "characteristic_roots",
     "crane_structure",
     "finite_element_frequencies",
-    "frame_frequencies",
+    "finite_element_structure_frequencies",
 ]
 
 _HOME = {
@@ -48,14 +52,15 @@ _HOME = {
     "Pendulum": "chain",
     "Segment": "chain",
     "Structure": "structure",
+    "StructureElements": "structure_elements",
     "Unstable": "structure",
     "cantilever_modes": "shapes",
     "chain_frequencies": "structure",
     "chain_structure": "structure",
     "characteristic_roots": "roots",
     "crane_structure": "crane_frame",
-    "finite_element_frequencies": "elements",
-    "frame_frequencies": "frame",
+    "finite_element_frequencies": "structure_elements",
+    "finite_element_structure_frequencies": "structure_elements",
 }
 
 
