@@ -1,4 +1,4 @@
-"""Natural frequencies and mode shapes of beams, lattice columns and plane frames of two beams."""
+"""Natural frequencies and mode shapes of beams, lattice columns and plane frames."""
 
 from __future__ import annotations
 
@@ -9,13 +9,16 @@ if TYPE_CHECKING:
     from modal.beam import Beam, EndBody
     from modal.chain import Chain, Foundation, Pendulum
     from modal.crane_frame import CraneFrame, crane_structure
-    from modal.elements import finite_element_frequencies
-    from modal.frame import frame_frequencies
     from modal.lattice import LacedColumn
     from modal.roots import characteristic_roots
     from modal.segment import Segment
     from modal.shapes import Modes, cantilever_modes
     from modal.structure import Structure, Unstable, chain_frequencies, chain_structure
+    from modal.structure_elements import (
+        StructureElements,
+        finite_element_frequencies,
+        finite_element_structure_frequencies,
+    )
 
 __all__ = [
     "Beam",
@@ -28,6 +31,7 @@ __all__ = [
     "Pendulum",
     "Segment",
     "Structure",
+    "StructureElements",
     "Unstable",
     "cantilever_modes",
     "chain_frequencies",
@@ -35,7 +39,7 @@ __all__ = [
     "characteristic_roots",
     "crane_structure",
     "finite_element_frequencies",
-    "frame_frequencies",
+    "finite_element_structure_frequencies",
 ]
 
 _HOME = {
@@ -49,14 +53,15 @@ _HOME = {
     "Pendulum": "chain",
     "Segment": "segment",
     "Structure": "structure",
+    "StructureElements": "structure_elements",
     "Unstable": "structure",
     "cantilever_modes": "shapes",
     "chain_frequencies": "structure",
     "chain_structure": "structure",
     "characteristic_roots": "roots",
     "crane_structure": "crane_frame",
-    "finite_element_frequencies": "elements",
-    "frame_frequencies": "frame",
+    "finite_element_frequencies": "structure_elements",
+    "finite_element_structure_frequencies": "structure_elements",
 }
 
 

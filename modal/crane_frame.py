@@ -100,6 +100,8 @@ def crane_structure(crane: CraneFrame, trolley_position: float) -> Structure:
             raise ValueError(f"trolley_position: wanted zero or more, got {trolley_position!r}")
         structure.bodies[gamma, gamma] += carried * trolley_position**2
     else:
+        if not 0.0 <= trolley_position <= crane.jib.length:
+            raise ValueError(f"trolley_position: wanted 0 to {crane.jib.length!r} m, got {trolley_position!r}")
         jib, node = crane.jib.with_node(trolley_position)
         if node > 0 and carried > 0.0:
             there = jib.bodies.get(node, EndBody())

@@ -58,14 +58,13 @@ class Member:
     part: str = "tower"
     position: float = 0.0
 
-    def cut(self, parts: int, first: int) -> list[Member]:
+    def cut(self, parts: int, first: int, spread: float = 0.0) -> list[Member]:
         """The same member as several, on new unknowns from ``first`` on.
 
-        The parts are alternately a little shorter and longer than their mean: equal ones would all have the same
-        fixed-end frequencies.
+        The parts are alternately shorter and longer than their mean by ``spread`` times it.
         """
         members, rest = [], self
-        lengths = self.segment.length / parts * (1.0 + 0.1 * (-1.0) ** np.arange(1, parts + 1))
+        lengths = self.segment.length / parts * (1.0 + spread * (-1.0) ** np.arange(1, parts + 1))
         for i in range(parts - 1):
             near, far = rest.segment.split(float(lengths[i]))
             node = (first + 2 * i, first + 2 * i + 1)
@@ -248,7 +247,8 @@ class Structure:
         omega2, none = (angular_frequency / self.units[2]) ** 2, np.empty(1)
         for member, row in zip(self.members, self.arrays[0], strict=True):
             parts = -(-piece_ends(row, omega2, 1.0, none) // LONGEST)
-            fine.members += member.cut(parts, len(fine.unknowns))
+            # Equal ones would all have the same fixed-end frequencies.
+            fine.members += member.cut(parts, len(fine.unknowns), spread=0.1)
             fine.unknowns += ("m", "rad") * (parts - 1)
         extra = len(fine.unknowns) - len(self.unknowns)
         for name in ("springs", "geometric", "bodies"):

@@ -14,12 +14,16 @@ from towercrane.system import NoEquilibrium
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from modal import LacedColumn
+    from modal import LacedColumn, Structure
     from towercrane.case import Case
+    from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.statespace import StateSpace
 
 FRAME_MODES = 5
 """Frequencies of the coupled crane that are shown, commonly the pendulum's and four of the structure."""
+
+FRAME_ELEMENTS = 40
+"""Finite elements along the tower and along the jib of the coupled crane."""
 
 
 def natural_frequencies(case: Case) -> dict[str, Any]:
@@ -38,13 +42,13 @@ def natural_frequencies(case: Case) -> dict[str, Any]:
 
     crane = case.radial_crane()
     count, elements = case.modes.count, case.modes.elements
-    modes = cantilever_modes(case.tower_beam(), count, crane.end_body)
-    tower, body = case.tower_beam(), crane.end_body
+    modes = cantilever_modes(crane.tower, count, crane.end_body)
+    tower, body = crane.tower, crane.end_body
     ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
     _, seconds = _timed(lambda: characteristic_roots(*ratios, count))
     jib = cantilever_modes(crane.jib, count)
     checked, check_seconds = _timed(
-        lambda: finite_element_frequencies(case.tower_beam(), count, crane.end_body, elements=elements)
+        lambda: finite_element_frequencies(crane.tower, count, crane.end_body, elements=elements)
     )
     report: dict[str, Any] = {
         "case": case.name,
@@ -76,7 +80,7 @@ def natural_frequencies(case: Case) -> dict[str, Any]:
 
 def _coupled(case: Case, position: float) -> dict[str, Any]:
     """Frequencies of the coupled crane with the trolley at a position [m]."""
-    from modal import frame_frequencies
+    from modal import finite_element_structure_frequencies
 
     crane, model = case.radial_crane(), radial_model(case)
     row: dict[str, Any] = {"trolley_position_m": position, "frequencies_hz": []}
@@ -87,21 +91,34 @@ def _coupled(case: Case, position: float) -> dict[str, Any]:
     found = found[:FRAME_MODES]
     row |= {"frequencies_hz": (found / (2 * np.pi)).tolist(), "swing_mode": swing + 1}
     if model.tower_modes and model.jib_modes and not model.weight_softening:
-        frame = frame_frequencies(
-            case.tower_beam(),
-            crane.jib,
-            head_mass=crane.counter_mass,
-            head_inertia=crane.counter_inertia,
-            trolley_position=position,
-            trolley_mass=crane.trolley_mass,
-            payload_mass=case.payload.mass,
-            rope_length=case.rope.length,
-            gravity=crane.gravity,
-            count=len(found),
+        frame = finite_element_structure_frequencies(
+            plane_frame(crane, position, case.payload.mass, case.rope.length), len(found), elements=FRAME_ELEMENTS
         )
         row["finite_elements_hz"] = (frame / (2 * np.pi)).tolist()
         row["relative_difference"] = (found / frame - 1.0).tolist()
     return row
+
+
+def plane_frame(crane: TowerCrane, trolley_position: float, payload_mass: float, rope_length: float) -> Structure:
+    """Tower and flexible jib with the trolley at a position [m], the rest of the slewing part rigid on the tower."""
+    from modal import Chain, CraneFrame, EndBody, Segment, crane_structure
+
+    tower, jib = (
+        Chain((Segment(beam.length, beam.mass_per_length, beam.bending_stiffness),), bodies)
+        for beam, bodies in (
+            (crane.tower, {1: EndBody(crane.counter_mass, crane.counter_inertia)}),
+            (crane.jib, {}),
+        )
+    )
+    frame = CraneFrame(
+        tower,
+        jib,
+        trolley_mass=crane.trolley_mass,
+        payload_mass=payload_mass,
+        rope_length=rope_length,
+        gravity=crane.gravity,
+    )
+    return crane_structure(frame, trolley_position)
 
 
 def _lattice(column: LacedColumn, height: float) -> dict[str, dict[str, Any]]:
