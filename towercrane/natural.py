@@ -14,7 +14,7 @@ from towercrane.system import NoEquilibrium
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from modal import LacedColumn
+    from modal import Beam, EndBody, LacedColumn
     from towercrane.case import Case
     from towercrane.statespace import StateSpace
 
@@ -28,43 +28,30 @@ def natural_frequencies(case: Case) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``tower`` (roots, frequencies_hz, seconds), ``jib`` (roots, frequencies_hz), ``finite_elements``
-        (frequencies_hz, relative_difference, elements, seconds), ``crane`` (a list with trolley_position_m,
-        frequencies_hz, swing_mode, finite_elements_hz, relative_difference; outcome and message where the tower
-        buckles), ``lattice`` where the case describes one,
+        ``tower`` (frequencies_hz; of a uniform tower roots, seconds), ``jib`` (roots, frequencies_hz),
+        ``finite_elements`` of a uniform tower (frequencies_hz, relative_difference, elements, seconds), ``crane`` (a
+        list with trolley_position_m, frequencies_hz, swing_mode, of a uniform tower finite_elements_hz and
+        relative_difference; outcome and message where the tower buckles), ``lattice`` where the case describes one,
         ``assumed``.
     """
-    from modal import cantilever_modes, characteristic_roots, finite_element_frequencies
+    from modal import Beam
 
-    crane = case.radial_crane()
-    count, elements = case.modes.count, case.modes.elements
-    modes = cantilever_modes(case.tower_beam(), count, crane.end_body)
-    tower, body = case.tower_beam(), crane.end_body
-    ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
-    _, seconds = _timed(lambda: characteristic_roots(*ratios, count))
-    jib = cantilever_modes(crane.jib, count)
-    checked, check_seconds = _timed(
-        lambda: finite_element_frequencies(case.tower_beam(), count, crane.end_body, elements=elements)
-    )
+    crane, count = case.radial_crane(), case.modes.count
+    jib = crane.jib_modes(count)
     report: dict[str, Any] = {
         "case": case.name,
         "name": crane.name,
-        "tower": {
-            "roots": modes.roots.tolist(),
-            "frequencies_hz": modes.frequencies_hz.tolist(),
-            "seconds": seconds,
-        },
+        "tower": {"frequencies_hz": crane.tower_modes(count).frequencies_hz.tolist()},
         "jib": {"roots": jib.roots.tolist(), "frequencies_hz": jib.frequencies_hz.tolist()},
-        "finite_elements": {
-            "frequencies_hz": (checked / (2 * np.pi)).tolist(),
-            "relative_difference": (checked / modes.angular_frequencies - 1.0).tolist(),
-            "elements": elements,
-            "seconds": check_seconds,
-        },
         "crane_model": {"tower_modes": case.model.tower_modes, "jib_modes": case.model.jib_modes},
         "rope_length_m": case.rope.length,
         "payload_mass_kg": case.payload.mass,
     }
+    if isinstance(crane.tower, Beam):
+        closed_form, report["finite_elements"] = _uniform_tower(
+            crane.tower, crane.end_body, count, case.modes.elements
+        )
+        report["tower"] |= closed_form
     report["crane"] = [_coupled(case, position) for position in case.modes.trolley_positions]
     if case.crane.tower.published_roots:
         report["tower"]["published_roots"] = list(case.crane.tower.published_roots)
@@ -74,9 +61,25 @@ def natural_frequencies(case: Case) -> dict[str, Any]:
     return report
 
 
+def _uniform_tower(tower: Beam, body: EndBody, count: int, elements: int) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Roots of a uniform tower from their closed form and its frequencies from finite elements, with their times."""
+    from modal import characteristic_roots, finite_element_frequencies
+
+    ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
+    roots, seconds = _timed(lambda: characteristic_roots(*ratios, count))
+    checked, check_seconds = _timed(lambda: finite_element_frequencies(tower, count, body, elements=elements))
+    exact = (roots / tower.length) ** 2 * np.sqrt(tower.bending_stiffness / tower.mass_per_length)
+    return {"roots": roots.tolist(), "seconds": seconds}, {
+        "frequencies_hz": (checked / (2 * np.pi)).tolist(),
+        "relative_difference": (checked / exact - 1.0).tolist(),
+        "elements": elements,
+        "seconds": check_seconds,
+    }
+
+
 def _coupled(case: Case, position: float) -> dict[str, Any]:
     """Frequencies of the coupled crane with the trolley at a position [m]."""
-    from modal import frame_frequencies
+    from modal import Beam, frame_frequencies
 
     crane, model = case.radial_crane(), radial_model(case)
     row: dict[str, Any] = {"trolley_position_m": position, "frequencies_hz": []}
@@ -86,9 +89,9 @@ def _coupled(case: Case, position: float) -> dict[str, Any]:
         return row | {"outcome": failure.outcome, "message": str(failure)}
     found = found[:FRAME_MODES]
     row |= {"frequencies_hz": (found / (2 * np.pi)).tolist(), "swing_mode": swing + 1}
-    if model.tower_modes and model.jib_modes and not model.weight_softening:
+    if isinstance(crane.tower, Beam) and model.tower_modes and model.jib_modes and not model.weight_softening:
         frame = frame_frequencies(
-            case.tower_beam(),
+            crane.tower,
             crane.jib,
             head_mass=crane.counter_mass,
             head_inertia=crane.counter_inertia,
@@ -174,7 +177,5 @@ def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
     for name in "ABCD":
         report[name] = getattr(linear, name.lower()).tolist()
     report["differentiation_error"] = linear.error
-    # The lattice's members enter the tower's check only.
-    rests_on = [a for a in case.assumed if not a.key.startswith("crane.tower.lattice.")]
-    report["assumed"] = [{"key": a.key, "value": str(a.value), "why": a.why} for a in rests_on]
+    report["assumed"] = [{"key": a.key, "value": str(a.value), "why": a.why} for a in case.rests_on]
     return report
