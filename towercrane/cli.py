@@ -254,9 +254,7 @@ def _mode_picture(case: Case) -> Any:
     from towercrane.plots import radial
 
     crane, count = case.radial_crane(), case.modes.count
-    # The shapes rest on the equivalent beams, not on the lattice's members.
-    beams = [a for a in case.assumed if a.key.startswith("crane.") and ".lattice." not in a.key]
-    notes = [(a.key, str(a.value), a.why) for a in beams]
+    notes = [(a.key, str(a.value), a.why) for a in case.rests_on if a.key.startswith("crane.")]
     return radial.modes(crane.tower_modes(count), crane.jib_modes(count), notes)
 
 

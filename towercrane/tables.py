@@ -30,32 +30,15 @@ def _table(title: str, *columns: str, left: int = 1) -> Table:
 def modes_tables(report: dict[str, Any]) -> None:
     """Natural frequencies beside finite elements, as :func:`towercrane.natural.natural_frequencies` gives them."""
     console = _console()
-    tower, jib, check = report["tower"], report["jib"], report["finite_elements"]
-    printed = tower.get("published_roots", [])
-    columns = ["mode", "root", "f [Hz]", f"{check['elements']} elements [Hz]", "relative"]
-    if printed:
-        columns += ["published", "ours less published"]
-    table = _table(f"{report['name']}: tower with the slewing part on its end", *columns)
-    rows = zip(
-        tower["roots"],
-        tower["frequencies_hz"],
-        check["frequencies_hz"],
-        check["relative_difference"],
-        strict=True,
-    )
-    for i, (root, frequency, element, difference) in enumerate(rows):
-        cells = [str(i + 1), f"{root:.6f}", f"{frequency:.6f}", f"{element:.6f}", f"{difference:.1e}"]
-        if i < len(printed):
-            gap = root - printed[i]
-            cells += [f"{printed[i]:.3f}", f"{gap:+.4f}" + (" (!)" if abs(gap) > 0.005 else "")]
-        table.add_row(*cells)
-    console.print(table)
-    if any(abs(root - published) > 0.005 for root, published in zip(tower["roots"], printed, strict=False)):
-        console.print("(!) discrepancy: no mass, inertia or offset near the published data gives this root")
-    console.print(
-        f"closed form {1e3 * tower['seconds']:.3f} ms, finite elements {1e3 * check['seconds']:.1f} ms (median of 5)"
-    )
+    if "finite_elements" in report:
+        _uniform_tower(console, report)
+    else:
+        table = _table(f"{report['name']}: tower with the slewing part on its end", "mode", "frequency [Hz]")
+        for i, frequency in enumerate(report["tower"]["frequencies_hz"]):
+            table.add_row(str(i + 1), f"{frequency:.6f}")
+        console.print(table)
 
+    jib = report["jib"]
     table = _table(f"{report['name']}: jib, clamped at the tower", "mode", "root", "frequency [Hz]")
     for i, (root, frequency) in enumerate(zip(jib["roots"], jib["frequencies_hz"], strict=True)):
         table.add_row(str(i + 1), f"{root:.6f}", f"{frequency:.6f}")
@@ -88,8 +71,37 @@ def modes_tables(report: dict[str, Any]) -> None:
     _assumed(console, report["assumed"])
 
 
+def _uniform_tower(console: Console, report: dict[str, Any]) -> None:
+    """Roots and frequencies of a uniform tower beside finite elements and published roots."""
+    tower, check = report["tower"], report["finite_elements"]
+    printed = tower.get("published_roots", [])
+    columns = ["mode", "root", "f [Hz]", f"{check['elements']} elements [Hz]", "relative"]
+    if printed:
+        columns += ["published", "ours less published"]
+    table = _table(f"{report['name']}: tower with the slewing part on its end", *columns)
+    rows = zip(
+        tower["roots"],
+        tower["frequencies_hz"],
+        check["frequencies_hz"],
+        check["relative_difference"],
+        strict=True,
+    )
+    for i, (root, frequency, element, difference) in enumerate(rows):
+        cells = [str(i + 1), f"{root:.6f}", f"{frequency:.6f}", f"{element:.6f}", f"{difference:.1e}"]
+        if i < len(printed):
+            gap = root - printed[i]
+            cells += [f"{printed[i]:.3f}", f"{gap:+.4f}" + (" (!)" if abs(gap) > 0.005 else "")]
+        table.add_row(*cells)
+    console.print(table)
+    if any(abs(root - published) > 0.005 for root, published in zip(tower["roots"], printed, strict=False)):
+        console.print("(!) discrepancy: no mass, inertia or offset near the published data gives this root")
+    console.print(
+        f"closed form {1e3 * tower['seconds']:.3f} ms, finite elements {1e3 * check['seconds']:.1f} ms (median of 5)"
+    )
+
+
 def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
-    """Eigenvalues, as :func:`towercrane.natural.linear_report` gives them, without those of the drives themselves."""
+    """Eigenvalues, as :func:`towercrane.linear_report.linear_report` gives them, without those of the drives themselves."""
     console = _console()
     values = {signal["name"]: f"{signal['value']:g} {signal['units']}" for signal in report["states"]}
     where = ", ".join(f"{name} {values[name]}" for name in drives)
