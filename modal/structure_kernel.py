@@ -67,12 +67,13 @@ def _segment_stiffness(
     return count
 
 
-@kernel()
-def _assemble(
-    omega2: float, load: float, segments: Any, unknowns: Any, factors: Any, points: Any,
-    series: Any, state: Any, T: Any, piece: Any, recovery: Any, total: Any, out: Any,
-) -> int:  # fmt: skip
-    """Dynamic stiffness (n, n) of the structure into ``out``; count of fixed-end modes of all segments."""
+@kernel(types.int64(types.float64, types.float64, *_structure, _two))
+def dynamic_stiffness(
+    omega2: float, load: float, segments: Any, unknowns: Any, factors: Any, points: Any, out: Any
+) -> int:
+    """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments."""
+    series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
+    piece, recovery, total = np.zeros((4, 4)), np.zeros((2, 4)), np.zeros((4, 4))
     n = out.shape[0]
     for i in range(n):
         for j in range(n):
@@ -92,21 +93,15 @@ def _assemble(
 
 
 @kernel()
-def _spectrum(
-    x: float, by_load: bool, segments: Any, unknowns: Any, factors: Any, points: Any, scale: Any,
-    series: Any, state: Any, T: Any, piece: Any, recovery: Any, total: Any, matrix: Any, values: Any,
-) -> int:  # fmt: skip
-    """Eigenvalues (n,) of the scaled dynamic stiffness into ``values``; count of fixed-end modes."""
-    omega2, load = (0.0, x) if by_load else (x * x, 1.0)
-    inside = _assemble(
-        omega2, load, segments, unknowns, factors, points, series, state, T, piece, recovery, total, matrix
-    )
-    if inside != UNSTABLE:
-        for i in range(matrix.shape[0]):
-            for j in range(matrix.shape[0]):
-                matrix[i, j] *= scale[i] * scale[j]
-        values[:] = np.linalg.eigvalsh(matrix)
-    return int(inside)
+def _eigenvalues(matrix: Any, scale: Any, values: Any) -> None:
+    """Eigenvalues (n,) of a symmetric matrix, scaled in place, into ``values``, ascending."""
+    for i in range(matrix.shape[0]):
+        for j in range(matrix.shape[0]):
+            matrix[i, j] *= scale[i] * scale[j]
+    # Copied one by one: numba takes seconds to compile the assignment of a slice, for its error message.
+    found = np.linalg.eigvalsh(matrix)
+    for i in range(found.size):
+        values[i] = found[i]
 
 
 @kernel()
@@ -139,18 +134,6 @@ def _between(near: float, f_near: float, far: float, f_far: float, third: float,
     return min(max(x, near + margin), far - margin)
 
 
-@kernel(types.int64(types.float64, types.float64, *_structure, _two))
-def dynamic_stiffness(
-    omega2: float, load: float, segments: Any, unknowns: Any, factors: Any, points: Any, out: Any
-) -> int:
-    """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments."""
-    series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
-    piece, recovery, total = np.zeros((4, 4)), np.zeros((2, 4)), np.zeros((4, 4))
-    return int(
-        _assemble(omega2, load, segments, unknowns, factors, points, series, state, T, piece, recovery, total, out)
-    )
-
-
 @kernel(types.boolean(*_structure, types.boolean, types.float64, types.float64, _one))
 def find_roots(
     segments: Any, unknowns: Any, factors: Any, points: Any, by_load: bool, guess: float, limit: float, roots: Any
@@ -162,13 +145,13 @@ def find_roots(
     are fewer below ``limit``.
     """
     n = points.shape[1]
-    series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
-    piece, recovery, total = np.zeros((4, 4)), np.zeros((2, 4)), np.zeros((4, 4))
-    matrix, values, scale = np.zeros((n, n)), np.zeros(n), np.ones(n)
-    _assemble(0.0, 0.0, segments, unknowns, factors, points, series, state, T, piece, recovery, total, matrix)
+    matrix, values, scale = np.zeros((n, n)), np.zeros(n), np.zeros(n)
+    dynamic_stiffness(0.0, 0.0, segments, unknowns, factors, points, matrix)
     for i in range(n):
         scale[i] = 1.0 / np.sqrt(matrix[i, i])
-    low, high = np.zeros(roots.size), np.full(roots.size, np.inf)
+    low, high = np.zeros(roots.size), np.zeros(roots.size)
+    for i in range(roots.size):
+        high[i] = np.inf
 
     for k in range(1, roots.size + 1):
         near, f_near, inside_near = low[k - 1], np.inf, -1
@@ -176,12 +159,11 @@ def find_roots(
         x = max(guess, 2.0 * near) if np.isinf(far) else 0.5 * (near + far)
         third, f_third = far, f_far
         for _ in range(400):
-            inside = _spectrum(
-                x, by_load, segments, unknowns, factors, points, scale,
-                series, state, T, piece, recovery, total, matrix, values,
-            )  # fmt: skip
+            omega2, load = (0.0, x) if by_load else (x * x, 1.0)
+            inside = dynamic_stiffness(omega2, load, segments, unknowns, factors, points, matrix)
             count = inside
             if inside != UNSTABLE:
+                _eigenvalues(matrix, scale, values)
                 for i in range(n):
                     if values[i] < 0.0:
                         count += 1
@@ -250,7 +232,9 @@ def segment_shape(segment: Any, ends: Any, omega2: float, load: float, held: Any
     for p in range(pieces):
         piece_stiffness(segment, ends[p], ends[p + 1] - ends[p], omega2, load, series, state, T, stiffness[p])
         if p == 0:
-            total[:] = stiffness[0]
+            for i in range(4):
+                for j in range(4):
+                    total[i, j] = stiffness[0, i, j]
         else:
             join(total, stiffness[p], recovery[p])
     nodes[0, 0], nodes[0, 1], nodes[pieces, 0], nodes[pieces, 1] = held[0], held[1], held[2], held[3]
