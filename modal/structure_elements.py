@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.beam import EndBody
-from modal.chain import Segment
 from modal.elements import MOST_ELEMENTS, Elements, require_elements
+from modal.segment import Segment
 from modal.sparse import Entries, factorised, lowest_modes
 from modal.structure import HELD, Member, Structure, Unstable
 

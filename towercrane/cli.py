@@ -118,16 +118,19 @@ def modes(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Folder for the picture of the mode shapes.")
     ] = None,
+    actual: Annotated[
+        bool, typer.Option("--actual", help="Solve for the effect of shear, weight, ... beside its prediction.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Natural frequencies of tower, jib and crane, each beside finite elements."""
+    """Natural frequencies of tower, jib and crane, each checked a second way; what matters for them."""
     loaded = load(case, changes)
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
     announce_compilation(loaded.kind, "modal.roots")
     from towercrane.natural import natural_frequencies
 
-    report = natural_frequencies(loaded)
+    report = natural_frequencies(loaded, actual=actual)
     if out is not None:
         write(out, {"modes.png": _mode_picture(loaded)})
     if as_json:

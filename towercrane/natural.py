@@ -35,8 +35,8 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
     -------
     dict
         ``tower`` (frequencies_hz, method, seconds; of a uniform tower roots), ``jib`` (roots, frequencies_hz),
-        ``finite_elements`` of the tower (frequencies_hz, relative_difference, elements, seconds), ``effects`` of shear,
-        weight, rotary inertia and foundation, see `towercrane.effects.effects_report`, ``crane`` (a list with
+        ``finite_elements`` of the tower (frequencies_hz, relative_difference, elements, seconds), ``effects`` of
+        shear, weight, rotary inertia and foundation, see `towercrane.effects.effects_report`, ``crane`` (a list with
         trolley_position_m, frequencies_hz, swing_mode, exact_hz, relative_difference, predicted_difference; outcome
         and message where the tower buckles), ``buckling_factor`` on all weights, ``lattice`` where the case describes
         one, ``assumed``.
@@ -46,8 +46,10 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
 
     crane, count, elements = case.radial_crane(), case.modes.count, case.modes.elements
     jib = crane.jib_modes(count)
-    solve = _uniform_tower if isinstance(crane.tower, Beam) else _chain_tower
-    tower, check = solve(crane.tower, crane.end_body, count, elements)
+    if isinstance(crane.tower, Beam):
+        tower, check = _uniform_tower(crane.tower, crane.end_body, count, elements)
+    else:
+        tower, check = _chain_tower(crane.tower, crane.end_body, count, elements)
     report: dict[str, Any] = {
         "case": case.name,
         "name": crane.name,
