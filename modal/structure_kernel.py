@@ -93,11 +93,18 @@ def _assemble(
 
 @kernel()
 def _spectrum(
-    x: float, by_load: bool, segments: Any, unknowns: Any, factors: Any, points: Any, scale: Any,
-    series: Any, state: Any, T: Any, piece: Any, recovery: Any, total: Any, matrix: Any, values: Any,
+    x: float, by_load: bool, segments: Any, unknowns: Any, factors: Any, points: Any, static: Any,
+    scale: Any, series: Any, state: Any, T: Any, piece: Any, recovery: Any, total: Any, matrix: Any, values: Any,
 ) -> int:  # fmt: skip
-    """Eigenvalues (n,) of the scaled dynamic stiffness into ``values``; count of fixed-end modes."""
+    """Eigenvalues (n,) of the scaled dynamic stiffness into ``values``; count of fixed-end modes.
+
+    Every unknown is scaled by what springs, segments at rest (``static``) and bodies put on it, so that no heavy body
+    drowns the eigenvalue sought in its rounding errors; ``scale`` (n,) is scratch.
+    """
     omega2, load = (0.0, x) if by_load else (x * x, 1.0)
+    for i in range(scale.size):
+        size = static[i] + load * abs(points[GEOMETRIC, i, i]) + omega2 * points[BODIES, i, i]
+        scale[i] = 1.0 / np.sqrt(size)
     inside = _assemble(
         omega2, load, segments, unknowns, factors, points, series, state, T, piece, recovery, total, matrix
     )
@@ -164,10 +171,10 @@ def find_roots(
     n = points.shape[1]
     series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
     piece, recovery, total = np.zeros((4, 4)), np.zeros((2, 4)), np.zeros((4, 4))
-    matrix, values, scale = np.zeros((n, n)), np.zeros(n), np.ones(n)
+    matrix, values, static, scale = np.zeros((n, n)), np.zeros(n), np.zeros(n), np.zeros(n)
     _assemble(0.0, 0.0, segments, unknowns, factors, points, series, state, T, piece, recovery, total, matrix)
     for i in range(n):
-        scale[i] = 1.0 / np.sqrt(matrix[i, i])
+        static[i] = matrix[i, i]
     low, high = np.zeros(roots.size), np.full(roots.size, np.inf)
 
     for k in range(1, roots.size + 1):
@@ -177,8 +184,8 @@ def find_roots(
         third, f_third = far, f_far
         for _ in range(400):
             inside = _spectrum(
-                x, by_load, segments, unknowns, factors, points, scale,
-                series, state, T, piece, recovery, total, matrix, values,
+                x, by_load, segments, unknowns, factors, points, static,
+                scale, series, state, T, piece, recovery, total, matrix, values,
             )  # fmt: skip
             count = inside
             if inside != UNSTABLE:
