@@ -207,9 +207,13 @@ class Structure:
     def _count(self, omega2: float, load: float) -> int:
         from modal.structure_kernel import dynamic_stiffness
 
-        matrix = np.zeros((len(self.unknowns), len(self.unknowns)))
+        n = len(self.unknowns)
+        static, matrix = np.zeros((n, n)), np.zeros((n, n))
+        dynamic_stiffness(0.0, 0.0, *self.arrays, static)
         inside = dynamic_stiffness(omega2, load, *self.arrays, matrix)
-        scale = 1.0 / np.sqrt(np.maximum(np.abs(np.diag(matrix)), 1e-300))
+        _, geometric, bodies = self.arrays[-1]
+        # Heavy bodies are scaled down, or their rounding errors would drown light ones.
+        scale = 1.0 / np.sqrt(np.diag(static) + load * np.abs(np.diag(geometric)) + omega2 * np.diag(bodies))
         return int(inside) + int((np.linalg.eigvalsh(matrix * np.outer(scale, scale)) < 0.0).sum())
 
     def angular_frequencies(self, count: int) -> Floats:
