@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from towercrane.schema_towers import BeamChoice, Lattice, Section, Tower, TowerSegment
 
 TAPER_POWERS = {"legs": (0.0, 2.0, 0.0), "wedge": (1.0, 3.0, 1.0), "cone": (2.0, 4.0, 2.0)}
-"""Powers of the breadth that mass, bending and shear stiffness go with: four legs that draw together, a plate whose
-depth tapers, a solid section that tapers both ways."""
+"""Powers of the breadth that mass, bending and shear stiffness go with: four legs that draw together, whose lacing is
+taken to stay as stiff in shear; a plate whose depth tapers; a solid section that tapers both ways."""
 
 
 def tower_of(crane: Crane) -> Beam | Chain:
