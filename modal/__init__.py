@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from modal.chain import Chain, Foundation, Pendulum, Segment
     from modal.crane_frame import CraneFrame, crane_structure
     from modal.lattice import LacedColumn
+    from modal.lattice_comparison import LatticeAnswers, LatticeModel, compare_lattice_models
     from modal.roots import characteristic_roots
     from modal.shapes import Modes, cantilever_modes
     from modal.structure import Structure, Unstable, chain_frequencies, chain_structure
@@ -18,14 +19,19 @@ if TYPE_CHECKING:
         finite_element_frequencies,
         finite_element_structure_frequencies,
     )
+    from modal.truss import ColumnTruss, Mechanism
 
 __all__ = [
     "Beam",
     "Chain",
+    "ColumnTruss",
     "CraneFrame",
     "EndBody",
     "Foundation",
     "LacedColumn",
+    "LatticeAnswers",
+    "LatticeModel",
+    "Mechanism",
     "Modes",
     "Pendulum",
     "Segment",
@@ -36,6 +42,7 @@ __all__ = [
     "chain_frequencies",
     "chain_structure",
     "characteristic_roots",
+    "compare_lattice_models",
     "crane_structure",
     "finite_element_frequencies",
     "finite_element_structure_frequencies",
@@ -44,10 +51,14 @@ __all__ = [
 _HOME = {
     "Beam": "beam",
     "Chain": "chain",
+    "ColumnTruss": "truss",
     "CraneFrame": "crane_frame",
     "EndBody": "beam",
     "Foundation": "chain",
     "LacedColumn": "lattice",
+    "LatticeAnswers": "lattice_comparison",
+    "LatticeModel": "lattice_comparison",
+    "Mechanism": "truss",
     "Modes": "shapes",
     "Pendulum": "chain",
     "Segment": "chain",
@@ -58,6 +69,7 @@ _HOME = {
     "chain_frequencies": "structure",
     "chain_structure": "structure",
     "characteristic_roots": "roots",
+    "compare_lattice_models": "lattice_comparison",
     "crane_structure": "crane_frame",
     "finite_element_frequencies": "structure_elements",
     "finite_element_structure_frequencies": "structure_elements",

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modal.clock import timed
 from towercrane.models import model_of, radial_model
 from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from modal import LacedColumn, Structure
     from towercrane.case import Case
     from towercrane.cranes.tower_crane import TowerCrane
@@ -45,9 +43,9 @@ def natural_frequencies(case: Case) -> dict[str, Any]:
     modes = cantilever_modes(crane.tower, count, crane.end_body)
     tower, body = crane.tower, crane.end_body
     ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
-    _, seconds = _timed(lambda: characteristic_roots(*ratios, count))
+    _, seconds = timed(lambda: characteristic_roots(*ratios, count))
     jib = cantilever_modes(crane.jib, count)
-    checked, check_seconds = _timed(
+    checked, check_seconds = timed(
         lambda: finite_element_frequencies(crane.tower, count, crane.end_body, elements=elements)
     )
     report: dict[str, Any] = {
@@ -132,17 +130,6 @@ def _lattice(column: LacedColumn, height: float) -> dict[str, dict[str, Any]]:
         "equivalent_second_moment_of_area": column.equivalent_second_moment_of_area(height),
     }
     return {name: dataclasses.asdict(found) for name, found in properties.items()}
-
-
-def _timed(function: Callable[[], Any], repeats: int = 5) -> tuple[Any, float]:
-    """Result and median time of a few calls [s]; the first, which loads code, is not counted."""
-    result = function()
-    seconds = []
-    for _ in range(repeats):
-        began = time.perf_counter()
-        function()
-        seconds.append(time.perf_counter() - began)
-    return result, float(np.median(seconds))
 
 
 def linear_model(case: Case, at: float) -> StateSpace:
