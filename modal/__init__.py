@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from modal.chain import Chain, Foundation, Pendulum
     from modal.crane_frame import CraneFrame, crane_structure
     from modal.lattice import LacedColumn
+    from modal.lattice_comparison import LatticeAnswers, LatticeModel, compare_lattice_models
     from modal.roots import characteristic_roots
     from modal.segment import Segment
     from modal.shapes import Modes, cantilever_modes
@@ -19,14 +20,19 @@ if TYPE_CHECKING:
         finite_element_frequencies,
         finite_element_structure_frequencies,
     )
+    from modal.truss import ColumnTruss, Mechanism
 
 __all__ = [
     "Beam",
     "Chain",
+    "ColumnTruss",
     "CraneFrame",
     "EndBody",
     "Foundation",
     "LacedColumn",
+    "LatticeAnswers",
+    "LatticeModel",
+    "Mechanism",
     "Modes",
     "Pendulum",
     "Segment",
@@ -37,6 +43,7 @@ __all__ = [
     "chain_frequencies",
     "chain_structure",
     "characteristic_roots",
+    "compare_lattice_models",
     "crane_structure",
     "finite_element_frequencies",
     "finite_element_structure_frequencies",
@@ -45,10 +52,14 @@ __all__ = [
 _HOME = {
     "Beam": "beam",
     "Chain": "chain",
+    "ColumnTruss": "truss",
     "CraneFrame": "crane_frame",
     "EndBody": "beam",
     "Foundation": "chain",
     "LacedColumn": "lattice",
+    "LatticeAnswers": "lattice_comparison",
+    "LatticeModel": "lattice_comparison",
+    "Mechanism": "truss",
     "Modes": "shapes",
     "Pendulum": "chain",
     "Segment": "segment",
@@ -59,6 +70,7 @@ _HOME = {
     "chain_frequencies": "structure",
     "chain_structure": "structure",
     "characteristic_roots": "roots",
+    "compare_lattice_models": "lattice_comparison",
     "crane_structure": "crane_frame",
     "finite_element_frequencies": "structure_elements",
     "finite_element_structure_frequencies": "structure_elements",

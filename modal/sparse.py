@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 ROUNDING = 1e-14
 """What a pivot keeps of its diagonal entry where only rounding keeps it from zero."""
 
+FEW = 16
+"""Unknowns of which so few are left over by a search for some modes that all are found at once."""
+
 
 class Entries:
     """Entries of a sparse matrix, element by element."""
@@ -48,8 +51,8 @@ class Entries:
         return found + csc_array(coo_array((points[i, j], (i, j)), shape=(size, size)))
 
 
-def factorised(matrix: Any) -> Callable[[Floats], Floats] | None:
-    """Solver of a sparse symmetric matrix; None where that is not positive definite beyond rounding."""
+def factorised(matrix: Any) -> Callable[[Any], Any] | None:
+    """Solver of a sparse symmetric or Hermitian matrix; None where it is not positive definite beyond rounding."""
     from scipy.sparse import csc_array
     from scipy.sparse.linalg import splu
 
@@ -62,11 +65,11 @@ def factorised(matrix: Any) -> Callable[[Floats], Floats] | None:
     least = np.empty(matrix.shape[0])
     least[factor.perm_c] = ROUNDING * np.abs(matrix.diagonal())
     kept = (factor.perm_r == factor.perm_c).all()
-    return factor.solve if kept and (factor.U.diagonal() > least).all() else None
+    return factor.solve if kept and (factor.U.diagonal().real > least).all() else None
 
 
 def lowest_modes(
-    stiffness: Any, mass: Any, count: int, solve: Callable[[Floats], Floats]
+    stiffness: Any, mass: Any, count: int, solve: Callable[[Any], Any]
 ) -> tuple[Floats, NDArray[np.inexact[Any]]]:
     """Lowest eigenvalues of a stiffness and a mass matrix and their vectors of unit mass, by inversion.
 
@@ -89,6 +92,7 @@ def lowest_modes(
     ValueError
         If the count is negative or not less than that.
     """
+    from scipy.linalg import eigh
     from scipy.sparse.linalg import LinearOperator, eigsh
 
     moved = int(np.count_nonzero(mass.diagonal()))
@@ -98,6 +102,10 @@ def lowest_modes(
         raise ValueError(f"count: wanted less than the {moved} unknowns of the mesh that have mass, got {count!r}")
     if count == 0:
         return np.empty(0), np.empty((stiffness.shape[0], 0))
+    if count > 0.5 * stiffness.shape[0] or stiffness.shape[0] < FEW:
+        values, vectors = eigh(mass.toarray(), stiffness.toarray())
+        values, vectors = values[: -count - 1 : -1], vectors[:, : -count - 1 : -1]
+        return 1.0 / values, vectors / np.sqrt(values)
     # The inverse makes the lowest eigenvalues the largest and keeps them accurate, where a factorisation of
     # the mass matrix would drown them in the rounding of the highest. A fixed start makes results repeatable.
     inverse = LinearOperator(stiffness.shape, solve, dtype=stiffness.dtype)

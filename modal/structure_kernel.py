@@ -163,8 +163,8 @@ def find_roots(
             inside = dynamic_stiffness(omega2, load, segments, unknowns, factors, points, matrix)
             count = inside
             if inside != UNSTABLE:
-                # Every unknown is scaled by what springs, segments at rest and bodies put on it, so that no heavy body
-                # drowns the eigenvalue sought in its rounding errors.
+                # Every unknown is scaled by what springs, segments at rest and bodies put on it, so that no heavy
+                # body drowns the eigenvalue sought in its rounding errors.
                 for i in range(n):
                     size = static[i] + load * abs(points[GEOMETRIC, i, i]) + omega2 * points[BODIES, i, i]
                     scale[i] = 1.0 / np.sqrt(size)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from towercrane.lattice_command import lattice
 from towercrane.studies import linearise, sensitivity
 from towercrane.terminal import (
     ENDED_EARLY,
@@ -274,6 +275,7 @@ def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Datase
         return simulate(case, progress=lambda time: bar.update(task, completed=time))
 
 
+app.command()(lattice)
 app.command()(linearise)
 app.command()(sensitivity)
 

@@ -69,7 +69,7 @@ def effects_in(case: Case) -> Effects:
     crane, tolerance = case.crane, case.accuracy.frequency
     written = tower_of(crane)
     described, head = as_chain(written), case.crane_on(written).end_body
-    known = replace(with_end_body(_with_lattice_shear(case, described), head), gravity=crane.gravity)
+    known = replace(with_end_body(_with_lattice(case, described), head), gravity=crane.gravity)
     above = crane.trolley.mass + case.payload.mass
     plain = structure_modes(chain_structure(keeping(known, ())), case.modes.count)
     found = influence(plain, known, above)
@@ -94,14 +94,16 @@ def kept_tower(case: Case) -> Beam | Chain:
     return keeping(tower, effects_in(case).kept)
 
 
-def _with_lattice_shear(case: Case, tower: Chain) -> Chain:
-    """The tower with the shear of its lattice where only the lattice beside the stated beam tells it."""
+def _with_lattice(case: Case, tower: Chain) -> Chain:
+    """The tower with shear and rotary inertia of a lattice that stands beside its stated beam."""
     crane, (segment, *others) = case.crane, tower.segments
     lattice, modulus = crane.tower.lattice, crane.tower.youngs_modulus
-    if others or lattice is None or modulus is None or not isinf(segment.shear_stiffness):
+    if others or lattice is None or modulus is None:
         return tower
-    stiffness = laced_column(lattice, modulus).shear_stiffness.value
-    return replace(tower, segments=(replace(segment, shear_stiffness=stiffness),))
+    laced = laced_column(lattice, modulus).segment(segment.length, segment.mass_per_length)
+    shear = laced.shear_stiffness if isinf(segment.shear_stiffness) else segment.shear_stiffness
+    rotary = segment.rotary_inertia or laced.rotary_inertia
+    return replace(tower, segments=(replace(segment, shear_stiffness=shear, rotary_inertia=rotary),))
 
 
 def effects_report(effects: Effects, *, actual: bool = False) -> dict[str, Any]:

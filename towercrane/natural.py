@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modal.clock import timed
 from towercrane.models import radial_model
 from towercrane.system import NoEquilibrium
 
@@ -77,7 +77,7 @@ def _uniform_tower(tower: Beam, body: EndBody, count: int, elements: int) -> tup
     from modal import characteristic_roots, finite_element_frequencies
 
     ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
-    roots, seconds = _timed(lambda: characteristic_roots(*ratios, count))
+    roots, seconds = timed(lambda: characteristic_roots(*ratios, count))
     exact = (roots / tower.length) ** 2 * np.sqrt(tower.bending_stiffness / tower.mass_per_length)
     found = {"frequencies_hz": (exact / (2 * np.pi)).tolist(), "roots": roots.tolist()}
     checked = _checked(lambda: finite_element_frequencies(tower, count, body, elements=elements), exact, elements)
@@ -90,7 +90,7 @@ def _chain_tower(tower: Chain, body: EndBody, count: int, elements: int) -> tupl
     from towercrane.towers import with_end_body
 
     whole = with_end_body(tower, body)
-    exact, seconds = _timed(lambda: chain_frequencies(whole, count))
+    exact, seconds = timed(lambda: chain_frequencies(whole, count))
     structure = chain_structure(whole)
     checked = _checked(
         lambda: finite_element_structure_frequencies(structure, count, elements=elements), exact, elements
@@ -100,7 +100,7 @@ def _chain_tower(tower: Chain, body: EndBody, count: int, elements: int) -> tupl
 
 
 def _checked(solve: Callable[[], Any], exact: Any, elements: int) -> dict[str, Any]:
-    frequencies, seconds = _timed(solve)
+    frequencies, seconds = timed(solve)
     return {
         "frequencies_hz": (frequencies / (2 * np.pi)).tolist(),
         "relative_difference": (frequencies / exact - 1.0).tolist(),
@@ -152,14 +152,3 @@ def _lattice(column: LacedColumn, height: float) -> dict[str, dict[str, Any]]:
         "equivalent_second_moment_of_area": column.equivalent_second_moment_of_area(height),
     }
     return {name: dataclasses.asdict(found) for name, found in properties.items()}
-
-
-def _timed(function: Callable[[], Any], repeats: int = 5) -> tuple[Any, float]:
-    """Result and median time of a few calls [s]; the first, which loads code, is not counted."""
-    result = function()
-    seconds = []
-    for _ in range(repeats):
-        began = time.perf_counter()
-        function()
-        seconds.append(time.perf_counter() - began)
-    return result, float(np.median(seconds))

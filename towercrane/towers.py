@@ -42,8 +42,10 @@ def tower_of(crane: Crane) -> Beam | Chain:
     plain = segments[0].shear_stiffness == inf and segments[0].rotary_inertia == 0.0
     if tower.segments or tower.bodies or foundation != Foundation() or not plain:
         return chain
-    modulus, inertia, _ = _stiffness(tower, pieces[0])
-    return Beam(pieces[0].length, pieces[0].mass_per_length, modulus, inertia)
+    modulus = tower.youngs_modulus
+    assert modulus is not None, "the file is checked to give one"
+    stiffness = segments[0].bending_stiffness
+    return Beam(segments[0].length, segments[0].mass_per_length, modulus, stiffness / modulus)
 
 
 def beam_choice(tower: Tower, section: Section) -> BeamChoice:
@@ -61,31 +63,21 @@ def laced_column(lattice: Lattice, youngs_modulus: float) -> LacedColumn:
     return LacedColumn(**dict(lattice), youngs_modulus=youngs_modulus)
 
 
-def _stiffness(tower: Tower, piece: TowerSegment) -> tuple[float, float, float]:
-    """Modulus [Pa], second moment of area [m^4] and shear stiffness [N] at the foot of a piece."""
+def _segment(tower: Tower, piece: TowerSegment) -> Segment:
+    """A piece of the tower as a segment, its beam stated or that of its lattice."""
     modulus, choice = piece.youngs_modulus or tower.youngs_modulus, beam_choice(tower, piece)
     assert modulus is not None, "the file is checked to give one"
+    taper = (piece.top_breadth_ratio, *TAPER_POWERS[piece.taper])
     if piece.lattice is None or choice == "stated":
         assert piece.second_moment_of_area is not None, "the file is checked to give one"
-        return modulus, piece.second_moment_of_area, piece.shear_stiffness
-    column = laced_column(piece.lattice, modulus)
-    if choice == "code-equivalent":
-        return modulus, column.equivalent_second_moment_of_area(piece.length).value, inf
-    inertia = column.chord_second_moment_of_area.value * column.stiffening_factor.value
-    return modulus, inertia, column.shear_stiffness.value if choice == "shear-flexible" else inf
-
-
-def _segment(tower: Tower, piece: TowerSegment) -> Segment:
-    modulus, inertia, shear_stiffness = _stiffness(tower, piece)
-    return Segment(
-        piece.length,
-        piece.mass_per_length,
-        modulus * inertia,
-        shear_stiffness,
-        piece.rotary_inertia_per_length,
-        piece.top_breadth_ratio,
-        *TAPER_POWERS[piece.taper],
-    )
+        stiffness, shear = modulus * piece.second_moment_of_area, piece.shear_stiffness
+        rotary = piece.rotary_inertia_per_length
+        return Segment(piece.length, piece.mass_per_length, stiffness, shear, rotary, *taper)
+    laced = laced_column(piece.lattice, modulus).segment(piece.length, piece.mass_per_length, choice)
+    values = dict(zip(("end_ratio", "mass_power", "bending_power", "shear_power"), taper, strict=True))
+    if piece.rotary_inertia_per_length:
+        values["rotary_inertia"] = piece.rotary_inertia_per_length
+    return replace(laced, **values)
 
 
 def crane_frame(case: Case, *, weight: bool = False) -> CraneFrame:
