@@ -26,9 +26,9 @@ class Entries:
     """Entries of a sparse matrix, element by element."""
 
     def __init__(self) -> None:
-        self._values: list[Floats] = []
-        self._rows: list[NDArray[np.int64]] = []
-        self._columns: list[NDArray[np.int64]] = []
+        self._values: list[Floats] = [np.empty(0)]
+        self._rows: list[NDArray[np.int64]] = [np.empty(0, dtype=np.int64)]
+        self._columns: list[NDArray[np.int64]] = [np.empty(0, dtype=np.int64)]
 
     def add(self, matrices: Floats, unknowns: NDArray[np.int64], factors: Floats) -> None:
         """Add element matrices (n, k, k) whose unknowns follow those of the structure (n, k), times factors."""

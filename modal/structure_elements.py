@@ -93,13 +93,20 @@ class StructureElements:
             # A rigid motion of the whole element strains nothing: what is left is the far end's part.
             elastic[:, :2], elastic[:, :, :2] = 0.0, 0.0
             close.add(elastic[follows], unknowns[follows], factors[follows])
-            geometric.add(elements.geometric(), unknowns, factors)
+            if any(member.compression or member.gravity for member in elements.members):
+                geometric.add(elements.geometric(), unknowns, factors)
             mass.add(elements.mass(), unknowns, factors)
         self._absolute = csc_array(block_diag([absolute, eye_array(size - len(absolute))]))
-        to, points = self._absolute, self.structure
-        self._stiffness = csc_array(to.T @ stiffness.matrix(size, points.springs) @ to + close.matrix(size))
-        self._geometric = csc_array(to.T @ geometric.matrix(size, points.geometric) @ to)
-        self._mass = csc_array(to.T @ mass.matrix(size, points.bodies) @ to)
+        found = (
+            stiffness.matrix(size, self.structure.springs),
+            geometric.matrix(size, self.structure.geometric),
+            mass.matrix(size, self.structure.bodies),
+        )
+        if rigid:
+            to = self._absolute
+            found = tuple(csc_array(to.T @ matrix @ to) for matrix in found)
+        self._stiffness, self._geometric, self._mass = found
+        self._stiffness += close.matrix(size)
 
     @cached_property
     def _solve(self) -> Callable[[Floats], Floats]:
