@@ -37,11 +37,12 @@ REACH = 3.0
 JOINT_REACH = 3.6
 """The same for the wave number that all effects give together, on which the Taylor series' convergence hangs [rad^2]."""
 
-TAPER = 0.15
-"""Largest change of breadth over one piece, relative."""
+TAPER = 0.1
+"""Change of breadth over one piece, relative; up to one and a half times as much in the last of a segment."""
 
-LEAST_SHEAR = 1e-6
-"""Part of the shear stiffness that compression must leave (Engesser); with less a segment counts as unstable."""
+LEAST_SHEAR = 1e-4
+"""Part of the shear stiffness that compression must leave (Engesser); with less a segment counts as unstable: the
+number of pieces grows without bound towards none."""
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 
@@ -81,7 +82,6 @@ def pieces_within(segment: Any, near: float, far: float, omega2: float, load: fl
     if segment[ENGESSER] != 0.0:
         if least < LEAST_SHEAR:
             return 0
-        force /= least
         flexibility /= least
         # 1 / (1 - P/S) must vary little along a piece as well.
         change = abs(load) * segment[WEIGHT] * mass * (far - near) * segment[SHEAR_FLEXIBILITY]
@@ -100,12 +100,15 @@ def pieces_within(segment: Any, near: float, far: float, omega2: float, load: fl
 
 @kernel(types.float64(_one, types.float64))
 def cell_end(segment: Any, near: float) -> float:
-    """Far end of the cell that starts at a distance: breadth changes by no more than `TAPER` in it."""
+    """Far end of the cell that starts at a distance: breadth changes by about `TAPER` in it.
+
+    What is left of a segment is never a sliver, whose stiffness would drown all else in rounding errors.
+    """
     slope = (segment[RATIO] - 1.0) / segment[LENGTH]
     if slope == 0.0:
         return float(segment[LENGTH])
     far = near + TAPER * (1.0 + slope * near) / abs(slope)
-    return float(segment[LENGTH] if far > segment[LENGTH] * (1.0 - 1e-3 * TAPER) else far)
+    return float(segment[LENGTH] if far + 0.5 * (far - near) > segment[LENGTH] else far)
 
 
 @kernel()

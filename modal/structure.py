@@ -202,7 +202,7 @@ class Structure:
 
     def count_below(self, angular_frequency: float) -> int:
         """Number of natural frequencies below one [rad/s], each with its multiplicity."""
-        return self._count((angular_frequency / self.units[2]) ** 2, 1.0)
+        return self.refined(angular_frequency)._count((angular_frequency / self.units[2]) ** 2, 1.0)
 
     def _count(self, omega2: float, load: float) -> int:
         from modal.structure_kernel import dynamic_stiffness
@@ -218,6 +218,11 @@ class Structure:
 
     def angular_frequencies(self, count: int) -> Floats:
         """Lowest natural angular frequencies [rad/s], ascending, each as often as it is one; shape (count,).
+
+        Against 60-digit arithmetic the relative error is 1e-15 as a rule. A frequency at a relative distance d from a
+        fixed-end one of some part of a member loses more, about 1e-16 / d: the worst of 60 modes of a cantilever has
+        5e-11. So does the slow mode of a structure on springs that are softer than its beams by a factor d, or on a
+        body whose ``mass offset^2`` is 1/d times all other inertia.
 
         Raises
         ------
