@@ -29,13 +29,13 @@ times the mass passed is taken away along the segment; both are multiplied by th
 PROPERTIES = 12
 
 TERMS = 22
-"""Terms of the Taylor series: with the pieces cut as below, what is left out is a rounding error, 1e-16 of a stiffness."""
+"""Terms of the Taylor series: with the pieces cut as below, what is left out is a rounding error."""
 
 REACH = 3.0
 """Largest square of a piece's length in waves [rad^2]; all bounds of `pieces_within` together then stay below one."""
 
 JOINT_REACH = 3.6
-"""The same for the wave number that all effects give together, on which the Taylor series' convergence hangs [rad^2]."""
+"""The same for the wave number that all effects give together, on which the series' convergence hangs [rad^2]."""
 
 TAPER = 0.1
 """Change of breadth over one piece, relative; up to one and a half times as much in the last of a segment."""
