@@ -36,11 +36,12 @@ REACH = 3.0
 JOINT_REACH = 3.6
 """The same for the wave number that all effects give together, on which the series' convergence hangs [rad^2]."""
 
-TAPER = 0.15
-"""Largest change of breadth over one piece, relative."""
+TAPER = 0.1
+"""Change of breadth over one piece, relative; up to one and a half times as much in the last of a segment."""
 
-LEAST_SHEAR = 1e-6
-"""Part of the shear stiffness that compression must leave (Engesser); with less a segment counts as unstable."""
+LEAST_SHEAR = 1e-4
+"""Part of the shear stiffness that compression must leave (Engesser); with less a segment counts as unstable: the
+number of pieces grows without bound towards none."""
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 
@@ -80,7 +81,6 @@ def pieces_within(segment: Any, near: float, far: float, omega2: float, load: fl
     if segment[ENGESSER] != 0.0:
         if least < LEAST_SHEAR:
             return 0
-        force /= least
         flexibility /= least
         # 1 / (1 - P/S) must vary little along a piece as well.
         change = abs(load) * segment[WEIGHT] * mass * (far - near) * segment[SHEAR_FLEXIBILITY]
@@ -99,12 +99,15 @@ def pieces_within(segment: Any, near: float, far: float, omega2: float, load: fl
 
 @kernel(types.float64(_one, types.float64))
 def cell_end(segment: Any, near: float) -> float:
-    """Far end of the cell that starts at a distance: breadth changes by no more than `TAPER` in it."""
+    """Far end of the cell that starts at a distance: breadth changes by about `TAPER` in it.
+
+    What is left of a segment is never a sliver, whose stiffness would drown all else in rounding errors.
+    """
     slope = (segment[RATIO] - 1.0) / segment[LENGTH]
     if slope == 0.0:
         return float(segment[LENGTH])
     far = near + TAPER * (1.0 + slope * near) / abs(slope)
-    return float(segment[LENGTH] if far > segment[LENGTH] * (1.0 - 1e-3 * TAPER) else far)
+    return float(segment[LENGTH] if far + 0.5 * (far - near) > segment[LENGTH] else far)
 
 
 @kernel()
@@ -228,8 +231,8 @@ def relative_stiffness(
             for k in range(TERMS, 0, -1):
                 total += state[k, i]
             T[i, column] = total
-    # Departure d' = E d + F p, far forces p' = G d + (R^-T + H) p with the near motion d and the near forces p; R moves
-    # the far end rigidly. F is the block above right, inverted here.
+    # Departure d' = E d + F p, far forces p' = G d + (R^-T + H) p with the near motion d and the near forces p; R
+    # moves the far end rigidly. F is the block above right, inverted here.
     determinant = T[0, 2] * T[1, 3] - T[0, 3] * T[1, 2]
     i00, i01 = T[1, 3] / determinant, -T[0, 3] / determinant
     i10, i11 = -T[1, 2] / determinant, T[0, 2] / determinant

@@ -2,7 +2,8 @@
 
 Kernels take a structure as three arrays: ``segments`` (s, 13), properties of `modal.stiffness`; ``motions``
 (s, 4, n), how (v, theta) of a segment's near and far end follow the n unknowns; ``points`` (3, n, n), stiffness of
-springs, geometric stiffness of bodies under unit load (to be taken away), mass of bodies. A circular frequency and a load factor say which dynamic stiffness is meant.
+springs, geometric stiffness of bodies under unit load (to be taken away), mass of bodies. A circular frequency and a
+load factor say which dynamic stiffness is meant.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ def _segment_stiffness(
     uniform = segment[RATIO] == 1.0 and load * segment[WEIGHT] == 0.0
     while near < segment[LENGTH]:
         far = cell_end(segment, near)
-        pieces = pieces_within(segment, near, far, omega2, load)
+        pieces = 1 if segment[SHORT] != 0.0 else pieces_within(segment, near, far, omega2, load)
         if pieces == 0:
             return UNSTABLE
         length = (far - near) / pieces
@@ -74,9 +75,7 @@ def _segment_stiffness(
 
 
 @kernel(types.int64(types.float64, types.float64, *_structure, _two))
-def dynamic_stiffness(
-    omega2: float, load: float, segments: Any, motions: Any, points: Any, out: Any
-) -> int:
+def dynamic_stiffness(omega2: float, load: float, segments: Any, motions: Any, points: Any, out: Any) -> int:
     """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments."""
     series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
     piece, recovery, total = np.zeros((4, 4)), np.zeros((2, 4)), np.zeros((4, 4))
@@ -274,7 +273,7 @@ def segment_shape(segment: Any, ends: Any, omega2: float, load: float, held: Any
         if segment[SHORT] == 0.0:
             departure[0] -= nodes[p, 0] + length * nodes[p, 1]
             departure[1] -= nodes[p, 1]
-        # Force on the far end, then on the near end with the far one held: what the state begins with counts negative.
+        # Force on the far end, then on the near end with the far one held, with which the state begins, negative.
         K = relative[p]
         far_force, far_moment, force, moment = 0.0, 0.0, 0.0, 0.0
         for j in range(2):
