@@ -49,6 +49,8 @@ TABLE_REACH = 0.04
 class RadialModel:
     """Equations of motion in chosen coordinates: any numbers of tower and jib modes, 0 meaning rigid.
 
+    The counter-jib is rigid, also where a case gives it a bending stiffness for the exact frequencies of the crane.
+
     Parameters
     ----------
     crane : TowerCrane
