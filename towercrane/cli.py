@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from towercrane.map_command import frequency_map
 from towercrane.studies import linearise, sensitivity
 from towercrane.terminal import (
     ENDED_EARLY,
@@ -274,6 +275,7 @@ def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Datase
 
 
 app.command()(linearise)
+app.command("map")(frequency_map)
 app.command()(sensitivity)
 
 
