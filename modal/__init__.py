@@ -1,4 +1,4 @@
-"""Natural frequencies and mode shapes of beams, lattice columns and plane frames of two beams."""
+"""Natural frequencies and mode shapes of beams, lattice columns and plane frames."""
 
 from __future__ import annotations
 
@@ -7,55 +7,73 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from modal.beam import Beam, EndBody
-    from modal.chain import Chain, Foundation, Pendulum, Segment
+    from modal.chain import Chain, Foundation, Pendulum
     from modal.crane_frame import CraneFrame, crane_structure
-    from modal.elements import finite_element_frequencies
-    from modal.frame import frame_frequencies
     from modal.lattice import LacedColumn
+    from modal.lattice_comparison import LatticeAnswers, LatticeModel, compare_lattice_models
     from modal.roots import characteristic_roots
+    from modal.segment import Segment
     from modal.shapes import Modes, cantilever_modes
     from modal.structure import Structure, Unstable, chain_frequencies, chain_structure
+    from modal.structure_elements import (
+        StructureElements,
+        finite_element_frequencies,
+        finite_element_structure_frequencies,
+    )
+    from modal.truss import ColumnTruss, Mechanism
 
 __all__ = [
     "Beam",
     "Chain",
+    "ColumnTruss",
     "CraneFrame",
     "EndBody",
     "Foundation",
     "LacedColumn",
+    "LatticeAnswers",
+    "LatticeModel",
+    "Mechanism",
     "Modes",
     "Pendulum",
     "Segment",
     "Structure",
+    "StructureElements",
     "Unstable",
     "cantilever_modes",
     "chain_frequencies",
     "chain_structure",
     "characteristic_roots",
+    "compare_lattice_models",
     "crane_structure",
     "finite_element_frequencies",
-    "frame_frequencies",
+    "finite_element_structure_frequencies",
 ]
 
 _HOME = {
     "Beam": "beam",
     "Chain": "chain",
+    "ColumnTruss": "truss",
     "CraneFrame": "crane_frame",
     "EndBody": "beam",
     "Foundation": "chain",
     "LacedColumn": "lattice",
+    "LatticeAnswers": "lattice_comparison",
+    "LatticeModel": "lattice_comparison",
+    "Mechanism": "truss",
     "Modes": "shapes",
     "Pendulum": "chain",
-    "Segment": "chain",
+    "Segment": "segment",
     "Structure": "structure",
+    "StructureElements": "structure_elements",
     "Unstable": "structure",
     "cantilever_modes": "shapes",
     "chain_frequencies": "structure",
     "chain_structure": "structure",
     "characteristic_roots": "roots",
+    "compare_lattice_models": "lattice_comparison",
     "crane_structure": "crane_frame",
-    "finite_element_frequencies": "elements",
-    "frame_frequencies": "frame",
+    "finite_element_frequencies": "structure_elements",
+    "finite_element_structure_frequencies": "structure_elements",
 }
 
 

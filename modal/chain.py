@@ -6,104 +6,19 @@ from dataclasses import dataclass, field, replace
 from math import inf
 from typing import TYPE_CHECKING, Literal, get_args
 
+import numpy as np
+
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
     from modal.beam import EndBody
+    from modal.segment import Segment
+
+    Floats = NDArray[np.float64]
 
 ShearTheory = Literal["haringx", "engesser"]
-
-
-@dataclass(frozen=True, slots=True)
-class Segment:
-    """Straight piece of a beam, uniform or with a breadth that changes linearly along it.
-
-    With the ratio r of the breadth at the far end to that at the near end, every property p of the section is
-    ``p (1 + (r - 1) z / length)^power`` at the distance z from the near end.
-
-    Parameters
-    ----------
-    length : float
-        Length [m].
-    mass_per_length : float
-        Mass per unit length at the near end [kg/m].
-    bending_stiffness : float
-        Bending stiffness E I at the near end [N m^2].
-    shear_stiffness : float
-        Shear stiffness S at the near end, including any shear factor [N]; ``inf``: no shear strain.
-    rotary_inertia : float
-        Moment of inertia of the section per unit length, rho I, at the near end [kg m].
-    end_ratio : float
-        Breadth at the far end over that at the near end [1]; 1 is uniform.
-    mass_power, bending_power, shear_power : float
-        Powers of the breadth [1]: 1 and 3 for a wedge, 2 and 4 for a cone, 0 and 2 for four legs that draw
-        together. The rotary inertia goes with the bending stiffness.
-
-    Raises
-    ------
-    ValueError
-        If a value is out of range or not a number.
-    """
-
-    length: float
-    mass_per_length: float
-    bending_stiffness: float
-    shear_stiffness: float = inf
-    rotary_inertia: float = 0.0
-    end_ratio: float = 1.0
-    mass_power: float = 0.0
-    bending_power: float = 2.0
-    shear_power: float = 0.0
-
-    def __post_init__(self) -> None:
-        for name in ("length", "mass_per_length", "bending_stiffness", "end_ratio"):
-            value = getattr(self, name)
-            if not 0.0 < value < inf:
-                raise ValueError(f"Segment.{name}: wanted a positive finite number, got {value!r}")
-        if not self.shear_stiffness > 0.0:
-            raise ValueError(f"Segment.shear_stiffness: wanted a positive number, got {self.shear_stiffness!r}")
-        for name in ("rotary_inertia", "mass_power", "bending_power", "shear_power"):
-            value = getattr(self, name)
-            if not 0.0 <= value < inf:
-                raise ValueError(f"Segment.{name}: wanted a finite number, zero or more, got {value!r}")
-
-    @property
-    def mass(self) -> float:
-        """Total mass [kg]."""
-        return self.mass_within(0.0, self.length)
-
-    def mass_within(self, near: float, far: float) -> float:
-        """Mass between two distances from the near end [kg]."""
-        slope, power = (self.end_ratio - 1.0) / self.length, self.mass_power
-        if abs(slope) * self.length < 1e-12 or power == 0.0:
-            return self.mass_per_length * (far - near)
-        ends = [(1.0 + slope * z) ** (power + 1.0) for z in (near, far)]
-        return float(self.mass_per_length * (ends[1] - ends[0]) / (slope * (power + 1.0)))
-
-    def split(self, distance: float) -> tuple[Segment, Segment]:
-        """The same piece as two, cut at a distance from its near end [m].
-
-        Raises
-        ------
-        ValueError
-            If the distance is not inside the segment.
-        """
-        if not 0.0 < distance < self.length:
-            raise ValueError(f"distance: wanted a cut inside 0 to {self.length!r} m, got {distance!r}")
-        breadth = 1.0 + (self.end_ratio - 1.0) * distance / self.length
-        powers = self.mass_power, self.bending_power, self.shear_power
-        near = Segment(
-            distance, self.mass_per_length, self.bending_stiffness, self.shear_stiffness, self.rotary_inertia,
-            breadth, *powers,
-        )  # fmt: skip
-        far = Segment(
-            self.length - distance,
-            self.mass_per_length * breadth**self.mass_power,
-            self.bending_stiffness * breadth**self.bending_power,
-            self.shear_stiffness * breadth**self.shear_power,
-            self.rotary_inertia * breadth**self.bending_power,
-            self.end_ratio / breadth,
-            *powers,
-        )
-        return near, far
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,3 +186,28 @@ class Chain:
             forces.append((below, above))
             above = below
         return forces[::-1]
+
+    def compression(self, positions: Floats) -> Floats:
+        """Axial force at positions along the chain, compression positive [N]; at a node, that above it."""
+        segment = self._segment_at(positions)
+        below = np.array([force for force, _ in self.end_compressions()])[segment]
+        passed = self._each(positions, lambda one, distance: one.mass_within(distance))
+        return below - self.gravity * passed
+
+    def section(self, positions: Floats, name: str) -> Floats:
+        """A property of the section, by the name of the segments' field, at positions along the chain."""
+        power = {"mass_per_length": "mass_power", "shear_stiffness": "shear_power"}.get(name, "bending_power")
+        return self._each(
+            positions, lambda one, distance: getattr(one, name) * one.breadth(distance) ** getattr(one, power)
+        )
+
+    def _segment_at(self, positions: Floats) -> NDArray[np.intp]:
+        inner = np.searchsorted(self.nodes, positions, side="right") - 1
+        return np.clip(inner, 0, len(self.segments) - 1)
+
+    def _each(self, positions: Floats, value: Callable[[Segment, Floats], Floats]) -> Floats:
+        """A value that depends on the segment and the distance from its near end."""
+        at, values = self._segment_at(positions), np.zeros_like(positions)
+        for k, (segment, near) in enumerate(zip(self.segments, self.nodes[:-1], strict=True)):
+            values[at == k] = value(segment, positions[at == k] - near)
+        return values

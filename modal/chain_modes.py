@@ -116,15 +116,7 @@ class ChainModes:
     def weight_matrix(self) -> Floats:
         """What the chain's own weight takes from the stiffness under unit gravity [1/m], shape (n, n)."""
         chain = replace(self.chain, gravity=1.0, axial_load=0.0, pendulum=None)
-        compression = np.zeros_like(self.shapes.points)
-        nodes = chain.nodes
-        for segment, near, far, (below, _) in zip(
-            chain.segments, nodes[:-1], nodes[1:], chain.end_compressions(), strict=True
-        ):
-            inside = (self.shapes.points > near) & (self.shapes.points < far)
-            passed = [segment.mass_within(0.0, float(z) - near) for z in self.shapes.points[inside]]
-            compression[inside] = below - np.array(passed)
-        total = self.shapes.softening_matrix(compression, chain.shear_theory)
+        total = self.shapes.softening_matrix(chain.compression(self.shapes.points), chain.shear_theory)
         for body, _, turn in self._of_bodies():
             total += body.mass * body.offset * np.outer(turn, turn)
         return total

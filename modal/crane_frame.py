@@ -36,8 +36,8 @@ class CraneFrame:
     Raises
     ------
     ValueError
-        If a mass is negative, the rope's length or gravity is not positive, or a jib has weight along itself, an
-        axial load, a foundation or a pendulum.
+        If a mass is negative, the rope's length or gravity is not positive, a jib has weight along itself, an
+        axial load, a foundation or a pendulum, or the tower has a pendulum besides the payload.
     """
 
     tower: Chain
@@ -63,6 +63,8 @@ class CraneFrame:
                 chain.gravity or chain.axial_load or chain.pendulum or chain.foundation != Foundation()
             ):
                 raise ValueError(f"CraneFrame.{name}: wanted segments and bodies alone")
+        if self.tower.pendulum is not None:
+            raise ValueError(f"CraneFrame.tower: wanted no pendulum of its own, got {self.tower.pendulum!r}")
 
 
 def crane_structure(crane: CraneFrame, trolley_position: float) -> Structure:
@@ -100,6 +102,8 @@ def crane_structure(crane: CraneFrame, trolley_position: float) -> Structure:
             raise ValueError(f"trolley_position: wanted zero or more, got {trolley_position!r}")
         structure.bodies[gamma, gamma] += carried * trolley_position**2
     else:
+        if not 0.0 <= trolley_position <= crane.jib.length:
+            raise ValueError(f"trolley_position: wanted 0 to {crane.jib.length!r} m, got {trolley_position!r}")
         jib, node = crane.jib.with_node(trolley_position)
         if node > 0 and carried > 0.0:
             there = jib.bodies.get(node, EndBody())

@@ -1,79 +1,31 @@
-"""Hermite finite elements for the clamped beam with an end body: an independent check of the exact roots."""
+"""Finite elements of a beam: Hermite without shear strain, Timoshenko of fourth degree with it, by scikit-fem."""
 
 from __future__ import annotations
 
-from math import isinf
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modal.beam import Beam, EndBody
-
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from numpy.typing import NDArray
+
+    from modal.chain import ShearTheory
+    from modal.structure import Member
+
+    Floats = NDArray[np.float64]
 
 MOST_ELEMENTS = 256
 
+DEFLECTION_DEGREE = 4
+"""Degree of the deflection in a Timoshenko element; the rotation has one less, so that a section without shear strain
+is within reach (twice smooth quartics) and nothing locks, however stiff in shear."""
 
-def finite_element_frequencies(
-    beam: Beam,
-    count: int,
-    end_body: EndBody = EndBody(),  # noqa: B008  frozen
-    *,
-    elements: int = 32,
-    allow_round_off: bool = False,
-) -> NDArray[np.float64]:
-    """Natural angular frequencies of a clamped beam with an end body, by scikit-fem's Hermite elements.
-
-    Parameters
-    ----------
-    beam : Beam
-        The beam, clamped at position 0.
-    count : int
-        Number of frequencies, less than the number of free displacements and rotations (two per element).
-    end_body : EndBody
-        The body at position L; an infinite mass or inertia holds its centre of mass or its rotation.
-    elements : int
-        Number of elements of equal length.
-    allow_round_off : bool
-        Accept more than 256 elements, although rounding then outweighs the discretisation.
-
-    Returns
-    -------
-    ndarray, shape (count,)
-        Angular frequencies in ascending order [rad/s].
-
-    Raises
-    ------
-    ValueError
-        If there are too many elements for the round-off floor, or too few for the count.
-
-    Notes
-    -----
-    The frequencies lie above the exact ones, by a relative error of fourth order in the element length. A
-    second error grows with the fourth power of the number of elements, see `round_off_floor`: with a heavy
-    body the lowest frequency is best at some 30 elements.
-    """
-    if count < 0:
-        raise ValueError(f"count: wanted zero or more, got {count!r}")
-    require_elements("elements", elements, allow_round_off)
-    stiffness, mass = hermite_matrices(np.linspace(0.0, 1.0, elements + 1))
-    # At the end node the motion of the body's centre of mass replaces that of the end, so that the body's
-    # matrix is diagonal and what an infinite entry holds is a single unknown.
-    h = end_body.offset / beam.length
-    motion = np.eye(2 * elements + 2)
-    motion[-2, -1] = -h
-    body = (end_body.mass / beam.mass, end_body.rotary_inertia / (beam.mass * beam.length**2))
-    stiffness, mass = motion.T @ stiffness @ motion, motion.T @ mass @ motion
-    free = np.arange(2, 2 * elements + 2)
-    for unknown, inertia in zip((-2, -1), body, strict=True):
-        if isinf(inertia):
-            free = free[free != 2 * elements + 2 + unknown]
-        else:
-            mass[unknown, unknown] += inertia
-    squared = lowest_eigenvalues(stiffness[np.ix_(free, free)], mass[np.ix_(free, free)], count)
-    unit = beam.bending_stiffness / (beam.mass * beam.length**3)
-    return np.sqrt(squared * unit)
+QUADRATURE_ORDER = 12
+"""Exact for two quartics and the fourth power of a linear breadth."""
 
 
 def round_off_floor(elements: int) -> float:
@@ -112,71 +64,124 @@ def require_elements(name: str, elements: int, allow_round_off: bool = False) ->
         )
 
 
-def hermite_matrices(nodes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Stiffness and mass matrix of an unsupported beam of unit stiffness and unit mass per length.
+@dataclass(frozen=True, eq=False)
+class Elements:
+    """Elements, all with shear strain or all without.
 
     Parameters
     ----------
-    nodes : ndarray, shape (n + 1,)
-        Ascending positions of the nodes.
+    members : sequence of Member, length n
+        Each is one element.
+    shear : bool
+        Whether the members strain in shear.
+    shear_theory : {"haringx", "engesser"}
+        See `modal.chain.Chain`.
 
-    Returns
-    -------
-    tuple of ndarray, shape (2 n + 2, 2 n + 2) each
-        Unknowns are deflection and slope of each node in turn.
+    Notes
+    -----
+    scikit-fem assembles every element on a unit mesh of its own: its Hermite basis is made of powers of the
+    coordinate, which far from the origin cost a digit for every doubling of the distance in elements.
+    Unknowns of an element are (v, theta) at the near and at the far end, then those inside it.
     """
-    from skfem import Basis, BilinearForm, ElementLineHermite, MeshLine
-    from skfem.helpers import dd, ddot
 
-    def bending(u: Any, v: Any, _: Any) -> Any:
-        return ddot(dd(u), dd(v))
+    members: Sequence[Member]
+    shear: bool
+    shear_theory: ShearTheory
 
-    def inertia(u: Any, v: Any, _: Any) -> Any:
-        return u * v
+    @property
+    def inner(self) -> int:
+        """Unknowns inside an element."""
+        return 2 * DEFLECTION_DEGREE - 3 if self.shear else 0
 
-    # Order six integrates the product of two cubics exactly.
-    basis = Basis(MeshLine(nodes), ElementLineHermite(), intorder=6)
-    order = basis.nodal_dofs.T.ravel()
-    stiffness, mass = (BilinearForm(form).assemble(basis).toarray() for form in (bending, inertia))
-    return stiffness[np.ix_(order, order)], mass[np.ix_(order, order)]
+    @cached_property
+    def _length(self) -> Floats:
+        """Lengths, shape (n, 1) [m]."""
+        return self._column(lambda member: member.segment.length)
 
+    @cached_property
+    def _basis(self) -> Any:
+        from skfem import Basis, ElementLineHermite, ElementLinePp, MeshLine
+        from skfem.element import ElementComposite
 
-def lowest_eigenvalues(stiffness: NDArray[np.float64], mass: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Lowest eigenvalues of a stiffness and a mass matrix, by shift and invert about zero.
+        n = len(self.members)
+        mesh = MeshLine(np.tile([0.0, 1.0], n)[np.newaxis], np.arange(2 * n).reshape(n, 2).T)
+        element = ElementLineHermite()
+        if self.shear:
+            element = ElementComposite(ElementLinePp(DEFLECTION_DEGREE), ElementLinePp(DEFLECTION_DEGREE - 1))
+        return Basis(mesh, element, intorder=QUADRATURE_ORDER)
 
-    Parameters
-    ----------
-    stiffness, mass : ndarray, shape (n, n)
-        Symmetric positive definite matrices.
-    count : int
-        Number of eigenvalues, less than n.
+    @cached_property
+    def _depth(self) -> Floats:
+        """Distances of the quadrature points from the near ends, shape (n, q) [m]."""
+        local = np.asarray(self._basis.global_coordinates()[0])
+        return local * self._length
 
-    Returns
-    -------
-    ndarray, shape (count,)
-        Eigenvalues in ascending order, in units of stiffness over mass.
+    def _column(self, values: Callable[[Member], float]) -> Floats:
+        return np.array([values(member) for member in self.members])[:, np.newaxis]
 
-    Raises
-    ------
-    ValueError
-        If the count is not less than n.
-    """
-    from scipy.sparse import csc_array
-    from scipy.sparse.linalg import eigsh
+    def _property(self, name: str, power: str) -> Floats:
+        """A property of the section at the quadrature points, shape (n, q)."""
+        ratio = self._column(lambda member: member.segment.end_ratio)
+        breadth = 1.0 + (ratio - 1.0) * self._depth / self._length
+        powers = self._column(lambda member: float(getattr(member.segment, power)))
+        return self._column(lambda member: float(getattr(member.segment, name))) * breadth**powers
 
-    size = len(stiffness)
-    if count == 0:
-        return np.empty(0)
-    if count >= size:
-        raise ValueError(f"count: wanted less than the {size} free unknowns of the mesh, got {count!r}")
-    # The inverse makes the lowest eigenvalues the largest and keeps them accurate, where a factorisation of
-    # the mass matrix would drown them in the rounding of the highest. A fixed start makes results repeatable.
-    values = eigsh(
-        csc_array(stiffness),
-        count,
-        csc_array(mass),
-        sigma=0.0,
-        v0=np.ones(size),
-        return_eigenvectors=False,
-    )
-    return np.sort(np.asarray(values, dtype=float))
+    @cached_property
+    def _compression(self) -> Floats:
+        """Axial force at the quadrature points, shape (n, q) [N]."""
+        change = self._column(lambda member: member.segment.end_ratio - 1.0)
+        power = 1.0 + self._column(lambda member: member.segment.mass_power)
+        # Of the breadth^mass_power, integrated from the near end; expm1 keeps the digits of a slight taper.
+        slight = np.where(change == 0.0, 1.0, change)
+        tapered = self._length / (slight * power) * np.expm1(power * np.log1p(slight * self._depth / self._length))
+        passed = self._column(lambda member: member.segment.mass_per_length) * np.where(
+            change == 0.0, self._depth, tapered
+        )
+        force = self._column(lambda member: member.compression) - self._column(lambda m: m.gravity) * passed
+        return np.asarray(force)
+
+    def _matrices(self, form: Callable[..., Any]) -> Floats:
+        """Element matrices of a form on unit elements, with rotations counted per length, shape (n, k, k)."""
+        from skfem import BilinearForm
+
+        found = np.asarray(BilinearForm(form).coo_data(self._basis).tolocal())
+        if not self.shear:
+            # The slope of a unit element is its rotation times its length.
+            scale = np.ones((len(self.members), 4))
+            scale[:, 1::2] = self._length
+            found = found * scale[:, :, np.newaxis] * scale[:, np.newaxis, :]
+        return found
+
+    def stiffness(self) -> Floats:
+        """Stiffness in bending and shear, shape (n, k, k)."""
+        from skfem.helpers import dd
+
+        h = self._length
+        bending = self._property("bending_stiffness", "bending_power")
+        if not self.shear:
+            return self._matrices(lambda u, v, _: bending / h**3 * dd(u)[0, 0] * dd(v)[0, 0])
+        stiffness = self._property("shear_stiffness", "shear_power")
+
+        def energy(u: Any, theta: Any, v: Any, tau: Any, _: Any) -> Any:
+            strain, other = u.grad[0] / h - theta, v.grad[0] / h - tau
+            return bending / h * theta.grad[0] * tau.grad[0] + stiffness * h * strain * other
+
+        return self._matrices(energy)
+
+    def geometric(self) -> Floats:
+        """What unit load takes from the stiffness, shape (n, k, k): Haringx or Engesser."""
+        h, P = self._length, self._compression
+        if not self.shear:
+            return self._matrices(lambda u, v, _: P / h * u.grad[0] * v.grad[0])
+        if self.shear_theory == "engesser":
+            return self._matrices(lambda u, theta, v, tau, _: P / h * u.grad[0] * v.grad[0] + 0.0 * theta * tau)
+        return self._matrices(lambda u, theta, v, tau, _: P * (theta * v.grad[0] + u.grad[0] * tau - h * theta * tau))
+
+    def mass(self) -> Floats:
+        """Mass with rotary inertia, shape (n, k, k)."""
+        h = self._length
+        mass = self._property("mass_per_length", "mass_power")
+        rotary = self._property("rotary_inertia", "bending_power")
+        if not self.shear:
+            return self._matrices(lambda u, v, _: mass * h * u * v + rotary / h * u.grad[0] * v.grad[0])
+        return self._matrices(lambda u, theta, v, tau, _: h * (mass * u * v + rotary * theta * tau))

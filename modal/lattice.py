@@ -6,7 +6,10 @@ from dataclasses import dataclass
 from math import hypot, sqrt
 from typing import Literal, get_args
 
+from modal.segment import Segment
+
 Lacing = Literal["zigzag", "X", "N"]
+BeamModel = Literal["shear-flexible", "euler", "code-equivalent"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,12 +54,17 @@ class LacedColumn:
         Cross-sectional area of one horizontal [m^2]; 0: there are none. "N" needs them.
     leg_second_moment_of_area : float
         Second moment of area of one leg about its own axis [m^4].
+    plan_bracing_area : float
+        Cross-sectional area of one of the two crossed bars that keep each level square [m^2]; 0: there are none.
+        Bending leaves them unstrained.
+    density : float
+        Density of the members [kg/m^3].
 
     Raises
     ------
     ValueError
-        If a length, an area or the modulus is not a positive finite number, `horizontal_area` or
-        `leg_second_moment_of_area` is negative, the lacing is unknown, or "N" comes without horizontals.
+        If a length, an area or the modulus is not a positive finite number, another value is negative, the lacing is
+        unknown, or "N" comes without horizontals.
 
     Notes
     -----
@@ -72,11 +80,13 @@ class LacedColumn:
     lacing: Lacing = "zigzag"
     horizontal_area: float = 0.0
     leg_second_moment_of_area: float = 0.0
+    plan_bracing_area: float = 0.0
+    density: float = 7850.0
 
     def __post_init__(self) -> None:
         for name in ("leg_area", "leg_spacing", "panel_height", "diagonal_area", "youngs_modulus"):
             _require_positive(f"LacedColumn.{name}", getattr(self, name))
-        for name in ("horizontal_area", "leg_second_moment_of_area"):
+        for name in ("horizontal_area", "leg_second_moment_of_area", "plan_bracing_area", "density"):
             value = getattr(self, name)
             if not 0.0 <= value < float("inf"):
                 raise ValueError(f"LacedColumn.{name}: wanted a finite number, zero or more, got {value!r}")
@@ -160,9 +170,9 @@ class LacedColumn:
         return SectionProperty(
             value,
             "N",
-            "Timoshenko beam model, beside the chords' bending stiffness; deflections and the first two "
-            "frequencies of zigzag lacing agree with a pin-jointed truss within 1.5 %. A lower bound for N "
-            "lacing with plan bracing (up to 11 %).",
+            "Shear-flexible beam, beside the chords' bending stiffness; the deflection under a force agrees with "
+            "a pin-jointed truss within 0.7 %, the first two frequencies under a heavy slewing part within 0.6 %, "
+            "from five leg spacings of height on.",
         )
 
     def equivalent_slenderness(self, height: float) -> SectionProperty:
@@ -217,6 +227,46 @@ class LacedColumn:
             "at the top, to which shear does not yield, and comes out 6 % low for a common tower, 33 % for a "
             "short one.",
         )
+
+    @property
+    def mass_per_length(self) -> float:
+        """Mass of the members per height [kg/m]."""
+        d, b, h_p = self.diagonal_length, self.leg_spacing, self.panel_height
+        lacing = (2.0 if self.lacing == "X" else 1.0) * self.diagonal_area * d + self.horizontal_area * b
+        volume = self.total_leg_area * h_p + 4.0 * lacing + 2.0 * self.plan_bracing_area * sqrt(2.0) * b
+        return self.density * volume / h_p
+
+    def segment(
+        self, height: float, mass_per_length: float | None = None, beam: BeamModel = "shear-flexible"
+    ) -> Segment:
+        """The column as a uniform beam, a segment of a `modal.chain.Chain`.
+
+        Parameters
+        ----------
+        height : float
+            Height [m].
+        mass_per_length : float, optional
+            Mass per height [kg/m]; without one, the members' own.
+        beam : {"shear-flexible", "euler", "code-equivalent"}
+            Legs and lacing in bending with the lacing's shear and the legs' rotary inertia, which agrees with the
+            truss; the same without shear and rotary inertia; or with the equivalent inertia of the code, which is
+            for the buckling of a column of this height alone.
+
+        Raises
+        ------
+        ValueError
+            If a length or mass is not a positive finite number, or the beam is unknown.
+        """
+        if beam not in get_args(BeamModel):
+            raise ValueError(f"beam: wanted one of {get_args(BeamModel)}, got {beam!r}")
+        mass = self.mass_per_length if mass_per_length is None else mass_per_length
+        if beam == "code-equivalent":
+            inertia = self.equivalent_second_moment_of_area(height).value
+            return Segment(height, mass, self.youngs_modulus * inertia)
+        if beam == "euler":
+            return Segment(height, mass, self.bending_stiffness.value)
+        rotary = mass * (0.5 * self.leg_spacing) ** 2
+        return Segment(height, mass, self.bending_stiffness.value, self.shear_stiffness.value, rotary)
 
 
 def _require_positive(name: str, value: float) -> None:

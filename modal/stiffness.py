@@ -29,15 +29,31 @@ times the mass passed is taken away along the segment; both are multiplied by th
 PROPERTIES = 12
 
 TERMS = 22
-"""Terms of the Taylor series: with the pieces cut as below, what is left out is below 1e-16."""
+"""Terms of the Taylor series: with the pieces cut as below, what is left out is rounding, 1e-16 of a stiffness."""
 
 REACH = 3.0
 """Largest square of a piece's length in waves [rad^2]; all bounds of `pieces_within` together then stay below one."""
 
+JOINT_REACH = 3.6
+"""The same for the wave number that all effects give together, on which the series' convergence hangs [rad^2]."""
+
 TAPER = 0.15
 """Largest change of breadth over one piece, relative."""
 
+LEAST_SHEAR = 1e-6
+"""Part of the shear stiffness that compression must leave (Engesser); with less a segment counts as unstable."""
+
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+
+
+@kernel(types.float64(_one, types.float64))
+def mass_passed(segment: Any, distance: float) -> float:
+    """Mass between the near end and a distance from it."""
+    slope = (segment[RATIO] - 1.0) / segment[LENGTH]
+    if slope == 0.0 or segment[MASS_POWER] == 0.0:
+        return float(segment[MASS] * distance)
+    power = segment[MASS_POWER] + 1.0
+    return float(segment[MASS] * ((1.0 + slope * distance) ** power - 1.0) / (slope * power))
 
 
 @kernel(types.int64(_one, types.float64, types.float64, types.float64, types.float64))
@@ -54,18 +70,32 @@ def pieces_within(segment: Any, near: float, far: float, omega2: float, load: fl
     mass = segment[MASS] * wide ** segment[MASS_POWER]
     flexibility = segment[SHEAR_FLEXIBILITY] / thin ** segment[SHEAR_POWER]
     rotary = segment[ROTARY] * wide ** segment[BENDING_POWER]
-    ends = load * segment[COMPRESSION], load * (segment[COMPRESSION] - segment[WEIGHT] * segment[LENGTH] * mass)
-    force = max(abs(ends[0]), abs(ends[1]))
+    force, least = 0.0, 1.0
+    for i in range(3):
+        z = near + 0.5 * i * (far - near)
+        compression = load * (segment[COMPRESSION] - segment[WEIGHT] * mass_passed(segment, z))
+        force = max(force, abs(compression))
+        left = 1.0 - compression * segment[SHEAR_FLEXIBILITY] / (1.0 + slope * z) ** segment[SHEAR_POWER]
+        least = min(least, left)
+    pieces = 0.0
     if segment[ENGESSER] != 0.0:
-        shear = 1.0 - max(ends[0], ends[1]) * flexibility
-        if shear <= 0.0:
+        if least < LEAST_SHEAR:
             return 0
-        force /= min(shear, 1.0)
+        force /= least
+        flexibility /= least
+        # 1 / (1 - P/S) must vary little along a piece as well.
+        change = abs(load) * segment[WEIGHT] * mass * (far - near) * segment[SHEAR_FLEXIBILITY]
+        pieces = change / thin ** segment[SHEAR_POWER] / (least * TAPER)
     squared = np.sqrt(omega2 * mass / bending)
     squared = max(squared, (force + 2.0 * force * force * flexibility) / bending)
     squared = max(squared, 2.0 * omega2 * mass * flexibility)
     squared = max(squared, omega2 * rotary / bending)
-    return 1 + int((far - near) * np.sqrt(squared / REACH))
+    # Largest square of a wave number that mass, force, shear and rotary inertia give together.
+    stretch = 1.0 + force * flexibility
+    half = 0.5 * ((force * stretch + omega2 * rotary) / bending + omega2 * mass * flexibility)
+    waves = half + np.sqrt(half * half + omega2 * mass / bending * (stretch + omega2 * rotary * flexibility))
+    squared = max(squared, waves * REACH / JOINT_REACH)
+    return 1 + int(max(pieces, (far - near) * np.sqrt(squared / REACH)))
 
 
 @kernel(types.float64(_one, types.float64))
@@ -98,11 +128,7 @@ def coefficients(segment: Any, start: float, length: float, omega2: float, load:
     mass = segment[MASS] * breadth ** segment[MASS_POWER]
     flexibility = segment[SHEAR_FLEXIBILITY] / breadth ** segment[SHEAR_POWER]
     rotary = segment[ROTARY] * breadth ** segment[BENDING_POWER]
-    passed = segment[MASS] * start
-    if slope != 0.0 and segment[MASS_POWER] != 0.0:
-        power = segment[MASS_POWER] + 1.0
-        passed = segment[MASS] * (breadth**power - 1.0) / (slope * power)
-    force = load * (segment[COMPRESSION] - segment[WEIGHT] * passed) * length**2 / bending
+    force = load * (segment[COMPRESSION] - segment[WEIGHT] * mass_passed(segment, start)) * length**2 / bending
     weight = load * segment[WEIGHT] * mass * length**3 / bending
     flexibility *= bending / length**2
     change = slope * length / breadth

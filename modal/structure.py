@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from modal.beam import EndBody
-    from modal.chain import Chain, Segment, ShearTheory
+    from modal.chain import Chain, ShearTheory
+    from modal.segment import Segment
 
     Floats = NDArray[np.float64]
 
@@ -57,14 +58,13 @@ class Member:
     part: str = "tower"
     position: float = 0.0
 
-    def cut(self, parts: int, first: int) -> list[Member]:
+    def cut(self, parts: int, first: int, spread: float = 0.0) -> list[Member]:
         """The same member as several, on new unknowns from ``first`` on.
 
-        The parts are alternately a little shorter and longer than their mean: equal ones would all have the same
-        fixed-end frequencies.
+        The parts are alternately shorter and longer than their mean by ``spread`` times it.
         """
         members, rest = [], self
-        lengths = self.segment.length / parts * (1.0 + 0.1 * (-1.0) ** np.arange(1, parts + 1))
+        lengths = self.segment.length / parts * (1.0 + spread * (-1.0) ** np.arange(1, parts + 1))
         for i in range(parts - 1):
             near, far = rest.segment.split(float(lengths[i]))
             node = (first + 2 * i, first + 2 * i + 1)
@@ -207,9 +207,13 @@ class Structure:
     def _count(self, omega2: float, load: float) -> int:
         from modal.structure_kernel import dynamic_stiffness
 
-        matrix = np.zeros((len(self.unknowns), len(self.unknowns)))
+        n = len(self.unknowns)
+        static, matrix = np.zeros((n, n)), np.zeros((n, n))
+        dynamic_stiffness(0.0, 0.0, *self.arrays, static)
         inside = dynamic_stiffness(omega2, load, *self.arrays, matrix)
-        scale = 1.0 / np.sqrt(np.maximum(np.abs(np.diag(matrix)), 1e-300))
+        _, geometric, bodies = self.arrays[-1]
+        # Heavy bodies are scaled down, or their rounding errors would drown light ones.
+        scale = 1.0 / np.sqrt(np.diag(static) + load * np.abs(np.diag(geometric)) + omega2 * np.diag(bodies))
         return int(inside) + int((np.linalg.eigvalsh(matrix * np.outer(scale, scale)) < 0.0).sum())
 
     def angular_frequencies(self, count: int) -> Floats:
@@ -247,7 +251,8 @@ class Structure:
         omega2, none = (angular_frequency / self.units[2]) ** 2, np.empty(1)
         for member, row in zip(self.members, self.arrays[0], strict=True):
             parts = -(-piece_ends(row, omega2, 1.0, none) // LONGEST)
-            fine.members += member.cut(parts, len(fine.unknowns))
+            # Equal ones would all have the same fixed-end frequencies.
+            fine.members += member.cut(parts, len(fine.unknowns), spread=0.1)
             fine.unknowns += ("m", "rad") * (parts - 1)
         extra = len(fine.unknowns) - len(self.unknowns)
         for name in ("springs", "geometric", "bodies"):

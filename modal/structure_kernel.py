@@ -145,10 +145,10 @@ def find_roots(
     are fewer below ``limit``.
     """
     n = points.shape[1]
-    matrix, values, scale = np.zeros((n, n)), np.zeros(n), np.zeros(n)
+    matrix, values, static, scale = np.zeros((n, n)), np.zeros(n), np.zeros(n), np.zeros(n)
     dynamic_stiffness(0.0, 0.0, segments, unknowns, factors, points, matrix)
     for i in range(n):
-        scale[i] = 1.0 / np.sqrt(matrix[i, i])
+        static[i] = matrix[i, i]
     low, high = np.zeros(roots.size), np.zeros(roots.size)
     for i in range(roots.size):
         high[i] = np.inf
@@ -163,6 +163,11 @@ def find_roots(
             inside = dynamic_stiffness(omega2, load, segments, unknowns, factors, points, matrix)
             count = inside
             if inside != UNSTABLE:
+                # Every unknown is scaled by what springs, segments at rest and bodies put on it, so that no heavy
+                # body drowns the eigenvalue sought in its rounding errors.
+                for i in range(n):
+                    size = static[i] + load * abs(points[GEOMETRIC, i, i]) + omega2 * points[BODIES, i, i]
+                    scale[i] = 1.0 / np.sqrt(size)
                 _eigenvalues(matrix, scale, values)
                 for i in range(n):
                     if values[i] < 0.0:

@@ -55,11 +55,11 @@ class PartShapes:
         ValueError
             If a position is off the part or not a number, or the order is negative or no integer.
         """
-        where, length = np.asarray(position, dtype=float), self.ends[-1]
+        where, length = np.asarray(position, dtype=float), float(self.ends[-1])
         # A position that was added up from parts may pass the end by rounding.
         on_part = (where >= -1e-12 * length) & (where <= (1 + 1e-12) * length)
         if not on_part.all():
-            raise ValueError(f"position: wanted 0 to {length!r} m, got {where[~on_part].flat[0]!r}")
+            raise ValueError(f"position: wanted 0 to {length!r} m, got {float(where[~on_part].flat[0])!r}")
         if derivative != int(derivative) or derivative < 0:
             raise ValueError(f"derivative: wanted an integer, zero or more, got {derivative!r}")
         flat = where.ravel()
@@ -92,6 +92,10 @@ class PartShapes:
         """Integrals of density times two quantities of all pairs of modes, shape (n, n)."""
         weighted = self.at_points(left) * (density * self.weights)
         return np.tensordot(weighted, self.at_points(right), ((1, 2), (1, 2)))
+
+    def energies(self, density: Floats | float, quantity: int) -> Floats:
+        """Integrals of density times the square of a quantity of each mode, shape (n,)."""
+        return np.tensordot(self.at_points(quantity) ** 2, density * self.weights, 2)
 
     def mass_matrix(self) -> Floats:
         """Mass along the part, ``int m v v + rho I theta theta dx``, shape (n, n)."""
@@ -273,8 +277,7 @@ def _coefficient_shape() -> tuple[int, int]:
 def _properties(member: Member, ends: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """Mass, rotary inertia, bending stiffness and shear flexibility at the Gauss points of a segment's pieces."""
     s = member.segment
-    z = ends[:-1, None] + np.diff(ends)[:, None] * _gauss()[0]
-    breadth = 1.0 + (s.end_ratio - 1.0) * z / s.length
+    breadth = s.breadth(ends[:-1, None] + np.diff(ends)[:, None] * _gauss()[0])
     return (
         s.mass_per_length * breadth**s.mass_power,
         s.rotary_inertia * breadth**s.bending_power,

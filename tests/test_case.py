@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modal.beam import Beam
-from towercrane import case as case_module
+from towercrane import shipped
 from towercrane.case import Assumption, CaseError, Fault, case_folder, list_cases, load_case
 from towercrane.casefile import leaves, split_provenance
 from towercrane.explain import known_keys
@@ -336,7 +336,7 @@ MEND = [
         ["a mass", '"800 kgg"', "unknown", 'did you mean "kg"?'],
     ),
     (None, ('"30 m"', '"23.8 s"'), "tower.height", ['a length, such as "18 m"', '"23.8 s", which is a time']),
-    (None, ("height", "heigth"), "tower.heigth", ["height, mass_per_length", "unknown key", '"height"']),
+    (None, ("height", "heigth"), "tower.heigth", ["height, beam, segments", "unknown key", '"height"']),
     (None, ("[jib]", "[jibb]"), "jibb", ["unknown key", 'closest known key: "jib"']),
     (('mass = "800 kg"', ""), None, "payload.mass", ['a mass, such as "800 kg"', "missing"]),
     (('[payload]\nmass = "800 kg"', ""), None, "payload", ["a table [payload] with mass", "missing"]),
@@ -748,7 +748,7 @@ def test_importing_the_door_loads_neither_units_nor_schema():
 def test_installed_cases_come_first(tmp_path, monkeypatch):
     package = tmp_path / "towercrane"
     (package / "_cases").mkdir(parents=True)
-    monkeypatch.setattr(case_module, "__file__", str(package / "case.py"))
+    monkeypatch.setattr(shipped, "__file__", str(package / "shipped.py"))
     assert case_folder() == package / "_cases"
     (package / "_cases").rmdir()
     assert case_folder() == tmp_path / "cases"

@@ -16,9 +16,9 @@ from scipy.linalg import expm
 from towercrane import load_case
 from towercrane.cranes.radial import RadialModel
 from towercrane.differences import jacobian
+from towercrane.linear_report import linear_model
 from towercrane.linearise import linearise
 from towercrane.motion import rest, trapezoid
-from towercrane.natural import linear_model
 from towercrane.payload import Load
 from towercrane.results import Quantity
 from towercrane.simulate import simulate

@@ -8,9 +8,10 @@ from numpy.testing import assert_allclose
 from qtz5613 import CONDITIONS, CRANE, model, motions, standing
 from scipy.integrate import solve_ivp
 
-from modal import frame_frequencies
+from modal import finite_element_structure_frequencies
 from towercrane.cranes.radial import RadialModel
 from towercrane.motion import rest, s_curve, sequence, trapezoid
+from towercrane.natural import plane_frame
 from towercrane.payload import Load
 from towercrane.simulate import simulate
 from towercrane.system import NoEquilibrium
@@ -329,17 +330,7 @@ def test_loose_tolerance_does_not_step_over_a_slack_rope():
 
 
 def frame(trolley: float):
-    return frame_frequencies(
-        CRANE.tower,
-        CRANE.jib,
-        head_mass=CRANE.counter_mass,
-        head_inertia=CRANE.counter_inertia,
-        trolley_position=trolley,
-        trolley_mass=350.0,
-        payload_mass=800.0,
-        rope_length=18.0,
-        count=3,
-    )
+    return finite_element_structure_frequencies(plane_frame(CRANE, trolley, 800.0, 18.0), 3, elements=40)
 
 
 @pytest.mark.parametrize("trolley", [5.0, 23.0, 41.0, 55.0])

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from towercrane.casefile import Assumption, is_file, read_case, read_toml, split_provenance
-from towercrane.faults import CaseError, Fault, closest
+from towercrane.casefile import Assumption, read_case, split_provenance
+from towercrane.faults import CaseError, Fault
+from towercrane.shipped import case_folder, case_name, find_case, list_cases
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    import os
+    from collections.abc import Iterator, Sequence
 
     from modal.beam import Beam
+    from modal.chain import Chain
     from modal.lattice import LacedColumn
     from towercrane import schema, schema_cases
     from towercrane.cranes.slewing_parameters import SlewingParameters
@@ -108,6 +110,37 @@ class Case:
         return modes.model_copy(update={"trolley_positions": ends})
 
     @property
+    def map(self) -> schema_cases.MapRequest:
+        """Where the frequency map of a radial crane is taken, its defaults filled in."""
+        asked, jib, load = self._radial.map, self._radial.crane.jib.length, self.payload.mass
+        steps = asked.position_count - 1
+        positions = asked.trolley_positions or tuple(jib * i / steps for i in range(steps + 1))
+        masses = asked.payload_masses or (0.5 * load, load, 2.0 * load)
+        return asked.model_copy(update={"trolley_positions": positions, "payload_masses": masses})
+
+    @property
+    def accuracy(self) -> schema_cases.Accuracy:
+        """Accuracy that is asked of a radial case's results."""
+        return self._radial.accuracy
+
+    @property
+    def rests_on(self) -> tuple[Assumption, ...]:
+        """Assumptions that enter the equations of motion, without those of a check beside them."""
+        return tuple(a for a in self.assumed if not a.key.startswith(tuple(self._idle_keys())))
+
+    def _idle_keys(self) -> Iterator[str]:
+        """Keys of a radial crane that do not enter the equations of motion."""
+        if self.kind != "radial":
+            return
+        from towercrane.towers import beam_choice
+
+        yield from ("crane.counter_jib.youngs_modulus", "crane.counter_jib.second_moment_of_area")
+        tower = self._radial.crane.tower
+        if not tower.segments:
+            stated = beam_choice(tower, tower) == "stated"
+            yield "crane.tower.lattice." if stated else "crane.tower.second_moment_of_area"
+
+    @property
     def _radial(self) -> schema_cases.RadialCase:
         from towercrane.schema_cases import RadialCase
 
@@ -119,12 +152,28 @@ class Case:
         words = " or ".join(f'"{kind}"' for kind in wanted)
         return CaseError([Fault(str(self.path), "crane.kind", f"a crane of kind {words}", f'"{self.kind}"')])
 
+    def tower(self) -> Beam | Chain:
+        """The tower: a beam where it is uniform and clamped, else a chain; without what the tolerance leaves out."""
+        from towercrane.effects import kept_tower
+
+        return kept_tower(self)
+
     def tower_beam(self) -> Beam:
-        """The tower as a uniform beam."""
+        """The tower as a uniform Euler beam, clamped at its foot.
+
+        Raises
+        ------
+        CaseError
+            If it is none.
+        """
         from modal.beam import Beam
 
-        tower = self._radial.crane.tower
-        return Beam(tower.height, tower.mass_per_length, tower.youngs_modulus, tower.second_moment_of_area)
+        tower = self.tower()
+        if isinstance(tower, Beam):
+            return tower
+        wanted = "a uniform clamped tower without shear strain, rotary inertia, bodies and foundation"
+        got = f"a chain of {len(tower.segments)} segments" if len(tower.segments) > 1 else "a chain of one segment"
+        raise CaseError([Fault(str(self.path), "crane.tower", wanted, got)])
 
     def jib_beam(self) -> Beam:
         """The jib as a uniform beam."""
@@ -134,22 +183,26 @@ class Case:
         return Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.second_moment_of_area)
 
     def lattice(self) -> LacedColumn | None:
-        """The tower's members; None where the crane file has none."""
-        from modal.lattice import LacedColumn
+        """The members of a uniform tower; None where the crane file has none."""
+        from towercrane.towers import laced_column
 
         tower = self._radial.crane.tower
-        if tower.lattice is None:
+        if tower.lattice is None or tower.youngs_modulus is None:
             return None
-        return LacedColumn(**dict(tower.lattice), youngs_modulus=tower.youngs_modulus)
+        return laced_column(tower.lattice, tower.youngs_modulus)
 
     def radial_crane(self) -> TowerCrane:
         """The crane of the radial model."""
+        return self.crane_on(self.tower())
+
+    def crane_on(self, tower: Beam | Chain) -> TowerCrane:
+        """The crane of the radial model on a tower that may differ from the case's."""
         from towercrane.cranes.tower_crane import TowerCrane
 
         crane = self._radial.crane
         return TowerCrane(
             name=crane.name,
-            tower=self.tower_beam(),
+            tower=tower,
             jib=self.jib_beam(),
             counter_jib_length=crane.counter_jib.length,
             counter_jib_mass_per_length=crane.counter_jib.mass_per_length,
@@ -212,9 +265,10 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     from towercrane.kinds import kind_of
     from towercrane.plausibility import check_values, implausible
     from towercrane.schema_cases import KINDS
+    from towercrane.tower_checks import check_tower
     from towercrane.ways import channels, check_motions
 
-    found = _find(Path(path))
+    found = find_case(Path(path))
     text = read_case(found, overrides)
     tree, assumed, faults = split_provenance(text.tree)
     kind, kind_faults = kind_of(tree)
@@ -230,53 +284,13 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     allowed = tree.get("allow_implausible", [])
     allowed = [k for k in allowed if isinstance(k, str)] if isinstance(allowed, list) else []
     faults += [*implausible(tree, allowed, kind), *check_values(tree)]
+    faults += check_tower(tree) if kind == "radial" else []
     motion_faults, motions = check_motions(tree, found.parent, kind)
     located = [text.located(f) for f in dict.fromkeys([*text.faults, *faults, *motion_faults])]
     if located or checked is None or set(motions) != set(channels(kind)):
         raise CaseError(located)
-    name = _name(found)
+    name = case_name(found)
     return Case(name, found, checked.title or name, checked, motions, tuple(assumed), text.tree, tuple(overrides))
-
-
-def case_folder() -> Path:
-    """Folder of the shipped cases: inside the installed package, or beside it in a source checkout."""
-    package = Path(__file__).parent
-    installed = package / "_cases"
-    return installed if installed.is_dir() else package.parent / "cases"
-
-
-def list_cases() -> list[tuple[str, str]]:
-    """Name and title of every shipped case."""
-    cases = []
-    for path in case_folder().rglob("*.toml"):
-        content = read_toml(path)
-        if "crane" in content:
-            cases.append((_name(path), str(content.get("title", ""))))
-    return sorted(cases)
-
-
-def _find(path: Path) -> Path:
-    """The case file that a path or a shipped case's name means."""
-    shipped = case_folder() / path
-    for candidate in (path, shipped, Path(f"{shipped}.toml")):
-        if is_file(candidate):
-            return candidate
-    wanted = "a case file or the name of a shipped case"
-    if os.path.isdir(path):
-        inside = ", ".join(sorted(p.name for p in path.glob("*.toml")))
-        raise CaseError([Fault(str(path), "", wanted, "a folder", f"it holds {inside}" if inside else "")])
-    names = [name for name, _ in list_cases()]
-    by_end = {name.rpartition("/")[2]: name for name in names}
-    asked = path.as_posix().removesuffix(".toml")
-    near = closest(asked, names) or by_end.get(closest(path.stem, by_end) or "")
-    hint = f'closest shipped case: "{near}"' if near else f"shipped cases: {', '.join(names)}"
-    raise CaseError([Fault(str(path), "", wanted, "no such file", hint)])
-
-
-def _name(path: Path) -> str:
-    folder = case_folder().resolve()
-    full = path.resolve()
-    return (full.relative_to(folder) if full.is_relative_to(folder) else Path(full.name)).with_suffix("").as_posix()
 
 
 def _flat(crane: Any) -> dict[str, Any]:

@@ -70,7 +70,8 @@ class CaseText:
             if origin:
                 return replace(fault, file=f"--set {origin}")
         if self.crane_path and fault.key.startswith("crane."):
-            return replace(fault, file=str(self.crane_path), key=fault.key.removeprefix("crane."))
+            key, named = fault.key.removeprefix("crane."), fault.wanted.replace("[crane.", "[")
+            return replace(fault, file=str(self.crane_path), key=key, wanted=named)
         return replace(fault, file=str(self.path))
 
 

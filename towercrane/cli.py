@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from towercrane.lattice_command import lattice
 from towercrane.map_command import frequency_map
 from towercrane.studies import linearise, sensitivity
 from towercrane.terminal import (
@@ -119,16 +120,19 @@ def modes(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Folder for the picture of the mode shapes.")
     ] = None,
+    actual: Annotated[
+        bool, typer.Option("--actual", help="Solve for the effect of shear, weight, ... beside its prediction.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Natural frequencies of tower, jib and crane, each beside finite elements."""
+    """Natural frequencies of tower, jib and crane, each checked a second way; what matters for them."""
     loaded = load(case, changes)
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
     announce_compilation(loaded.kind, "modal.roots")
     from towercrane.natural import natural_frequencies
 
-    report = natural_frequencies(loaded)
+    report = natural_frequencies(loaded, actual=actual)
     if out is not None:
         write(out, {"modes.png": _mode_picture(loaded)})
     if as_json:
@@ -255,9 +259,7 @@ def _mode_picture(case: Case) -> Any:
     from towercrane.plots import radial
 
     crane, count = case.radial_crane(), case.modes.count
-    # The shapes rest on the equivalent beams, not on the lattice's members.
-    beams = [a for a in case.assumed if a.key.startswith("crane.") and ".lattice." not in a.key]
-    notes = [(a.key, str(a.value), a.why) for a in beams]
+    notes = [(a.key, str(a.value), a.why) for a in case.rests_on if a.key.startswith("crane.")]
     return radial.modes(crane.tower_modes(count), crane.jib_modes(count), notes)
 
 
@@ -274,6 +276,7 @@ def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Datase
         return simulate(case, progress=lambda time: bar.update(task, completed=time))
 
 
+app.command()(lattice)
 app.command()(linearise)
 app.command("map")(frequency_map)
 app.command()(sensitivity)

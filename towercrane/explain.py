@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import UnionType
 from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin
 
 from towercrane.faults import Fault, closest, shown
@@ -93,7 +94,7 @@ def _fault(key: str, detail: ErrorDetails, kind: str) -> Fault:
         return Fault("", key, wanted, "nothing: the key is missing")
     hint = ""
     if slip == "literal_error" and field and isinstance(detail["input"], str):
-        near = closest(detail["input"], get_args(field.annotation))
+        near = closest(detail["input"], _words(field.annotation))
         hint = f'did you mean "{near}"?' if near else ""
     return Fault("", key, wanted, got, hint)
 
@@ -106,11 +107,13 @@ def _wanted(key: str, field: FieldInfo | None) -> str:
         if isinstance(item, Quantity):
             return item.wanted
     annotation = field.annotation
-    if get_origin(annotation) is Literal:
-        return _one_of(get_args(annotation))
+    if words := _words(annotation):
+        return _one_of(words)
     inner = list(tables(annotation))
     if get_origin(annotation) is tuple:
-        return "a list of tables, one per step" if inner else "a list in brackets"
+        if any("shape" in table.model_fields for table in inner):
+            return "a list of tables, one per step"
+        return f"tables [[{key}]]" if inner else "a list in brackets"
     if inner:
         required = [n for n, f in inner[0].model_fields.items() if f.is_required()]
         return f"a table [{key}]" + (f" with {', '.join(required)}" if required else "")
@@ -118,6 +121,15 @@ def _wanted(key: str, field: FieldInfo | None) -> str:
         bounds = {k: getattr(m, k) for m in field.metadata for k in ("ge", "le") if hasattr(m, k)}
         return f"a whole number from {bounds['ge']} to {bounds['le']}"
     return {bool: "true or false", str: "a text in quotes"}.get(annotation, "")  # type: ignore[arg-type]
+
+
+def _words(annotation: Any) -> tuple[str, ...]:
+    """Words that a field may be, alone or beside None; nothing for a field of another sort."""
+    if get_origin(annotation) is Literal:
+        return get_args(annotation)
+    if get_origin(annotation) is UnionType:
+        return tuple(word for part in get_args(annotation) for word in _words(part))
+    return ()
 
 
 def _shapes(field: FieldInfo | None) -> str:

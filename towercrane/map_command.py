@@ -37,14 +37,17 @@ MOST_POSITIONS, MOST_MODES = 1000, 20
 def frequency_map(
     case: CaseName,
     positions: Annotated[
-        int, typer.Option("--positions", metavar="N", help="Places of the trolley, evenly along the jib.")
-    ] = 50,
+        int | None,
+        typer.Option(
+            "--positions", metavar="N", help="Places of the trolley, evenly along the jib; else the case's."
+        ),
+    ] = None,
     payload: Annotated[
         list[str] | None,
         typer.Option(
             "--payload",
             metavar="MASSES",
-            help='Loads, e.g. --payload "400 kg, 2 t"; by default half, once and twice the case\'s.',
+            help='Loads, e.g. --payload "400 kg, 2 t"; else the case\'s.',
         ),
     ] = None,
     modes: Annotated[int, typer.Option("--modes", metavar="N", help="Branches from the lowest on.")] = 6,
@@ -63,7 +66,7 @@ def frequency_map(
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
     folder = out if out is not None else Path("results") / f"{loaded.name}-map"
     folder_for_results(folder)
-    if not 1 <= positions <= MOST_POSITIONS:
+    if positions is not None and not 1 <= positions <= MOST_POSITIONS:
         fail(f"--positions {positions}: wanted 1 to {MOST_POSITIONS}")
     if not 1 <= modes <= MOST_MODES:
         fail(f"--modes {modes}: wanted 1 to {MOST_MODES}")
@@ -80,8 +83,10 @@ def frequency_map(
     from towercrane.towers import crane_frame
 
     frame = crane_frame(loaded, weight=loaded.model.weight_softening)
-    # A single place is the jib's end, where the load bends it most.
-    places = np.linspace(0.0, reach, positions) if positions > 1 else np.array([reach])
+    places = np.unique(loaded.map.trolley_positions)
+    if positions is not None:
+        # A single place is the jib's end, where the load bends it most.
+        places = np.linspace(0.0, reach, positions) if positions > 1 else np.array([reach])
     data = _mapped(loaded, frame, places, masses, modes)
     data.attrs |= provenance(loaded)
     report = map_report(data)
@@ -120,11 +125,8 @@ def _masses(case: Case, written: list[str] | None) -> list[float]:
     """Payloads [kg], ascending, each once."""
     from towercrane.units import UnitError, to_si
 
-    own = case.payload.mass
-    if not written:
-        return [0.5 * own, own, 2.0 * own]
-    masses = set()
-    for text in (part.strip() for option in written for part in option.split(",")):
+    masses = set() if written else set(case.map.payload_masses)
+    for text in (part.strip() for option in written or () for part in option.split(",")):
         try:
             mass = to_si(text, "kg")
         except UnitError as error:
@@ -165,7 +167,6 @@ def _mapped(case: Case, frame: CraneFrame, places: Any, masses: list[float], mod
 def _mode_picture(case: Case, frame: CraneFrame, position: float, count: int) -> dict[str, Any]:
     """Picture of the modes with the case's own payload; none if the tower buckles under it."""
     from modal import Unstable
-    from towercrane.map_report import assumptions
     from towercrane.plane_modes import PlaneCrane
     from towercrane.plots.frequency_map import shapes
 
@@ -177,4 +178,4 @@ def _mode_picture(case: Case, frame: CraneFrame, position: float, count: int) ->
         f"{case.crane.name}: trolley at {position:g} m, load {case.payload.mass:g} kg on {case.rope.length:g} m; "
         "crane to scale, displacements not"
     )
-    return {"shapes.png": shapes(found, title, [(a.key, str(a.value), a.why) for a in assumptions(case)])}
+    return {"shapes.png": shapes(found, title, [(a.key, str(a.value), a.why) for a in case.rests_on])}

@@ -15,12 +15,7 @@ from towercrane.summary import assumed
 if TYPE_CHECKING:
     import xarray as xr
 
-    from towercrane.case import Assumption, Case
-
-
-def assumptions(case: Case) -> list[Assumption]:
-    """Values that no source gives and that the crane's modes rest on; a lattice only checks the tower."""
-    return [a for a in case.assumed if a.key.startswith("crane.") and ".lattice." not in a.key]
+    from towercrane.case import Case
 
 
 def provenance(case: Case) -> dict[str, Any]:
@@ -31,7 +26,7 @@ def provenance(case: Case) -> dict[str, Any]:
         "crane": case.crane.name,
         "changes": json.dumps(case.changes),
         "case_text": json.dumps(case.as_written),
-        "assumed": json.dumps([[a.key, str(a.value), a.why] for a in assumptions(case)]),
+        "assumed": json.dumps([[a.key, str(a.value), a.why] for a in case.rests_on]),
         "versions": json.dumps(versions()),
     }
 

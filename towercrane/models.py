@@ -34,13 +34,22 @@ def radial_model(case: Case, **changes: Any) -> RadialModel:
     chosen = {
         "tower_modes": case.model.tower_modes,
         "jib_modes": case.model.jib_modes,
-        "weight_softening": case.model.weight_softening,
+        "weight_softening": _softened(case),
         "tower_damping_ratio": case.model.tower_damping_ratio,
         "jib_damping_ratio": case.model.jib_damping_ratio,
         "rope_as_rod": case.rope.slack == "rod",
         "self_weight": case.start.state != "zero-no-self-weight",
     }
     return RadialModel(case.radial_crane(), case.load(), **{**chosen, **changes})
+
+
+def _softened(case: Case) -> bool:
+    """Whether the weight softens the tower: as the case says, or by its tolerance on frequencies."""
+    if case.accuracy.frequency is None:
+        return case.model.weight_softening
+    from towercrane.effects import effects_in
+
+    return "weight" in effects_in(case).kept
 
 
 def slewing_builder(case: Case) -> Callable[[Any], LumpedModel]:

@@ -1,72 +1,70 @@
-"""Natural frequencies of a case: tower, jib and the coupled crane, each beside its finite elements; linear model."""
+"""Natural frequencies of a case: tower, jib and the coupled crane, each beside a second way to get them."""
 
 from __future__ import annotations
 
 import dataclasses
-import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.models import model_of, radial_model
+from modal.clock import timed
+from towercrane.models import radial_model
 from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from modal import LacedColumn
+    from modal import Beam, Chain, EndBody, LacedColumn
     from towercrane.case import Case
-    from towercrane.statespace import StateSpace
+    from towercrane.cranes.radial import RadialModel
 
 FRAME_MODES = 5
 """Frequencies of the coupled crane that are shown, commonly the pendulum's and four of the structure."""
 
 
-def natural_frequencies(case: Case) -> dict[str, Any]:
+def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
     """Roots and frequencies of a case, ready for JSON.
+
+    Parameters
+    ----------
+    case : Case
+    actual : bool
+        Put beside every prediction what a solution gives.
 
     Returns
     -------
     dict
-        ``tower`` (roots, frequencies_hz, seconds), ``jib`` (roots, frequencies_hz), ``finite_elements``
-        (frequencies_hz, relative_difference, elements, seconds), ``crane`` (a list with trolley_position_m,
-        frequencies_hz, swing_mode, finite_elements_hz, relative_difference; outcome and message where the tower
-        buckles), ``lattice`` where the case describes one,
-        ``assumed``.
+        ``tower`` (frequencies_hz, method, seconds; of a uniform tower roots), ``jib`` (roots, frequencies_hz),
+        ``finite_elements`` of the tower (frequencies_hz, relative_difference, elements, seconds), ``effects`` of
+        shear, weight, rotary inertia and foundation, see `towercrane.effects.effects_report`, ``crane`` (a list with
+        trolley_position_m, frequencies_hz, swing_mode, exact_hz, relative_difference, predicted_difference; outcome
+        and message where the tower buckles), ``buckling_factor`` on all weights, ``lattice`` where the case describes
+        one, ``assumed``.
     """
-    from modal import cantilever_modes, characteristic_roots, finite_element_frequencies
+    from modal import Beam
+    from towercrane.effects import effects_in, effects_report
 
-    crane = case.radial_crane()
-    count, elements = case.modes.count, case.modes.elements
-    modes = cantilever_modes(case.tower_beam(), count, crane.end_body)
-    tower, body = case.tower_beam(), crane.end_body
-    ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
-    _, seconds = _timed(lambda: characteristic_roots(*ratios, count))
-    jib = cantilever_modes(crane.jib, count)
-    checked, check_seconds = _timed(
-        lambda: finite_element_frequencies(case.tower_beam(), count, crane.end_body, elements=elements)
-    )
+    crane, count, elements = case.radial_crane(), case.modes.count, case.modes.elements
+    jib = crane.jib_modes(count)
+    if isinstance(crane.tower, Beam):
+        tower, check = _uniform_tower(crane.tower, crane.end_body, count, elements)
+    else:
+        tower, check = _chain_tower(crane.tower, crane.end_body, count, elements)
     report: dict[str, Any] = {
         "case": case.name,
         "name": crane.name,
-        "tower": {
-            "roots": modes.roots.tolist(),
-            "frequencies_hz": modes.frequencies_hz.tolist(),
-            "seconds": seconds,
-        },
+        "tower": tower,
         "jib": {"roots": jib.roots.tolist(), "frequencies_hz": jib.frequencies_hz.tolist()},
-        "finite_elements": {
-            "frequencies_hz": (checked / (2 * np.pi)).tolist(),
-            "relative_difference": (checked / modes.angular_frequencies - 1.0).tolist(),
-            "elements": elements,
-            "seconds": check_seconds,
-        },
+        "finite_elements": check,
+        "effects": effects_report(effects_in(case), actual=actual),
         "crane_model": {"tower_modes": case.model.tower_modes, "jib_modes": case.model.jib_modes},
         "rope_length_m": case.rope.length,
         "payload_mass_kg": case.payload.mass,
     }
-    report["crane"] = [_coupled(case, position) for position in case.modes.trolley_positions]
-    if case.crane.tower.published_roots:
+    model = radial_model(case)
+    report["crane"] = [_coupled(case, model, position) for position in case.modes.trolley_positions]
+    report["buckling_factor"] = _buckling_factor(case)
+    if case.crane.tower.published_roots and "roots" in tower:
         report["tower"]["published_roots"] = list(case.crane.tower.published_roots)
     if (lattice := case.lattice()) is not None:
         report["lattice"] = _lattice(lattice, crane.tower.length)
@@ -74,11 +72,49 @@ def natural_frequencies(case: Case) -> dict[str, Any]:
     return report
 
 
-def _coupled(case: Case, position: float) -> dict[str, Any]:
-    """Frequencies of the coupled crane with the trolley at a position [m]."""
-    from modal import frame_frequencies
+def _uniform_tower(tower: Beam, body: EndBody, count: int, elements: int) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Roots of a uniform tower from their closed form and its frequencies from finite elements, with their times."""
+    from modal import characteristic_roots, finite_element_frequencies
 
-    crane, model = case.radial_crane(), radial_model(case)
+    ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
+    roots, seconds = timed(lambda: characteristic_roots(*ratios, count))
+    exact = (roots / tower.length) ** 2 * np.sqrt(tower.bending_stiffness / tower.mass_per_length)
+    found = {"frequencies_hz": (exact / (2 * np.pi)).tolist(), "roots": roots.tolist()}
+    checked = _checked(lambda: finite_element_frequencies(tower, count, body, elements=elements), exact, elements)
+    return found | {"method": "closed form", "seconds": seconds}, checked
+
+
+def _chain_tower(tower: Chain, body: EndBody, count: int, elements: int) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Frequencies of a tower of segments from its dynamic stiffness and from finite elements, with their times."""
+    from modal import chain_frequencies, chain_structure, finite_element_structure_frequencies
+    from towercrane.towers import with_end_body
+
+    whole = with_end_body(tower, body)
+    exact, seconds = timed(lambda: chain_frequencies(whole, count))
+    structure = chain_structure(whole)
+    checked = _checked(
+        lambda: finite_element_structure_frequencies(structure, count, elements=elements), exact, elements
+    )
+    found = {"frequencies_hz": (exact / (2 * np.pi)).tolist()}
+    return found | {"method": "dynamic stiffness", "seconds": seconds}, checked
+
+
+def _checked(solve: Callable[[], Any], exact: Any, elements: int) -> dict[str, Any]:
+    frequencies, seconds = timed(solve)
+    return {
+        "frequencies_hz": (frequencies / (2 * np.pi)).tolist(),
+        "relative_difference": (frequencies / exact - 1.0).tolist(),
+        "elements": elements,
+        "seconds": seconds,
+    }
+
+
+def _coupled(case: Case, model: RadialModel, position: float) -> dict[str, Any]:
+    """Frequencies of the coupled crane with the trolley at a position [m], beside the exact ones of the frame."""
+    from modal import crane_structure
+    from towercrane.towers import crane_frame
+    from towercrane.truncation import truncation_error
+
     row: dict[str, Any] = {"trolley_position_m": position, "frequencies_hz": []}
     try:
         found, swing = model.natural_modes(position, case.rope.length)
@@ -86,22 +122,23 @@ def _coupled(case: Case, position: float) -> dict[str, Any]:
         return row | {"outcome": failure.outcome, "message": str(failure)}
     found = found[:FRAME_MODES]
     row |= {"frequencies_hz": (found / (2 * np.pi)).tolist(), "swing_mode": swing + 1}
-    if model.tower_modes and model.jib_modes and not model.weight_softening:
-        frame = frame_frequencies(
-            case.tower_beam(),
-            crane.jib,
-            head_mass=crane.counter_mass,
-            head_inertia=crane.counter_inertia,
-            trolley_position=position,
-            trolley_mass=crane.trolley_mass,
-            payload_mass=case.payload.mass,
-            rope_length=case.rope.length,
-            gravity=crane.gravity,
-            count=len(found),
-        )
-        row["finite_elements_hz"] = (frame / (2 * np.pi)).tolist()
-        row["relative_difference"] = (found / frame - 1.0).tolist()
+    if model.tower_modes and model.jib_modes:
+        frame = crane_frame(case, weight=model.weight_softening)
+        exact = crane_structure(frame, position).angular_frequencies(len(found))
+        row["exact_hz"] = (exact / (2 * np.pi)).tolist()
+        row["relative_difference"] = (found / exact - 1.0).tolist()
+        row["predicted_difference"] = truncation_error(model, position, case.rope.length)[: len(found)].tolist()
     return row
+
+
+def _buckling_factor(case: Case) -> float | None:
+    """Factor on all weights, trolley and load included, at which the tower buckles; None: it never does."""
+    from modal import crane_structure
+    from towercrane.towers import crane_frame
+
+    frame = crane_frame(case, weight=True)
+    factor = crane_structure(frame, case.modes.trolley_positions[0]).buckling_factor()
+    return factor if np.isfinite(factor) else None
 
 
 def _lattice(column: LacedColumn, height: float) -> dict[str, dict[str, Any]]:
@@ -115,66 +152,3 @@ def _lattice(column: LacedColumn, height: float) -> dict[str, dict[str, Any]]:
         "equivalent_second_moment_of_area": column.equivalent_second_moment_of_area(height),
     }
     return {name: dataclasses.asdict(found) for name, found in properties.items()}
-
-
-def _timed(function: Callable[[], Any], repeats: int = 5) -> tuple[Any, float]:
-    """Result and median time of a few calls [s]; the first, which loads code, is not counted."""
-    result = function()
-    seconds = []
-    for _ in range(repeats):
-        began = time.perf_counter()
-        function()
-        seconds.append(time.perf_counter() - began)
-    return result, float(np.median(seconds))
-
-
-def linear_model(case: Case, at: float) -> StateSpace:
-    """Linear model of a case about its equilibrium with the drives at rest where they are ``at`` a time [s].
-
-    Raises
-    ------
-    NoEquilibrium
-        If the crane has none.
-    """
-    from towercrane.linearise import linearise
-
-    return linearise(model_of(case), case.motions, time=at)
-
-
-def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
-    """Linear model of a case, ready for JSON.
-
-    Returns
-    -------
-    dict
-        ``eigenvalues`` (real, imaginary, frequency_hz, damping_ratio, dominant_state; the ratio of a zero is None),
-        ``states``, ``inputs`` and ``outputs`` (name, units, value at the operating point), ``A``, ``B``, ``C``,
-        ``D``, ``differentiation_error``, ``at_s``, ``assumed``.
-    """
-    point = linear.point
-    report: dict[str, Any] = {"case": case.name, "name": case.crane.name, "at_s": at}
-    report["eigenvalues"] = [
-        {
-            "real": value.real,
-            "imaginary": value.imag,
-            "frequency_hz": frequency,
-            "damping_ratio": ratio if np.isfinite(ratio) else None,
-            "dominant_state": state,
-        }
-        for value, frequency, ratio, state in linear.eigenvalues()
-    ]
-    kinds = {
-        "states": (linear.states, point.states),
-        "inputs": (linear.inputs, point.inputs),
-        "outputs": (linear.outputs, point.outputs),
-    }
-    for kind, (signals, values) in kinds.items():
-        pairs = zip(signals, values.tolist(), strict=True)
-        report[kind] = [{"name": signal.name, "units": signal.units, "value": value} for signal, value in pairs]
-    for name in "ABCD":
-        report[name] = getattr(linear, name.lower()).tolist()
-    report["differentiation_error"] = linear.error
-    # The lattice's members enter the tower's check only.
-    rests_on = [a for a in case.assumed if not a.key.startswith("crane.tower.lattice.")]
-    report["assumed"] = [{"key": a.key, "value": str(a.value), "why": a.why} for a in rests_on]
-    return report

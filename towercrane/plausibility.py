@@ -82,9 +82,19 @@ RANGES = (
     Range("crane.*.mass_per_length", "kg/m", 1, 20e3, ("t/m", "kg/mm", "g/m")),
     Range("crane.*.youngs_modulus", "Pa", 1e9, 1e12, ("GPa", "MPa", "N/mm^2", "kPa")),
     Range("crane.*.second_moment_of_area", "m^4", 1e-8, 10, ("cm^4", "mm^4")),
-    Range("crane.tower.lattice.*_area", "m^2", 1e-5, 0.5, AREAS),
-    Range("crane.tower.lattice.leg_spacing", "m", 0.05, 20, LENGTHS),
-    Range("crane.tower.lattice.panel_height", "m", 0.05, 20, LENGTHS),
+    Range("crane.tower*.lattice.*_area", "m^2", 1e-5, 0.5, AREAS),
+    Range("crane.tower*.lattice.leg_spacing", "m", 0.05, 20, LENGTHS),
+    Range("crane.tower*.lattice.panel_height", "m", 0.05, 20, LENGTHS),
+    Range("crane.tower*.shear_stiffness", "N", 1e4, 1e12, ("MN", "kN")),
+    Range("crane.tower*.rotary_inertia_per_length", "kg m^2/m", 1e-4, 1e5, ("t m", "g m")),
+    Range("crane.tower.segments*.length", "m", 0.05, 1000, LENGTHS),
+    Range("crane.tower.segments*.top_breadth_ratio", "1", 0.05, 10, ("%",)),
+    Range("crane.tower.bodies*.height", "m", 1e-3, 1000, LENGTHS),
+    Range("crane.tower.bodies*.mass", "kg", 1, 1e6, ("t", "g")),
+    Range("crane.tower.bodies*.rotary_inertia", "kg m^2", 1e-2, 1e9, ("t m^2",)),
+    Range("crane.tower.bodies*.offset", "m", 1e-3, 50, LENGTHS, signed=True),
+    Range("crane.foundation.rotation_stiffness", "N m/rad", 1e4, 1e14, ("MN m/rad", "GN m/rad", "kN m/rad")),
+    Range("crane.foundation.translation_stiffness", "N/m", 1e4, 1e13, ("MN/m", "GN/m", "kN/m")),
     Range("crane.counter_jib.counterweight", "kg", 50, 1e6, ("t", "g")),
     Range("crane.trolley.mass", "kg", 5, 50e3, ("t", "g")),
     Range("crane.geometry.*", "m", 0.02, 1000, LENGTHS),
@@ -112,6 +122,7 @@ RANGES = (
     Range("payload.rope_damping", "N m s/rad", 1e-6, 1e8, ("kN m s/rad",)),
     Range("payload.drag_area", "m^2", 1e-4, 1e3, AREAS),
     Range("payload.drag", "N s^2/m^2", 1e-5, 1e3, ("g/m",)),
+    Range("map.payload_masses*", "kg", 1, 1e6, ("t", "g")),
     Range("rope.length", "m", 0.1, 1000, LENGTHS),
     Range("motion.*.speed", "m/s", 1e-3, FASTEST, ("m/min", "mm/s", "km/h"), signed=True),
     Range("motion.*.acceleration", "m/s^2", 1e-4, 20, ("cm/s^2", "mm/s^2")),
@@ -157,8 +168,8 @@ def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> It
 
 
 def check_values(tree: dict[str, Any]) -> Iterator[Fault]:
-    """Values that do not fit each other, motions apart."""
-    for check in (_check_output, _check_elements, _check_lattice, _check_drag, _check_friction, _check_method):
+    """Values that do not fit each other, motions and towers apart."""
+    for check in (_check_output, _check_elements, _check_drag, _check_friction, _check_method):
         yield from check(tree)
 
 
@@ -189,15 +200,6 @@ def _check_elements(tree: dict[str, Any]) -> Iterator[Fault]:
     if count and elements and count >= 2 * elements:
         wanted = f"more than {count / 2:g} elements for {count:g} modes"
         yield Fault("", "modes.elements", wanted, f"{elements:g}", "each element adds two unknowns")
-
-
-def _check_lattice(tree: dict[str, Any]) -> Iterator[Fault]:
-    """A lacing that lacks its members."""
-    lattice = at(tree, "crane.tower.lattice")
-    key = "crane.tower.lattice.horizontal_area"
-    if isinstance(lattice, dict) and lattice.get("lacing") == "N" and not si_at(tree, key, "m^2", 0.0):
-        wanted = 'an area above 0, such as "8 cm^2": the lacing "N" needs horizontals'
-        yield Fault("", key, wanted, shown(lattice.get("horizontal_area", "nothing")))
 
 
 def _check_drag(tree: dict[str, Any]) -> Iterator[Fault]:

@@ -6,7 +6,19 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictBool, StrictInt
 
-from towercrane.schema import Angle, ModeCount, Payload, Position, Ratio, Rope, Run, Solver, Table
+from towercrane.schema import (
+    Angle,
+    Mass,
+    ModeCount,
+    Payload,
+    Position,
+    Ratio,
+    Rope,
+    Run,
+    Solver,
+    Table,
+    ToleranceIfAny,
+)
 from towercrane.schema_cranes import (  # noqa: TC001 - pydantic reads annotations when the class is made
     BasicCrane,
     Crane,
@@ -43,6 +55,24 @@ class ModesRequest(Table):
     elements: Annotated[StrictInt, Field(ge=2, le=2000)] = 32
 
 
+class MapRequest(Table):
+    """Where the frequency map is taken.
+
+    Without positions of the trolley, ``position_count`` of them equally spaced from the tower's axis to the end of
+    the jib; without masses of the load half the case's own, that itself, and its double.
+    """
+
+    position_count: Annotated[StrictInt, Field(ge=2, le=2000)] = 50
+    trolley_positions: tuple[Position, ...] = ()
+    payload_masses: tuple[Mass, ...] = ()
+
+
+class Accuracy(Table):
+    """Accuracy that is asked of results; None where any is good enough."""
+
+    frequency: ToleranceIfAny = None
+
+
 class RadialCase(Table):
     """Case of a crane in radial motion."""
 
@@ -56,6 +86,8 @@ class RadialCase(Table):
     run: Run
     solver: Solver = Solver()
     modes: ModesRequest = ModesRequest()
+    map: MapRequest = MapRequest()
+    accuracy: Accuracy = Accuracy()
     allow_implausible: tuple[str, ...] = ()
 
 

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
-from modal.lattice import Lacing  # noqa: TC001 - pydantic reads annotations when the class is made
 from towercrane.schema import (
     Acceleration,
-    Area,
-    AreaOrNone,
     Corner,
     Damping,
     Drag,
@@ -21,26 +18,17 @@ from towercrane.schema import (
     MassPerLength,
     MassPerLengthOrNone,
     Modulus,
+    ModulusIfAny,
     Reach,
-    Root,
     RotaryStiffness,
     SecondMoment,
+    SecondMomentIfAny,
     Stiffness,
     Table,
     TorqueOrNone,
     TurningOrNone,
 )
-
-
-class Lattice(Table):
-    """Members of a laced tower."""
-
-    leg_area: Area
-    leg_spacing: Length
-    panel_height: Length
-    lacing: Lacing
-    diagonal_area: Area
-    horizontal_area: AreaOrNone = 0.0
+from towercrane.schema_towers import Foundation, Tower
 
 
 class Jib(Table):
@@ -52,23 +40,18 @@ class Jib(Table):
     second_moment_of_area: SecondMoment
 
 
-class Tower(Table):
-    """Tower as a uniform beam; roots that its source prints are shown beside the computed ones."""
-
-    height: Length
-    mass_per_length: MassPerLength
-    youngs_modulus: Modulus
-    second_moment_of_area: SecondMoment
-    published_roots: tuple[Root, ...] = ()
-    lattice: Lattice | None = None
-
-
 class CounterJib(Table):
-    """Counter-jib with the counterweight at its end."""
+    """Counter-jib with the counterweight at its end.
+
+    It is rigid in the equations of motion. Modulus and second moment of area, both or none, let it bend in the exact
+    frequencies of the crane, see :func:`towercrane.towers.crane_frame`.
+    """
 
     length: Reach
     mass_per_length: MassPerLengthOrNone
     counterweight: MassOrNone
+    youngs_modulus: ModulusIfAny = None
+    second_moment_of_area: SecondMomentIfAny = None
 
 
 class Trolley(Table):
@@ -85,6 +68,7 @@ class Crane(Table):
     kind: Literal["radial"] = "radial"
     gravity: Acceleration = 9.81
     tower: Tower
+    foundation: Foundation = Foundation()
     jib: Jib
     counter_jib: CounterJib
     trolley: Trolley

@@ -103,7 +103,7 @@ def linearise(
             fail(f"--out {out}: wanted a file that ends in {' or '.join(FILE_TYPES)}")
         folder_for_results(out.parent)
     announce_compilation(loaded.kind)
-    from towercrane.natural import linear_model, linear_report
+    from towercrane.linear_report import linear_model, linear_report
     from towercrane.system import NoEquilibrium
 
     try:

@@ -152,7 +152,8 @@ def notices(case: Case, result: xr.Dataset, frequencies: list[float], swing: int
         found.append(f"the energy balance is off by {gap:.1e} of the change: tighten solver.rtol and solver.atol")
     lengths: tuple[tuple[str, float], ...] = ()
     if case.kind == "radial":
-        lengths = (("tower_tip_displacement", case.crane.tower.height), ("jib_tip_deflection", case.crane.jib.length))
+        crane = case.radial_crane()
+        lengths = (("tower_tip_displacement", crane.tower.length), ("jib_tip_deflection", crane.jib.length))
     for name, length in lengths:
         share = float(abs(result[name]).max()) / length
         if share > SMALL:

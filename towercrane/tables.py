@@ -30,32 +30,10 @@ def _table(title: str, *columns: str, left: int = 1) -> Table:
 def modes_tables(report: dict[str, Any]) -> None:
     """Natural frequencies beside finite elements, as :func:`towercrane.natural.natural_frequencies` gives them."""
     console = _console()
-    tower, jib, check = report["tower"], report["jib"], report["finite_elements"]
-    printed = tower.get("published_roots", [])
-    columns = ["mode", "root", "f [Hz]", f"{check['elements']} elements [Hz]", "relative"]
-    if printed:
-        columns += ["published", "ours less published"]
-    table = _table(f"{report['name']}: tower with the slewing part on its end", *columns)
-    rows = zip(
-        tower["roots"],
-        tower["frequencies_hz"],
-        check["frequencies_hz"],
-        check["relative_difference"],
-        strict=True,
-    )
-    for i, (root, frequency, element, difference) in enumerate(rows):
-        cells = [str(i + 1), f"{root:.6f}", f"{frequency:.6f}", f"{element:.6f}", f"{difference:.1e}"]
-        if i < len(printed):
-            gap = root - printed[i]
-            cells += [f"{printed[i]:.3f}", f"{gap:+.4f}" + (" (!)" if abs(gap) > 0.005 else "")]
-        table.add_row(*cells)
-    console.print(table)
-    if any(abs(root - published) > 0.005 for root, published in zip(tower["roots"], printed, strict=False)):
-        console.print("(!) discrepancy: no mass, inertia or offset near the published data gives this root")
-    console.print(
-        f"closed form {1e3 * tower['seconds']:.3f} ms, finite elements {1e3 * check['seconds']:.1f} ms (median of 5)"
-    )
+    _tower(console, report)
+    _effects(console, report)
 
+    jib = report["jib"]
     table = _table(f"{report['name']}: jib, clamped at the tower", "mode", "root", "frequency [Hz]")
     for i, (root, frequency) in enumerate(zip(jib["roots"], jib["frequencies_hz"], strict=True)):
         table.add_row(str(i + 1), f"{root:.6f}", f"{frequency:.6f}")
@@ -73,7 +51,10 @@ def modes_tables(report: dict[str, Any]) -> None:
         cells = [f"{f:.6f}" + ("*" if i == swing else "") for i, f in enumerate(row["frequencies_hz"], start=1)]
         table.add_row(f"{row['trolley_position_m']:g}", *cells)
         if "relative_difference" in row:
-            table.add_row("  less FE frame", *(f"{d:+.1e}" for d in row["relative_difference"]), style="dim")
+            table.add_row("  less exact", *(f"{d:+.1e}" for d in row["relative_difference"]), style="dim")
+            table.add_row(
+                "  by the jib modes, predicted", *(f"{d:+.1e}" for d in row["predicted_difference"]), style="dim"
+            )
     console.print(table)
     for row in report["crane"]:
         if "outcome" in row:
@@ -88,8 +69,77 @@ def modes_tables(report: dict[str, Any]) -> None:
     _assumed(console, report["assumed"])
 
 
+def _tower(console: Console, report: dict[str, Any]) -> None:
+    """Frequencies of the tower beside finite elements; of a uniform one roots, beside published ones."""
+    tower, check = report["tower"], report["finite_elements"]
+    roots, printed = tower.get("roots", []), tower.get("published_roots", [])
+    columns = ["mode", *["root"][: len(roots)], "f [Hz]", f"{check['elements']} elements [Hz]", "relative"]
+    if printed:
+        columns += ["published", "ours less published"]
+    table = _table(f"{report['name']}: tower with the slewing part on its end", *columns)
+    rows = zip(tower["frequencies_hz"], check["frequencies_hz"], check["relative_difference"], strict=True)
+    for i, (frequency, element, difference) in enumerate(rows):
+        cells = [str(i + 1), *[f"{root:.6f}" for root in roots[i : i + 1]]]
+        cells += [f"{frequency:.6f}", f"{element:.6f}", f"{difference:.1e}"]
+        if i < len(printed):
+            gap = roots[i] - printed[i]
+            cells += [f"{printed[i]:.3f}", f"{gap:+.4f}" + (" (!)" if abs(gap) > 0.005 else "")]
+        table.add_row(*cells)
+    console.print(table)
+    if any(abs(root - published) > 0.005 for root, published in zip(roots, printed, strict=False)):
+        console.print("(!) discrepancy: no mass, inertia or offset near the published data gives this root")
+    times = f"{1e3 * tower['seconds']:.3f} ms, finite elements {1e3 * check['seconds']:.1f} ms (median of 5)"
+    console.print(f"{tower['method']} {times}")
+
+
+def _effects(console: Console, report: dict[str, Any]) -> None:
+    """Predicted, and where solved actual, changes of the tower's frequencies by each effect."""
+    effects = report["effects"]
+    if not effects["changes"]:
+        return
+    title = f"{report['name']}: change of the tower's frequencies by each effect, predicted from the plain modes [%]"
+    count = len(report["tower"]["frequencies_hz"])
+    table = _table(title, "effect", "in the results", *(f"f{i}" for i in range(1, count + 1)), left=2)
+    for effect, rows in effects["changes"].items():
+        for kind, changes in rows.items():
+            name = effect if kind == "predicted" else f"  {kind}"
+            kept = ("yes" if effect in effects["kept"] else "no") if kind == "predicted" else ""
+            table.add_row(name, kept, *(f"{100.0 * change:+.3g}" for change in changes))
+    console.print(table)
+    tolerance = effects["tolerance"]
+    asked = f"; the case accepts {100.0 * tolerance:g} %" if tolerance is not None else ""
+    if effects["left_out"]:
+        cost = 100.0 * effects["left_out_may_cost"]
+        console.print(f"left out: {', '.join(effects['left_out'])}; that may cost {cost:.3g} % of a frequency{asked}")
+    if (factor := report["buckling_factor"]) is not None:
+        console.print(f"the tower buckles under {factor:.4g} times all weights, trolley and load included")
+
+
+def lattice_tables(report: dict[str, Any]) -> None:
+    """Truss and beams as :func:`towercrane.lattice_command.lattice_report` gives them."""
+    console = _console()
+    title = f"{report['name']}: lattice of {report['height_m']:g} m as beams; errors relative to the truss [%]"
+    columns = ("force", "moment", "f1 bare", "f2 bare", "f1 with body", "f2 with body", "time [ms]")
+    table = _table(title, "model", *columns)
+    for model in report["models"]:
+        found, errors = (
+            [m["force_deflection"], m["moment_deflection"], *m["frequencies_hz"], *m["body_frequencies_hz"]]
+            for m in (model["answers"], model["errors"])
+        )
+        if model["name"] == "truss":
+            units = ("um/kN", "um/(kN m)", "Hz", "Hz", "Hz", "Hz")
+            scaled = [1e9 * found[0], 1e9 * found[1], *found[2:]]
+            cells = [f"{value:.5g} {unit}" for value, unit in zip(scaled, units, strict=True)]
+        else:
+            cells = [f"{100.0 * error:+.2f}" for error in errors]
+        table.add_row(model["name"], *cells, f"{1e3 * model['seconds']:.2f}")
+    console.print(table)
+    console.print("deflections are those of the top under a force or a moment on it; the body is the slewing part")
+    _assumed(console, report["assumed"])
+
+
 def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
-    """Eigenvalues, as :func:`towercrane.natural.linear_report` gives them, without those of the drives themselves."""
+    """Eigenvalues as :func:`towercrane.linear_report.linear_report` gives them, without those of the drives."""
     console = _console()
     values = {signal["name"]: f"{signal['value']:g} {signal['units']}" for signal in report["states"]}
     where = ", ".join(f"{name} {values[name]}" for name in drives)

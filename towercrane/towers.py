@@ -1,18 +1,90 @@
-"""The crane of a case as an exact structure: tower and jib as chains of segments."""
+"""Towers of case files as beams and chains, and the whole crane of a case as an exact structure."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING
 
-from modal import Beam, Chain, CraneFrame, EndBody, Segment
+from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Segment
 
 if TYPE_CHECKING:
     from towercrane.case import Case
+    from towercrane.schema_cranes import Crane
+    from towercrane.schema_towers import BeamChoice, Lattice, Section, Tower, TowerSegment
+
+TAPER_POWERS = {"legs": (0.0, 2.0, 0.0), "wedge": (1.0, 3.0, 1.0), "cone": (2.0, 4.0, 2.0)}
+"""Powers of the breadth that mass, bending and shear stiffness go with: four legs that draw together, whose lacing is
+taken to stay as stiff in shear; a plate whose depth tapers; a solid section that tapers both ways."""
+
+
+def tower_of(crane: Crane) -> Beam | Chain:
+    """The tower of a checked crane file, without the slewing part and without weight.
+
+    A uniform tower on rigid ground without shear strain, rotary inertia and bodies is a `Beam`, which has closed
+    forms; any other, and one that is written as segments, is a `Chain`.
+    """
+    from towercrane.schema_towers import Section, TowerSegment
+
+    tower = crane.tower
+    pieces = tower.segments
+    if not pieces:
+        whole = {name: getattr(tower, name) for name in Section.model_fields}
+        pieces = (TowerSegment.model_construct(length=tower.height, **whole),)
+    foundation = Foundation(**dict(crane.foundation))
+    segments = tuple(_segment(tower, piece) for piece in pieces)
+    chain = Chain(segments, foundation=foundation, shear_theory=tower.shear_theory)
+    for body in tower.bodies:
+        # The sum of the segments may fall short of the stated height by rounding.
+        chain, node = chain.with_node(min(body.height, chain.length))
+        more = EndBody(body.mass, body.rotary_inertia, body.offset)
+        chain = replace(chain, bodies={**chain.bodies, node: joined(chain.bodies.get(node, EndBody()), more)})
+    plain = segments[0].shear_stiffness == inf and segments[0].rotary_inertia == 0.0
+    if tower.segments or tower.bodies or foundation != Foundation() or not plain:
+        return chain
+    modulus = tower.youngs_modulus
+    assert modulus is not None, "the file is checked to give one"
+    stiffness = segments[0].bending_stiffness
+    return Beam(segments[0].length, segments[0].mass_per_length, modulus, stiffness / modulus)
+
+
+def beam_choice(tower: Tower, section: Section) -> BeamChoice:
+    """Where the beam of a section comes from.
+
+    A stated second moment of area holds, unless the key ``beam`` of a uniform tower asks for its lattice instead.
+    """
+    if section.second_moment_of_area is None:
+        return tower.beam or "shear-flexible"
+    return "stated" if tower.segments else tower.beam or "stated"
+
+
+def laced_column(lattice: Lattice, youngs_modulus: float) -> LacedColumn:
+    """Members of a crane file as a laced column."""
+    return LacedColumn(**dict(lattice), youngs_modulus=youngs_modulus)
+
+
+def _segment(tower: Tower, piece: TowerSegment) -> Segment:
+    """A piece of the tower as a segment, its beam stated or that of its lattice."""
+    modulus, choice = piece.youngs_modulus or tower.youngs_modulus, beam_choice(tower, piece)
+    assert modulus is not None, "the file is checked to give one"
+    taper = (piece.top_breadth_ratio, *TAPER_POWERS[piece.taper])
+    if piece.lattice is None or choice == "stated":
+        assert piece.second_moment_of_area is not None, "the file is checked to give one"
+        stiffness, shear = modulus * piece.second_moment_of_area, piece.shear_stiffness
+        rotary = piece.rotary_inertia_per_length
+        return Segment(piece.length, piece.mass_per_length, stiffness, shear, rotary, *taper)
+    laced = laced_column(piece.lattice, modulus).segment(piece.length, piece.mass_per_length, choice)
+    values = dict(zip(("end_ratio", "mass_power", "bending_power", "shear_power"), taper, strict=True))
+    if piece.rotary_inertia_per_length:
+        values["rotary_inertia"] = piece.rotary_inertia_per_length
+    return replace(laced, **values)
 
 
 def crane_frame(case: Case, *, weight: bool = False) -> CraneFrame:
     """Tower, jib, trolley and load of a radial case in their common vertical plane.
+
+    A counter-jib that has a bending stiffness bends, with the counterweight at its end; without one it is rigid, a
+    part of the body on the tower.
 
     Parameters
     ----------
@@ -22,12 +94,13 @@ def crane_frame(case: Case, *, weight: bool = False) -> CraneFrame:
     """
     crane = case.radial_crane()
     tower = as_chain(crane.tower)
-    top = len(tower.segments)
-    counter = EndBody(crane.counter_mass, crane.counter_inertia)
-    bodies = {**tower.bodies, top: joined(tower.bodies.get(top, EndBody()), counter)}
+    counter_jib = _flexible_counter_jib(case.crane)
+    if counter_jib is None:
+        tower = with_end_body(tower, EndBody(crane.counter_mass, crane.counter_inertia))
     return CraneFrame(
-        tower=replace(tower, bodies=bodies, gravity=crane.gravity if weight else 0.0),
+        tower=replace(tower, gravity=crane.gravity if weight else 0.0),
         jib=as_chain(crane.jib),
+        counter_jib=counter_jib,
         trolley_mass=crane.trolley_mass,
         payload_mass=case.payload.mass,
         rope_length=case.rope.length,
@@ -35,11 +108,26 @@ def crane_frame(case: Case, *, weight: bool = False) -> CraneFrame:
     )
 
 
+def _flexible_counter_jib(crane: Crane) -> Chain | None:
+    """The counter-jib with its counterweight; None where it is rigid."""
+    jib = crane.counter_jib
+    if jib.youngs_modulus is None or jib.second_moment_of_area is None:
+        return None
+    segment = Segment(jib.length, jib.mass_per_length, jib.youngs_modulus * jib.second_moment_of_area)
+    return Chain((segment,), {1: EndBody(jib.counterweight)})
+
+
 def as_chain(beam: Beam | Chain) -> Chain:
     """A uniform beam as a chain of one segment; a chain as it is."""
     if isinstance(beam, Chain):
         return beam
     return Chain((Segment(beam.length, beam.mass_per_length, beam.bending_stiffness),))
+
+
+def with_end_body(tower: Chain, body: EndBody) -> Chain:
+    """The tower with one body more on its end."""
+    top = len(tower.segments)
+    return replace(tower, bodies={**tower.bodies, top: joined(tower.bodies.get(top, EndBody()), body)})
 
 
 def joined(first: EndBody, second: EndBody) -> EndBody:

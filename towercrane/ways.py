@@ -12,6 +12,7 @@ from towercrane.faults import CaseError, Fault, shown
 from towercrane.plausibility import FASTEST, FASTEST_TURN, at, si, si_at
 from towercrane.profiles import profile
 from towercrane.schema_motions import HoistMotion, JointMotion, TrolleyMotion
+from towercrane.tower_checks import tower_height
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -102,10 +103,11 @@ def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Motion | 
     on_jib = Way("motion.trolley", jib, False, f"positions on the jib, {known}", "the trolley leaves the jib")
     faults = _out_of_way(tree, on_jib, ("start", "end"))
     trolley, more = _motion(tree, on_jib, TypeAdapter(TrolleyMotion), folder, None)
-    for key, value in leaves(at(tree, "modes.trolley_positions") or [], "modes.trolley_positions"):
-        position = si(value, "m")
-        if position is not None and not on_jib.keeps(position):
-            faults.append(on_jib.fault(key, shown(value)))
+    for listed in ("modes.trolley_positions", "map.trolley_positions"):
+        for key, value in leaves(at(tree, listed) or [], listed):
+            position = si(value, "m")
+            if position is not None and not on_jib.keeps(position):
+                faults.append(on_jib.fault(key, shown(value)))
     faults += more if not any(f.key.startswith("motion.") for f in faults) else []
     return faults, trolley
 
@@ -125,8 +127,9 @@ def _rope(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], M
 
 def _height(tree: dict[str, Any], kind: str) -> tuple[float | None, str]:
     """Height that the rope hangs from and what it is; None where it is not known."""
+    if kind == "radial":
+        return tower_height(tree), "the height of the tower"
     keys, what = {
-        "radial": (("tower.height",), "the height of the tower"),
         "jib": (("post.height", "primary_boom.length", "secondary_boom.length"), "post and booms upright"),
     }.get(kind, (("geometry.tower_height", "geometry.top_height"), "the height of the tower with its top"))
     parts = [si_at(tree, f"crane.{key}", "m") for key in keys]

@@ -1,0 +1,137 @@
+"""What shear, weight, rotary inertia and foundation matter for a case, and which of them its tolerance keeps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import isinf
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modal import Beam, Chain, chain_frequencies, chain_structure
+from modal.influence import EFFECTS, Effect, Influence, effects_of, influence, keeping
+from modal.structure_modes import structure_modes
+from towercrane.towers import as_chain, laced_column, tower_of, with_end_body
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.case import Case
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Effects:
+    """Effects on the frequencies of a case's tower with the slewing part on its end.
+
+    Parameters
+    ----------
+    tower : Chain
+        The tower with everything that is known of it, slewing part and weight included.
+    above : float
+        Mass of trolley and load, which weigh on it too [kg].
+    plain_frequencies : ndarray, shape (n,)
+        Angular frequencies without any effect [rad/s].
+    influence : Influence
+        Predicted changes by each effect that is known.
+    kept : tuple of str
+        Effects that the case's results include.
+    tolerance : float, optional
+        Relative error of frequencies that the case accepts [1].
+    """
+
+    tower: Chain
+    above: float
+    plain_frequencies: Floats
+    influence: Influence
+    kept: tuple[Effect, ...]
+    tolerance: float | None
+
+    @property
+    def left_out(self) -> tuple[Effect, ...]:
+        """Effects that are known, but not in the case's results."""
+        return tuple(effect for effect in self.influence.changes if effect not in self.kept)
+
+    def actual(self, effect: Effect) -> Floats:
+        """Change of the frequencies by one effect alone, solved [1], shape (n,)."""
+        only = keeping(self.tower, (effect,))
+        loaded = replace(only, axial_load=only.axial_load + only.gravity * self.above)
+        return chain_frequencies(loaded, self.plain_frequencies.size) / self.plain_frequencies - 1.0
+
+
+def effects_in(case: Case) -> Effects:
+    """Effects known of a radial case's tower, how much each is predicted to matter, and those that are kept.
+
+    Without ``accuracy.frequency`` the results hold what the case describes, and the weight's softening where
+    ``model.weight_softening`` asks for it. With it, of those and the weight, what is negligible is left out.
+    """
+    crane, tolerance = case.crane, case.accuracy.frequency
+    written = tower_of(crane)
+    described, head = as_chain(written), case.crane_on(written).end_body
+    known = replace(with_end_body(_with_lattice(case, described), head), gravity=crane.gravity)
+    above = crane.trolley.mass + case.payload.mass
+    plain = structure_modes(chain_structure(keeping(known, ())), case.modes.count)
+    found = influence(plain, known, above)
+    of_the_case = set(effects_of(described))
+    asked = "weight_softening" in case.model.model_fields_set
+    if case.model.weight_softening or (tolerance is not None and not asked):
+        of_the_case.add("weight")
+    kept = tuple(effect for effect in EFFECTS if effect in of_the_case)
+    if tolerance is not None:
+        own = Influence({effect: found.changes[effect] for effect in kept})
+        fixed = ("weight",) if case.model.weight_softening else ()
+        negligible = own.negligible(tolerance)
+        kept = tuple(effect for effect in kept if effect not in negligible or effect in fixed)
+    return Effects(known, above, plain.angular_frequencies, found, kept, tolerance)
+
+
+def kept_tower(case: Case) -> Beam | Chain:
+    """The tower of a radial case, without the slewing part and without weight, as its tolerance keeps it."""
+    tower = tower_of(case.crane)
+    if isinstance(tower, Beam) or case.accuracy.frequency is None:
+        return tower
+    return keeping(tower, effects_in(case).kept)
+
+
+def _with_lattice(case: Case, tower: Chain) -> Chain:
+    """The tower with shear and rotary inertia of a lattice that stands beside its stated beam."""
+    crane, (segment, *others) = case.crane, tower.segments
+    lattice, modulus = crane.tower.lattice, crane.tower.youngs_modulus
+    if others or lattice is None or modulus is None:
+        return tower
+    laced = laced_column(lattice, modulus).segment(segment.length, segment.mass_per_length)
+    shear = laced.shear_stiffness if isinf(segment.shear_stiffness) else segment.shear_stiffness
+    rotary = segment.rotary_inertia or laced.rotary_inertia
+    return replace(tower, segments=(replace(segment, shear_stiffness=shear, rotary_inertia=rotary),))
+
+
+def effects_report(effects: Effects, *, actual: bool = False) -> dict[str, Any]:
+    """Effects ready for JSON.
+
+    Parameters
+    ----------
+    effects : Effects
+    actual : bool
+        Solve for the actual change by each effect as well.
+
+    Returns
+    -------
+    dict
+        ``tolerance``, ``kept``, ``left_out``, ``left_out_may_cost`` (largest relative change of a frequency) and
+        ``changes`` by effect: ``predicted`` and, where asked for, ``actual``, one per mode.
+    """
+    found = effects.influence
+    rows: dict[str, dict[str, list[float]]] = {}
+    for effect, change in found.changes.items():
+        rows[effect] = {"predicted": change.tolist()}
+        if actual:
+            rows[effect]["actual"] = effects.actual(effect).tolist()
+    lost = [np.abs(found.changes[effect]) for effect in effects.left_out]
+    return {
+        "tolerance": effects.tolerance,
+        "kept": list(effects.kept),
+        "left_out": list(effects.left_out),
+        "left_out_may_cost": float(np.sum(lost, axis=0).max()) if lost else 0.0,
+        "changes": rows,
+    }

@@ -1,0 +1,68 @@
+"""Command that sets a tower's lattice, as the truss that it is, beside the beams that stand for it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from towercrane.terminal import AsJson, CaseName, Changes, announce_compilation, fail, load, options_of, suggest
+
+if TYPE_CHECKING:
+    from towercrane.case import Case
+
+
+def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) -> None:
+    """The tower's lattice as three beams beside its truss: deflections, frequencies, errors and times."""
+    loaded = load(case, changes)
+    if loaded.kind != "radial" or loaded.lattice() is None:
+        fail(
+            f"{case}: wanted a crane with crane.tower.lattice, a uniform tower's members; try: towercrane modes {case}"
+        )
+    announce_compilation("modal.structure_kernel")
+    try:
+        report = lattice_report(loaded)
+    except ValueError as error:
+        fail(f"{case}: crane.tower.lattice: {error}")
+    if as_json:
+        typer.echo(json.dumps(report, indent=2))
+        return
+    from towercrane.tables import lattice_tables
+
+    lattice_tables(report)
+    suggest("modes", case, *options_of(changes), "--actual")
+
+
+def lattice_report(case: Case) -> dict[str, Any]:
+    """Truss and beams of a case's lattice, ready for JSON.
+
+    Returns
+    -------
+    dict
+        ``models``: a list with name, answers, errors relative to the truss, seconds; ``height_m`` of the truss, which
+        has whole panels; ``assumed``.
+
+    Raises
+    ------
+    ValueError
+        If the truss is a mechanism or has no whole panel.
+    """
+    from modal.lattice_comparison import compare_lattice_models
+
+    column, crane = case.lattice(), case.radial_crane()
+    assert column is not None
+    panels = max(1, round(crane.tower.length / column.panel_height))
+    mass = crane.tower.mass / crane.tower.length
+    models = compare_lattice_models(column, panels * column.panel_height, crane.end_body, mass)
+    return {
+        "name": crane.name,
+        "height_m": panels * column.panel_height,
+        "models": [asdict(model) for model in models],
+        "assumed": [
+            {"key": a.key, "value": str(a.value), "why": a.why}
+            for a in case.assumed
+            if a.key.startswith(("crane.tower.", "crane.counter_jib.", "crane.jib."))
+        ],
+    }

@@ -1,0 +1,63 @@
+"""Linear model of a case about its equilibrium, and its report."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.models import model_of
+
+if TYPE_CHECKING:
+    from towercrane.case import Case
+    from towercrane.statespace import StateSpace
+
+
+def linear_model(case: Case, at: float) -> StateSpace:
+    """Linear model of a case about its equilibrium with the drives at rest where they are ``at`` a time [s].
+
+    Raises
+    ------
+    NoEquilibrium
+        If the crane has none.
+    """
+    from towercrane.linearise import linearise
+
+    return linearise(model_of(case), case.motions, time=at)
+
+
+def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
+    """Linear model of a case, ready for JSON.
+
+    Returns
+    -------
+    dict
+        ``eigenvalues`` (real, imaginary, frequency_hz, damping_ratio, dominant_state; the ratio of a zero is None),
+        ``states``, ``inputs`` and ``outputs`` (name, units, value at the operating point), ``A``, ``B``, ``C``,
+        ``D``, ``differentiation_error``, ``at_s``, ``assumed``.
+    """
+    point = linear.point
+    report: dict[str, Any] = {"case": case.name, "name": case.crane.name, "at_s": at}
+    report["eigenvalues"] = [
+        {
+            "real": value.real,
+            "imaginary": value.imag,
+            "frequency_hz": frequency,
+            "damping_ratio": ratio if np.isfinite(ratio) else None,
+            "dominant_state": state,
+        }
+        for value, frequency, ratio, state in linear.eigenvalues()
+    ]
+    kinds = {
+        "states": (linear.states, point.states),
+        "inputs": (linear.inputs, point.inputs),
+        "outputs": (linear.outputs, point.outputs),
+    }
+    for kind, (signals, values) in kinds.items():
+        pairs = zip(signals, values.tolist(), strict=True)
+        report[kind] = [{"name": signal.name, "units": signal.units, "value": value} for signal, value in pairs]
+    for name in "ABCD":
+        report[name] = getattr(linear, name.lower()).tolist()
+    report["differentiation_error"] = linear.error
+    report["assumed"] = [{"key": a.key, "value": str(a.value), "why": a.why} for a in case.rests_on]
+    return report
