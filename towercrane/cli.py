@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from towercrane.lattice_command import lattice
+from towercrane.map_command import frequency_map
 from towercrane.studies import linearise, sensitivity
 from towercrane.terminal import (
     ENDED_EARLY,
@@ -277,6 +278,7 @@ def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Datase
 
 app.command()(lattice)
 app.command()(linearise)
+app.command("map")(frequency_map)
 app.command()(sensitivity)
 
 

@@ -255,6 +255,50 @@ def sensitivity_tables(summary: dict[str, Any]) -> None:
     _assumed(console, summary["assumed"])
 
 
+def map_tables(report: dict[str, Any]) -> None:
+    """Branches over payload and trolley position, as :func:`towercrane.map_report.map_report` gives them."""
+    console = _console()
+    places = report["positions_m"]
+    shown = sorted({round(i * (len(places) - 1) / 4) for i in range(5)})
+    weight = "softened by the weight" if report["weight_softening"] else "without the weight's softening"
+    title = f"{report['name']}: natural frequencies [Hz], rope {report['rope_length_m']:g} m, tower {weight}"
+    table = _table(title, "branch", "load [kg]", *(f"at {places[i]:.4g} m" for i in shown), "energy", left=1)
+    stable = [row for row in report["payloads"] if row["outcome"] == "finished"]
+    for k, name in enumerate(report["branches"]):
+        for row in stable:
+            branch = row["branches"][k]
+            shares = sorted(branch["energy_share"].items(), key=lambda item: -item[1])[:2]
+            energy = ", ".join(f"{member} {share:.0%}" for member, share in shares if share >= 0.005)
+            frequencies = (f"{branch['frequencies_hz'][i]:.5f}" for i in shown)
+            table.add_row(name if row is stable[0] else "", f"{row['payload_kg']:g}", *frequencies, energy)
+    console.print(table)
+    if stable:
+        row = stable[len(stable) // 2]
+        table = _table(
+            f"Part of each mode in static outputs under a unit force on the trolley at {places[-1]:.4g} m, "
+            f"load {row['payload_kg']:g} kg",
+            "branch",
+            *(
+                f"{output}, {load}"
+                for load in ("weight", "push")
+                for output in ("tower top", "jib end", "base moment")
+            ),
+        )
+        for branch in row["branches"]:
+            parts = [value for load in branch["contribution"].values() for value in load.values()]
+            table.add_row(branch["name"], *("-" if part is None else f"{part:.2%}" for part in parts))
+        console.print(table)
+        console.print("weight: force down, push: force outward; all modes together make 100 %")
+    for row in report["payloads"]:
+        factor = "no" if row["buckling_factor"] is None else f"{row['buckling_factor']:.5g}"
+        text = f"load {row['payload_kg']:g} kg: tower buckles in the jib's plane at {factor} times all weights"
+        console.print(text + ("" if row["outcome"] == "finished" else f": {row['outcome']}, no frequencies"))
+    for step in report["doubtful"]:
+        where = f"load {step['payload_kg']:g} kg, just before {step['position_m']:.4g} m"
+        console.print(f"doubtful {step['branch']}: its shape changes at once with {where}")
+    _assumed(console, report["assumed"])
+
+
 def bench_tables(report: dict[str, Any]) -> None:
     """Speed against error, as :func:`towercrane.bench.measure` gives it."""
     console = _console()

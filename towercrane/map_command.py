@@ -1,0 +1,181 @@
+"""The command `map`: natural frequencies over trolley position and payload, and the tower's buckling load."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from towercrane.terminal import (
+    ENDED_EARLY,
+    AsJson,
+    CaseName,
+    Changes,
+    fail,
+    folder_for_results,
+    load,
+    options_of,
+    say,
+    suggest,
+    write,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from modal import CraneFrame
+    from towercrane.case import Case
+
+MOST_POSITIONS, MOST_MODES = 1000, 20
+"""Beyond these a map takes minutes and cannot be read."""
+
+
+def frequency_map(
+    case: CaseName,
+    positions: Annotated[
+        int | None,
+        typer.Option(
+            "--positions", metavar="N", help="Places of the trolley, evenly along the jib; else the case's."
+        ),
+    ] = None,
+    payload: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--payload",
+            metavar="MASSES",
+            help='Loads, e.g. --payload "400 kg, 2 t"; else the case\'s.',
+        ),
+    ] = None,
+    modes: Annotated[int, typer.Option("--modes", metavar="N", help="Branches from the lowest on.")] = 6,
+    shapes: Annotated[
+        str | None,
+        typer.Option("--shapes", metavar="X", help='Draw the modes with the trolley there, e.g. --shapes "23 m".'),
+    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+) -> None:
+    """Natural frequencies of the plane crane over trolley position and payload; the tower's buckling load."""
+    loaded = load(case, changes)
+    if loaded.kind != "radial":
+        fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
+    folder = out if out is not None else Path("results") / f"{loaded.name}-map"
+    folder_for_results(folder)
+    if positions is not None and not 1 <= positions <= MOST_POSITIONS:
+        fail(f"--positions {positions}: wanted 1 to {MOST_POSITIONS}")
+    if not 1 <= modes <= MOST_MODES:
+        fail(f"--modes {modes}: wanted 1 to {MOST_MODES}")
+    masses = _masses(loaded, payload)
+    reach = loaded.radial_crane().jib.length
+    where = None if shapes is None else _position(shapes, reach)
+    from modal.compiled import is_compiled
+
+    if not is_compiled("modal.structure_kernel"):
+        say("compiling for the first time, about ten seconds; later runs start at once ...")
+    import numpy as np
+
+    from towercrane.map_report import csv_text, map_report, provenance
+    from towercrane.towers import crane_frame
+
+    frame = crane_frame(loaded, weight=loaded.model.weight_softening)
+    places = np.unique(loaded.map.trolley_positions)
+    if positions is not None:
+        # A single place is the jib's end, where the load bends it most.
+        places = np.linspace(0.0, reach, positions) if positions > 1 else np.array([reach])
+    data = _mapped(loaded, frame, places, masses, modes)
+    data.attrs |= provenance(loaded)
+    report = map_report(data)
+    files: dict[str, Any] = {
+        "map.nc": data,
+        "map.csv": csv_text(data),
+        "map.json": json.dumps(report, indent=2) + "\n",
+    }
+    if pictures:
+        from towercrane.plots import frequency_map as pictured
+
+        files["map.png"] = pictured.frequencies(data)
+    if where is not None:
+        files |= _mode_picture(loaded, frame, where, modes)
+    write(folder, files)
+    if as_json:
+        typer.echo(json.dumps(report, indent=2))
+    else:
+        from towercrane.tables import map_tables
+
+        map_tables(report)
+        typer.echo(f"written to {folder}: {', '.join(files)}")
+        if where is None:
+            suggest("map", case, *options_of(changes), "--shapes", f"{0.5 * reach:g} m")
+        else:
+            suggest("run", case, *options_of(changes))
+    if report["outcome"] != "finished":
+        for row in report["payloads"]:
+            if row["outcome"] != "finished":
+                factor = f"{row['buckling_factor']:.4g} times the weights"
+                say(f"load {row['payload_kg']:g} kg: {row['outcome']} at {factor}")
+        raise typer.Exit(ENDED_EARLY)
+
+
+def _masses(case: Case, written: list[str] | None) -> list[float]:
+    """Payloads [kg], ascending, each once."""
+    from towercrane.units import UnitError, to_si
+
+    masses = set() if written else set(case.map.payload_masses)
+    for text in (part.strip() for option in written or () for part in option.split(",")):
+        try:
+            mass = to_si(text, "kg")
+        except UnitError as error:
+            fail(f"--payload {text}: {error}")
+        if not 0.0 < mass <= 1e6:
+            fail(f"--payload {text}: wanted a mass above 0 and up to 1000 t; without a load the hook's own")
+        masses.add(mass)
+    return sorted(masses)
+
+
+def _position(written: str, reach: float) -> float:
+    """Place of the trolley [m]."""
+    from towercrane.units import UnitError, to_si
+
+    try:
+        position = to_si(written, "m")
+    except UnitError as error:
+        fail(f"--shapes {written}: {error}")
+    if not 0.0 <= position <= reach:
+        fail(f"--shapes {written}: wanted a place on the jib, 0 to {reach:g} m")
+    return position
+
+
+def _mapped(case: Case, frame: CraneFrame, places: Any, masses: list[float], modes: int) -> xr.Dataset:
+    """The map, with a progress bar if somebody is looking."""
+    from towercrane.frequency_map import frequency_map as computed
+
+    if not sys.stderr.isatty():
+        return computed(frame, places, masses, modes=modes)
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(f"{case.name}: {len(masses)} payloads, {len(places)} positions", total=1.0)
+        return computed(frame, places, masses, modes=modes, progress=lambda done: bar.update(task, completed=done))
+
+
+def _mode_picture(case: Case, frame: CraneFrame, position: float, count: int) -> dict[str, Any]:
+    """Picture of the modes with the case's own payload; none if the tower buckles under it."""
+    from modal import Unstable
+    from towercrane.plane_modes import PlaneCrane
+    from towercrane.plots.frequency_map import shapes
+
+    try:
+        found = PlaneCrane(replace(frame, payload_mass=case.payload.mass)).modes(position, count)
+    except Unstable:
+        return {}
+    title = (
+        f"{case.crane.name}: trolley at {position:g} m, load {case.payload.mass:g} kg on {case.rope.length:g} m; "
+        "crane to scale, displacements not"
+    )
+    return {"shapes.png": shapes(found, title, [(a.key, str(a.value), a.why) for a in case.rests_on])}
