@@ -85,9 +85,21 @@ class Assembly:
         roots = np.zeros(1)
         return float(roots[0]) if find_roots(*self._arrays, True, 1.0, FOREVER, roots) else inf
 
+    def stiffness(self, unknowns: int) -> Floats:
+        """Static stiffness of the original's unknowns under all weights and loads [N/m, N, N m], shape (n, n)."""
+        length, force, _ = self.units
+        inverse = np.linalg.inv(self.composition)
+        full = inverse.T @ self.matrix(0.0)[0] @ inverse * (force * length)
+        if unknowns == len(full):
+            return full
+        inner = np.linalg.solve(full[unknowns:, unknowns:], full[unknowns:, :unknowns])
+        condensed: Floats = full[:unknowns, :unknowns] - full[:unknowns, unknowns:] @ inner
+        return condensed
+
     def displacements(self, forces: Floats) -> Floats:
         """Static displacements of the original's unknowns under forces on them, in SI."""
         length, force, _ = self.units
+        # Not by way of `stiffness`, which short members spoil.
         kept = self.composition[: len(forces)]
         matrix, _ = self.matrix(0.0)
         scale = 1.0 / np.sqrt(np.diag(matrix))

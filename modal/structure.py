@@ -204,6 +204,12 @@ class Structure:
 
         return assembly(self, 0.0).buckling_factor()
 
+    def stiffness(self) -> Floats:
+        """Static stiffness on the unknowns under all weights and loads [N/m, N, N m], shape (n, n)."""
+        from modal.assembly import assembly
+
+        return assembly(self, 0.0).stiffness(len(self.unknowns))
+
     def displacements(self, forces: Floats) -> Floats:
         """Static displacements of the unknowns [m, rad] under forces and moments on them [N, N m].
 
