@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.studies import linearise, sensitivity
+from towercrane.studies import bench, linearise, sensitivity
 from towercrane.terminal import (
     ENDED_EARLY,
     INTERRUPTED,
+    NOT_AS_EXPECTED,
     AsJson,
     CaseName,
     Changes,
@@ -188,6 +189,9 @@ def run(
             suggest("linearise", case)
     if summary["outcome"] == "interrupted":
         raise typer.Exit(INTERRUPTED)
+    if summary["expected"] and not summary["expected"]["met"]:
+        say("\n".join(summary["expected"]["misses"]))
+        raise typer.Exit(NOT_AS_EXPECTED)
     if summary["outcome"] != "finished":
         say(f"the run ended at {summary['end_time_s']:.6g} s: {summary['outcome']}")
         raise typer.Exit(ENDED_EARLY)
@@ -215,24 +219,6 @@ def figures(
     write(out, drawn)
     typer.echo(f"written to {out}: {', '.join(drawn)}")
     suggest("run", "qtz5613/condition-4-zero")
-
-
-@app.command()
-def bench(
-    quick: Annotated[bool, typer.Option("--quick", help="Fewer repeats; under a minute.")] = False,
-    as_json: AsJson = False,
-) -> None:
-    """Measure speed against error on this machine."""
-    announce_compilation("radial", "towercrane.stepper")
-    from towercrane.bench import measure
-    from towercrane.tables import bench_tables
-
-    report = measure(quick=quick, say=say)
-    if as_json:
-        typer.echo(json.dumps(report, indent=2))
-        return
-    bench_tables(report)
-    suggest("run", "qtz5613/condition-3", "--set", "solver.rtol=1e-6")
 
 
 def _pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
@@ -278,6 +264,7 @@ def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Datase
 
 app.command()(linearise)
 app.command()(sensitivity)
+app.command()(bench)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictBool, StrictInt
 
-from towercrane.schema import Angle, ModeCount, Payload, Position, Ratio, Rope, Run, Solver, Table
+from towercrane.schema import Angle, Expect, ModeCount, Payload, Position, Ratio, Rope, Run, Solver, Table
 from towercrane.schema_cranes import (  # noqa: TC001 - pydantic reads annotations when the class is made
     BasicCrane,
     Crane,
@@ -57,6 +57,7 @@ class RadialCase(Table):
     solver: Solver = Solver()
     modes: ModesRequest = ModesRequest()
     allow_implausible: tuple[str, ...] = ()
+    expect: Expect | None = None
 
 
 class SlewingStart(Table):
@@ -85,6 +86,7 @@ class SlewingCase(Table):
     run: Run
     solver: Solver = Solver()
     allow_implausible: tuple[str, ...] = ()
+    expect: Expect | None = None
 
 
 class MultiMassCase(SlewingCase):
@@ -117,6 +119,7 @@ class JibCase(Table):
     run: Run
     solver: Solver = Solver()
     allow_implausible: tuple[str, ...] = ()
+    expect: Expect | None = None
 
 
 AnyCase = RadialCase | SlewingCase | JibCase

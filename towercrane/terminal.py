@@ -13,8 +13,9 @@ if TYPE_CHECKING:
 
     from towercrane.case import Case
 
-BAD_INPUT, ENDED_EARLY, INTERRUPTED = 2, 3, 130
-"""Exit codes besides 0: bad input; the run ended before its time with a named outcome; Ctrl-C."""
+NOT_AS_EXPECTED, BAD_INPUT, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
+"""Exit codes besides 0: not what a case or a benchmark expects; bad input; the run ended before its time with a named
+outcome; Ctrl-C."""
 
 CaseName = Annotated[str, typer.Argument(metavar="CASE", help="A case file, or the name of a shipped case.")]
 Changes = Annotated[
