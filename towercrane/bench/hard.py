@@ -8,6 +8,7 @@ import numpy as np
 
 from towercrane.bench.clock import short
 from towercrane.case import list_cases, load_case
+from towercrane.integrate import INTERRUPTED
 from towercrane.simulate import run_case
 from towercrane.summary import SIGNALS, SLEWING_SIGNALS, energy_balance, expected
 
@@ -82,6 +83,8 @@ def run_hard_case(name: str) -> dict[str, Any]:
     if wanted is None:
         raise ValueError(f"{name}: wanted a table [expect] in a hard case, got none")
     result = run_case(case)
+    if result.attrs["outcome"] == INTERRUPTED:
+        raise KeyboardInterrupt
     rtol, atol = case.solver.rtol, case.solver.atol
 
     def solved(method: str, factor: float) -> xr.Dataset:

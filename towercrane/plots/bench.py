@@ -121,7 +121,10 @@ def drift(subject: dict[str, Any]) -> Figure:
                 continue
             rtol, change = np.array(known).T
             label = method if axes is panels[0] else None
-            axes.plot(rtol, abs(change), color=COLOURS[number], lw=1.0, label=label)
+            own = not method.startswith("scipy")
+            axes.plot(
+                rtol, abs(change), color=COLOURS[number], lw=2.2 if own else 1.0, ls="-" if own else "--", label=label
+            )
             for sign, face in ((1.0, COLOURS[number]), (-1.0, "white")):
                 mine = np.sign(change) == sign
                 axes.plot(
@@ -168,14 +171,15 @@ def failure_map(subject: dict[str, Any]) -> Figure:
     for axes, method in zip(panels.flat, methods, strict=True):
         for r in (r for r in records if r["method"] == method):
             column, row = columns.index((r["modes"], r["frequency_hz"])), tolerances.index(r["rtol"])
-            axes.text(column, row, _cell(r["change"]), ha="center", va="center", fontsize=7)
+            colour = "white" if _size(r["change"]) > -1.5 else "black"
+            axes.text(column, row, _cell(r["change"]), ha="center", va="center", fontsize=7, color=colour)
         sizes = np.array(
             [
                 [_size(r["change"]) for r in records if (r["method"], r["rtol"]) == (method, rtol)]
                 for rtol in tolerances
             ]
         )
-        image = axes.imshow(sizes, cmap="RdYlGn_r", norm=Normalize(-8.0, 0.0), aspect="auto", alpha=0.8)
+        image = axes.imshow(sizes, cmap="YlOrRd", norm=Normalize(-8.0, 0.0), aspect="auto")
         axes.set_facecolor("0.93")
         axes.set_title(method, fontsize=9)
         axes.set_xticks(
