@@ -73,11 +73,11 @@ def notice(method: str, rtol: float, atol: float) -> str:
     if abs(change) < NAMED:
         return ""
     verb = "gains" if change > 0.0 else "loses"
-    name = "rtol" if rtol >= atol else "atol"
+    tolerance = f"rtol {rtol:g}" if rtol >= atol else f"atol {atol:g}"
     crane = "2+3 modes, more with more" if change > 1.0 else "few modes"
     return (
-        f"{method} at {name} {effective_tolerance(rtol, atol):g} {verb} energy: {100.0 * change:+.3g} % in {SPAN:g} s "
-        f"of free vibration with {crane}; {_remedy(method, rtol, atol)}"
+        f"{method} at {tolerance} {verb} energy: {100.0 * change:+.3g} % in {SPAN:g} s of free vibration with {crane}; "
+        f"{_remedy(method, rtol, atol)}"
     )
 
 
