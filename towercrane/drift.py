@@ -76,8 +76,8 @@ def notice(method: str, rtol: float, atol: float) -> str:
     tolerance = f"rtol {rtol:g}" if rtol >= atol else f"atol {atol:g}"
     crane = "2+3 modes, more with more" if change > 1.0 else "few modes"
     return (
-        f"{method} at {tolerance} {verb} energy: {100.0 * change:+.3g} % in {SPAN:g} s of free vibration with {crane}; "
-        f"{_remedy(method, rtol, atol)}"
+        f"{method} at {tolerance} {verb} energy: {100.0 * change:+.3g} % in {SPAN:g} s of free vibration "
+        f"with {crane}; {_remedy(method, rtol, atol)}"
     )
 
 
