@@ -39,7 +39,7 @@ def announce_compilation(kind: str, *needed: str) -> None:
     own = {"radial": "radial_kernel", "jib": "jib_crane_kernel"}.get(kind, "lumped_kernel")
     missing = [m for m in (f"towercrane.cranes.{own}", *needed) if not is_compiled(m)]
     if missing:
-        say("compiling for the first time, some five to ten seconds; later runs start at once ...")
+        say("compiling for the first time, about ten seconds; later runs start at once ...")
         _compile(*missing)
 
 
