@@ -100,6 +100,11 @@ class ChainModes:
             first = first + body.mass * (self.chain.nodes[node] + body.offset) * motion
         return zeroth, first
 
+    def deflection_integrals(self) -> Floats:
+        """Integrals ``int phi dx`` [m kg^-1/2], shape (n,)."""
+        integrals: Floats = np.tensordot(self.shapes.at_points(DEFLECTION), self.shapes.weights, 2)
+        return integrals
+
     def stiffness_matrix(self) -> Floats:
         """Stiffness of segments and foundation [1/s^2], shape (n, n)."""
         total = self.shapes.strain_matrix()

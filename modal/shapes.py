@@ -108,6 +108,10 @@ class Modes:
         first = self.beam.mass * self.beam.length * shape_integrals(self.roots, self.coefficients, "from_root")
         return zeroth, first
 
+    def deflection_integrals(self) -> NDArray[np.float64]:
+        """Integrals ``int phi dx`` [m kg^-1/2], shape (n,)."""
+        return self.beam.length * shape_integrals(self.roots, self.coefficients)
+
     def slope_matrix(self) -> NDArray[np.float64]:
         """Products of slopes, ``int phi_i' phi_j' dx`` [1/(kg m)], shape (n, n).
 

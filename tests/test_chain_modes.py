@@ -40,6 +40,7 @@ def test_uniform_clamped_chain_has_the_modes_of_the_closed_form():
     ]
     pairs += [(ours.stiffness_matrix(), closed.stiffness_matrix())]
     pairs += list(zip(ours.mass_moments(), closed.mass_moments(), strict=True))
+    pairs += [(ours.deflection_integrals(), closed.deflection_integrals())]
     for mine, theirs in pairs:
         assert np.abs(mine - theirs).max() < 1e-12 * np.abs(theirs).max()
 

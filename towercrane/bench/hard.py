@@ -141,7 +141,8 @@ def difference(kind: str, run: xr.Dataset, reference: xr.Dataset) -> float | Non
 def root_records() -> list[dict[str, Any]]:
     """Characteristic roots where they are hardest, and finite elements past their round-off floor."""
     from modal.beam import Beam
-    from modal.elements import MOST_ELEMENTS, finite_element_frequencies
+    from modal.elements import MOST_ELEMENTS
+    from modal.structure_elements import finite_element_frequencies
 
     ratios = (1e-8, 1e-4, 1.0, 1e4, 1e8)
     every = [(a, j, 0.0, n) for a in ratios for j in ratios for n in range(1, 7)]

@@ -1,0 +1,397 @@
+"""Flexible crane in space: equations of motion in chosen modes, for simulation, equilibrium and small motions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from towercrane.cranes import flexible_kernel as kernel
+from towercrane.cranes.corner import Corner
+from towercrane.cranes.shape_table import shape_table
+from towercrane.cranes.wind import CHANNELS
+from towercrane.equilibrium import Unstable, stable_equilibrium
+from towercrane.payload import FORCE, JACOBIAN, Load, restore, work_shape
+from towercrane.system import NoEquilibrium, System
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.flexible_crane import FlexibleCrane
+    from towercrane.cranes.lumped_data import Drive
+    from towercrane.motion import Motion
+    from towercrane.results import Quantity
+
+    Floats = NDArray[np.float64]
+
+SLACK_ROPE = "slack rope"
+TROLLEY_OFF_JIB = "trolley off the jib"
+TOWER_BUCKLED = "tower buckled"
+
+TILT_LIMIT = 0.5
+"""Tilt of the tower top at which a run ends as buckled [rad]: far beyond what a beam theory of small slopes holds."""
+
+ROUNDING = 1e-9
+"""Way beyond an end of the jib that counts as parked on it [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class ModalDamping:
+    """Damping of the modes of each kind as a fraction of critical.
+
+    Parameters
+    ----------
+    tower, torsion, lateral, vertical : float
+        Zero or more.
+    """
+
+    tower: float = 0.0
+    torsion: float = 0.0
+    lateral: float = 0.0
+    vertical: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleModel:
+    """Equations of motion of a flexible crane with its load.
+
+    Parameters
+    ----------
+    crane : FlexibleCrane
+        With as many modes as are to move; made by :func:`towercrane.cranes.flexible_crane.flexible_crane`.
+    load : Load
+    slewing : {"prescribed", "fixed"} or Drive
+        The slewing angle of the head on the tower's top as a motion, at zero, or as a coordinate that a drive with an
+        elastic coupling turns.
+    drive_inertia : float
+        Moment of inertia that turns with the slewing angle and does not tilt [kg m^2]; with a drive only.
+    damping : ModalDamping
+    weight_softening : bool
+        Include the geometric stiffness of the weight above each section of the tower.
+    self_weight : bool
+        Whether the structure has weight; without it only trolley and load do.
+    rope_as_rod : bool
+        Let the rope push, as most published models do. Without it a slack rope ends the run.
+    wind : bool
+        Whether a wind blows, prescribed by motions of its three components.
+    axes : {2, 3}
+        2 for a load that swings in the plane of a jib at rest, 3 in space.
+
+    Raises
+    ------
+    ValueError
+        If a crane that leaves the plane is asked to stay in it, or the drive's friction is set-valued.
+    """
+
+    crane: FlexibleCrane
+    load: Load
+    slewing: Literal["prescribed", "fixed"] | Drive = "prescribed"
+    drive_inertia: float = 0.0
+    damping: ModalDamping = field(default_factory=ModalDamping)
+    weight_softening: bool = False
+    self_weight: bool = True
+    rope_as_rod: bool = False
+    wind: bool = False
+    axes: Literal[2, 3] = 3
+
+    def __post_init__(self) -> None:
+        crane = self.crane
+        leaves = crane.planes > 1 or crane.torsion.count or crane.lateral.count or self.slewing != "fixed"
+        if self.axes == 2 and leaves:
+            raise ValueError("FlexibleModel.axes: wanted 3 for a crane that moves out of its plane, got 2")
+        if self.drive is not None and self.drive.friction == "stick-slip":
+            raise ValueError("FlexibleModel.slewing: wanted friction 'none' or 'tanh', got 'stick-slip'")
+        if not 0.0 <= self.drive_inertia < np.inf:
+            raise ValueError(f"FlexibleModel.drive_inertia: wanted zero or more, got {self.drive_inertia!r}")
+
+    @property
+    def drive(self) -> Drive | None:
+        """The drive that turns the head, if its angle is a coordinate."""
+        return None if isinstance(self.slewing, str) else self.slewing
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Motions: trolley and rope [m], slewing angle or the drive's shaft [rad], wind [m/s], as the scene has them."""
+        turning: tuple[str, ...] = ("shaft",) if self.drive is not None else ("slewing",)
+        if self.slewing == "fixed":
+            turning = ()
+        return ("trolley", "rope", *turning, *(CHANNELS if self.wind else ()))
+
+    @property
+    def channel_units(self) -> tuple[str, ...]:
+        """Units of the channels."""
+        units = {"trolley": "m", "rope": "m", "slewing": "rad", "shaft": "rad"}
+        return tuple(units.get(channel, "m/s") for channel in self.channels)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of coordinates of each kind, in the order of the state."""
+        crane = self.crane
+        return {
+            "tower_x": crane.tower.count,
+            "tower_y": crane.tower.count if crane.planes > 1 else 0,
+            "torsion": crane.torsion.count,
+            "slewing": int(self.drive is not None),
+            "jib_lateral": crane.lateral.count,
+            "jib_vertical": crane.vertical.count,
+        }
+
+    @property
+    def parts(self) -> dict[str, slice]:
+        """Where the coordinates of each kind are in the state."""
+        ends = np.cumsum([0, *self.counts.values()])
+        return {kind: slice(int(a), int(b)) for kind, a, b in zip(self.counts, ends[:-1], ends[1:], strict=True)}
+
+    @property
+    def state_names(self) -> dict[str, str]:
+        """Name and unit of every coordinate."""
+        names: dict[str, str] = {}
+        for kind, count in self.counts.items():
+            if kind == "slewing":
+                names |= dict.fromkeys(["slewing_angle"][:count], "rad")
+            else:
+                names |= {f"{kind}_mode_{i + 1}": "kg^0.5 m" for i in range(count)}
+        return names
+
+    @property
+    def coordinates(self) -> int:
+        """Number of structural coordinates."""
+        return sum(self.counts.values())
+
+    @property
+    def size(self) -> int:
+        """Number of states: coordinates and rope direction with their rates, and the work done."""
+        return 2 * (self.coordinates + self.axes) + 1
+
+    @cached_property
+    def geometric_stiffness(self) -> Floats:
+        """Stiffness that the weight takes from the tower modes, int N phi' phi' (tower, tower) [1/s^2].
+
+        N(s) is the weight of all that is above the height s.
+        """
+        crane = self.crane
+        own = 1.0 if self.self_weight else 0.0
+        above = own * crane.slewing.mass + crane.trolley_mass + self.load.mass
+        return np.asarray(crane.gravity * (above * crane.tower.slope_matrix() + own * crane.tower.weight_matrix()))
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        n, drive = self.coordinates, self.drive
+        floors = np.full(8, -np.inf)
+        floors[kernel.TENSION] = -np.inf if self.rope_as_rod else 0.0
+        floors[[kernel.INNER_END, kernel.OUTER_END]] = -ROUNDING
+        floors[kernel.TILT] = 0.0
+        rows, columns = work_shape(n)
+        recorded = ("corner", "corner", "slewing torque", "trolley force")
+        return System(
+            rhs=kernel.rhs,
+            size=self.size,
+            guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded),
+            floors=floors,
+            scale=self._scale(),
+            numbers=self._numbers(),
+            vectors=self._vectors(),
+            matrices=self._matrices(),
+            tables=shape_table((self.crane.lateral, self.crane.vertical), self.crane.jib_length),
+            work_shape=(rows + 4, max(columns, kernel.WIDTH)),
+            restore=lambda state: restore(state, n, self.axes),
+            switch=Corner(kernel.INSIDE, kernel.OUTSIDE, drive.soft != drive.stiff) if drive else None,
+        )
+
+    def _numbers(self) -> Floats:
+        crane, load, drive, slewing = self.crane, self.load, self.drive, self.crane.slewing
+        numbers = np.zeros(kernel.NUMBERS)
+        numbers[: len(self.counts)] = list(self.counts.values())
+        numbers[kernel.TROLLEY_MASS] = crane.trolley_mass
+        numbers[kernel.GRAVITY] = crane.gravity
+        numbers[kernel.SELF_GRAVITY] = crane.gravity if self.self_weight else 0.0
+        numbers[kernel.SLEWING_MASS], numbers[kernel.STATIC_MOMENT] = slewing.mass, slewing.moment
+        numbers[kernel.ROLL], numbers[kernel.PITCH], numbers[kernel.YAW] = slewing.roll, slewing.pitch, slewing.yaw
+        numbers[kernel.JIB_LENGTH] = crane.jib_length
+        numbers[kernel.TILT_LIMIT] = TILT_LIMIT
+        numbers[kernel.LOAD_MASS] = load.mass
+        numbers[kernel.DRAG] = load.drag
+        numbers[kernel.HINGE_DAMPING] = load.rope_damping
+        numbers[kernel.SLEWING_CHANNEL] = -1 if self.slewing == "fixed" else 2
+        numbers[kernel.WIND_CHANNEL] = len(self.channels) - 3 if self.wind else -1
+        numbers[kernel.FRICTION_RATE] = 1.0
+        if drive is not None:
+            numbers[kernel.SOFT], numbers[kernel.STIFF] = drive.soft, drive.stiff
+            numbers[kernel.CORNER], numbers[kernel.DRIVE_DAMPING] = drive.corner, drive.damping
+            if drive.friction == "tanh":
+                numbers[kernel.FRICTION_TORQUE] = drive.friction_torque
+                numbers[kernel.FRICTION_RATE] = drive.friction_rate
+        if crane.exposure is not None:
+            numbers[kernel.HEAD_AREA], numbers[kernel.HEAD_AREA_MOMENT] = crane.exposure.mass, crane.exposure.moment
+        return numbers
+
+    def _vectors(self) -> Floats:
+        crane, parts, n = self.crane, self.parts, self.coordinates
+        vectors = np.zeros((7, n))
+        # One mode list per plane of the tower: both see the same tip, slope and wind.
+        swept = crane.tower_drag * crane.tower.deflection_integrals()
+        for plane in ("tower_x", "tower_y"):
+            if self.counts[plane]:
+                vectors[kernel.TIP, parts[plane]] = crane.tower(crane.tower_height)
+                vectors[kernel.SLOPE, parts[plane]] = crane.top_slope
+                vectors[kernel.EXPOSURE, parts[plane]] = swept
+        vectors[kernel.TWIST, parts["torsion"]] = crane.torsion(crane.tower_height)
+        vectors[kernel.TWIST, parts["slewing"]] = 1.0
+        jib = slice(parts["jib_lateral"].start, n)
+        vectors[kernel.JIB_MASS, jib] = crane.slewing.first
+        vectors[kernel.JIB_MOMENT, jib] = crane.slewing.second
+        if crane.exposure is not None:
+            vectors[kernel.EXPOSURE, jib] = crane.exposure.first
+        d = self.damping
+        ratios = np.repeat([d.tower, d.tower, d.torsion, 0.0, d.lateral, d.vertical], list(self.counts.values()))
+        vectors[kernel.DAMPING] = 2.0 * ratios * self.angular_frequencies
+        return vectors
+
+    def _matrices(self) -> Floats:
+        crane, parts, n = self.crane, self.parts, self.coordinates
+        own, stiffness = np.zeros((n, n)), np.diag(self.angular_frequencies**2)
+        for plane in ("tower_x", "tower_y"):
+            if self.counts[plane]:
+                own[parts[plane], parts[plane]] = crane.tower.mass_matrix()
+                stiffness[parts[plane], parts[plane]] = crane.tower.stiffness_matrix()
+                if self.weight_softening:
+                    stiffness[parts[plane], parts[plane]] -= self.geometric_stiffness
+        own[parts["torsion"], parts["torsion"]] = crane.torsion.mass_matrix()
+        own[parts["slewing"], parts["slewing"]] = self.drive_inertia
+        jib = slice(parts["jib_lateral"].start, n)
+        own[jib, jib] = crane.slewing.products
+        return np.array([own, stiffness])
+
+    @cached_property
+    def angular_frequencies(self) -> Floats:
+        """Of each coordinate's mode by itself [rad/s], zero for the slewing angle; shape (coordinates,)."""
+        crane, counts = self.crane, self.counts
+        tower = np.asarray(crane.tower.angular_frequencies)
+        return np.concatenate([
+            tower,
+            tower[: counts["tower_y"]],
+            crane.torsion.angular_frequencies,
+            np.zeros(counts["slewing"]),
+            crane.lateral.angular_frequencies,
+            crane.vertical.angular_frequencies,
+        ])  # fmt: skip
+
+    def _scale(self) -> Floats:
+        """Tolerances are metres where a mode moves most, radians of twist and swing; the work steers nothing."""
+        # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
+        crane = self.crane
+        height, reach = (np.linspace(0.0, length, 201) for length in (crane.tower_height, crane.jib_length))
+        bends, sides, rises = crane.tower(height), crane.lateral(reach), crane.vertical(reach)
+        shapes = [bends, bends[: self.counts["tower_y"]], crane.torsion(height)]
+        shapes += [np.ones((self.counts["slewing"], 1)), sides, rises]
+        largest = np.concatenate([abs(shape).max(axis=1) for shape in shapes])
+        scale = np.concatenate([1.0 / largest, np.ones(self.axes)])
+        return np.concatenate([scale, scale, [np.inf]])
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State at rest at the start.
+
+        Parameters
+        ----------
+        inputs : ndarray
+            Polynomials of the first phase.
+        state : str
+            "equilibrium" (the static solution) or "zero" (undeformed, all weights on).
+        swing_angle : float
+            Angle of the rope from the vertical, positive outward as the head is turned [rad].
+
+        Returns
+        -------
+        ndarray, shape (size,)
+
+        Raises
+        ------
+        NoEquilibrium
+            If there is no stable equilibrium.
+        ValueError
+            If the state is not one of the two.
+        """
+        if state not in ("equilibrium", "zero"):
+            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+        n, y = self.coordinates, np.zeros(self.size)
+        heading = 0.0 if self.slewing == "fixed" else float(inputs[2, 0])
+        if self.drive is not None:
+            y[self.parts["slewing"]] = heading
+        if state == "equilibrium":
+            y[:n] = self.equilibrium(inputs)
+        y[n] = np.sin(swing_angle)
+        if self.axes == 3:
+            y[n : n + 2] = np.sin(swing_angle) * np.array([np.cos(heading), np.sin(heading)])
+        y[n + self.axes - 1] = -np.cos(swing_angle)
+        return y
+
+    def equilibrium(self, inputs: Floats) -> Floats:
+        """Coordinates at rest under all weights, load hanging straight down, in still air; shape (coordinates,).
+
+        Newton's method on f(q) - m_p g J_D^T e_z = 0. The rope's direction is known, so the inverted pendulum
+        cannot be found; the solution is refused unless it is stable.
+
+        Raises
+        ------
+        NoEquilibrium
+            If the stiffness is not positive definite, or no equilibrium is found.
+        """
+        origin = np.zeros(self.coordinates)
+        if self.drive is not None:
+            origin[self.parts["slewing"]] = inputs[2, 0]
+
+        def residual(departure: Floats) -> Floats:
+            return self.static_force(origin + departure, inputs)
+
+        try:
+            return origin + stable_equilibrium(residual, self.system.scale[: self.coordinates])
+        except Unstable as failure:
+            raise NoEquilibrium(TOWER_BUCKLED, f"{failure}; {self.buckling_message()}") from failure
+
+    def static_force(self, q: Floats, inputs: Floats) -> Floats:
+        """Generalised forces on the crane at rest with its load hanging straight down; shape (coordinates,)."""
+        n, work = self.coordinates, self.at_rest(q, inputs)
+        up = work[JACOBIAN + self.axes - 1, :n]
+        return np.asarray(work[FORCE, :n] - self.load.mass * self.crane.gravity * up)
+
+    def buckling_message(self) -> str:
+        """How far the tower is from buckling."""
+        if not self.crane.tower.count:
+            return "the tower is rigid"
+        geometric = np.linalg.eigvals(np.linalg.solve(self.crane.tower.stiffness_matrix(), self.geometric_stiffness))
+        return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
+
+    def at_rest(self, q: Floats, inputs: Floats) -> Floats:
+        """Scratch array of the structure at rest at these coordinates in still air."""
+        y = np.zeros(self.size)
+        y[: self.coordinates] = q
+        fixed = np.zeros_like(inputs)
+        fixed[:, 0] = inputs[:, 0]
+        if self.wind:
+            fixed[-3:] = 0.0
+        work, constants = np.zeros(self.system.work_shape), self.system.constants
+        kernel.structure(self.axes, 0.0, y, fixed, *constants, work)
+        if self.drive is not None:
+            kernel.drive(0.0, y, fixed, constants[0], work)
+        return work
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time, see :func:`towercrane.cranes.flexible_outputs.observe`."""
+        from towercrane.cranes.flexible_outputs import observe
+
+        return observe(self, motions, times, states, guards)
+
+    def provenance(self) -> dict[str, Any]:
+        """Crane, modes and load, for a result's attributes."""
+        modes = {f"{kind}_modes": count for kind, count in self.counts.items() if kind != "slewing"}
+        return {
+            "crane": self.crane.name,
+            **modes,
+            "payload_mass": self.load.mass,
+            "gravity": self.crane.gravity,
+        }
