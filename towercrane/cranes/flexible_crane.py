@@ -93,8 +93,8 @@ class FlexibleCrane:
         [kg]
     planes : {1, 2}
         Directions in which the tower bends: x, or x and y.
-    exposure : MassSums, optional
-        Sums over the head's drag per squared speed [kg/m], in place of its mass.
+    jib_exposure, counter_exposure : MassSums, optional
+        Sums over the drag per squared speed [kg/m] of jib and counter-jib, in place of their mass.
     tower_drag : float
         Of the tower, per squared speed and length [kg/m^2].
     gravity : float
@@ -113,7 +113,8 @@ class FlexibleCrane:
     tower_mass_per_length: float
     trolley_mass: float
     planes: int = 2
-    exposure: MassSums | None = None
+    jib_exposure: MassSums | None = None
+    counter_exposure: MassSums | None = None
     tower_drag: float = 0.0
     gravity: float = 9.81
 
@@ -121,6 +122,12 @@ class FlexibleCrane:
     def slewing(self) -> MassSums:
         """Sums over all that turns, without trolley and load."""
         return self.jib + self.counter
+
+    @property
+    def exposure(self) -> MassSums | None:
+        """Sums over the drag of all that turns; None where the wind does not matter."""
+        parts = [part for part in (self.jib_exposure, self.counter_exposure) if part is not None]
+        return parts[0] if len(parts) == 1 else parts[0] + parts[1] if parts else None
 
     @property
     def top_slope(self) -> Floats:
@@ -162,11 +169,12 @@ def flexible_crane(
         roll=crane.roll_inertia,
     )
     tower = cantilever_modes(crane.tower, modes.tower, crane.end_body)
-    exposure = None
+    jib_exposure, counter_exposure = None, None
     if areas is not None:
         length, per_length = crane.counter_jib_length, wind.drag(areas.counter_jib)
         tip = wind.drag(areas.counterweight)
-        exposure = jib.scaled(wind.drag(areas.jib) / crane.jib.mass_per_length) + rigid_sums(
+        jib_exposure = jib.scaled(wind.drag(areas.jib) / crane.jib.mass_per_length)
+        counter_exposure = rigid_sums(
             per_length * length + tip,
             -(per_length * length / 2 + tip) * length,
             (per_length * length / 3 + tip) * length**2,
@@ -185,7 +193,8 @@ def flexible_crane(
         tower_mass_per_length=crane.tower.mass_per_length,
         trolley_mass=crane.trolley_mass,
         planes=planes,
-        exposure=exposure,
+        jib_exposure=jib_exposure,
+        counter_exposure=counter_exposure,
         tower_drag=wind.drag(areas.tower) if areas is not None else 0.0,
         gravity=crane.gravity,
     )

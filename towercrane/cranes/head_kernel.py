@@ -39,8 +39,13 @@ def tilt_functions(square: float) -> tuple[float, float, float, float, float]:
         c0 = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)))
         c1 = 0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0)))
         c2 = (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0 * (1.0 - square / 110.0)))) / 6.0
-        d1 = (-1.0 + square / 15.0 * (1.0 - 3.0 * square / 112.0 * (1.0 - 2.0 * square / 135.0 * (1.0 - square / 105.6)))) / 12.0
-        d2 = (-1.0 + square / 21.0 * (1.0 - square / 48.0 * (1.0 - 2.0 * square / 165.0 * (1.0 - square / 124.8)))) / 60.0
+        d1 = (
+            -1.0
+            + square / 15.0 * (1.0 - 3.0 * square / 112.0 * (1.0 - 2.0 * square / 135.0 * (1.0 - square / 105.6)))
+        ) / 12.0
+        d2 = (
+            -1.0 + square / 21.0 * (1.0 - square / 48.0 * (1.0 - 2.0 * square / 165.0 * (1.0 - square / 124.8)))
+        ) / 60.0
         return c0, c1, c2, d1, d2
     f = np.sqrt(square)
     s, c = np.sin(f), np.cos(f)

@@ -65,7 +65,10 @@ def observe(
         "swing_rate": over_time(rate, "rad/s", "rate of the swing angle"),
         "rope_tension": over_time(guards[:, kernel.TENSION], "N", "rope tension"),
         "payload_position": Quantity(
-            ("time", "axis"), motion.load_in_space[0], "m", "load from the undeformed tower top: outward, sideways, up"
+            ("time", "axis"),
+            motion.load_in_space[0],
+            "m",
+            "load from the undeformed tower top: outward, sideways, up",
         ),
         "tower_coordinate": Quantity(
             ("time", "tower_mode"),
@@ -74,7 +77,10 @@ def observe(
             "amplitude of the mass-normalised tower modes",
         ),
         "jib_coordinate": Quantity(
-            ("time", "jib_mode"), motion.coordinates[:, tower:], "kg^0.5 m", "amplitude of the mass-normalised jib modes"
+            ("time", "jib_mode"),
+            motion.coordinates[:, tower:],
+            "kg^0.5 m",
+            "amplitude of the mass-normalised jib modes",
         ),
         "total_energy": over_time(total_energy(motion), "J", "kinetic and potential energy"),
         "input_work": over_time(
