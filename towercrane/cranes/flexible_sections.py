@@ -144,19 +144,19 @@ class SectionLoads:
         weight = crane.gravity if model.self_weight else 0.0
         height = crane.tower_height
         q, qdd = motion.coordinates, self.accelerations
-        force = force + [0.0, 0.0, weight * crane.tower_mass_per_length * height]
+        force[:, 2] += weight * crane.tower_mass_per_length * height
+        bent = np.zeros((len(force), 2))
         for axis, kind, sign in ((0, "tower_x", 1.0), (1, "tower_y", -1.0)):
             if model.counts[kind]:
                 part = parts[kind]
+                bent[:, axis] = q[:, part] @ zeroth
                 force[:, axis] += qdd[:, part] @ zeroth
-                moment[:, 1 - axis] += sign * (qdd[:, part] @ first - weight * q[:, part] @ zeroth)
+                moment[:, 1 - axis] += sign * (qdd[:, part] @ first - weight * bent[:, axis])
         if model.counts["tower_y"]:
             x, y = parts["tower_x"], parts["tower_y"]
             moment[:, 2] += np.einsum("ti,ij,tj->t", q[:, x], mass[y, y], qdd[:, y])
             moment[:, 2] -= np.einsum("ti,ij,tj->t", q[:, y], mass[x, x], qdd[:, x])
         moment[:, 2] += qdd[:, parts["torsion"]] @ crane.torsion.mass_moment()
-        press = crane.tower_drag * np.linalg.norm(self.wind, axis=1)[:, None] * self.wind[:, :2] * height
-        force[:, :2] -= press
-        moment[:, 0] += 0.5 * height * press[:, 1]
-        moment[:, 1] -= 0.5 * height * press[:, 0]
-        return force, moment
+        press = crane.tower_drag * np.linalg.norm(self.wind, axis=1)[:, None] * self.wind
+        swept = np.column_stack([bent / crane.tower_mass_per_length, np.full(len(force), 0.5 * height**2)])
+        return force - height * press, moment - np.cross(swept, press)
