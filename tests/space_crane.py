@@ -14,8 +14,7 @@ from towercrane.payload import Load
 
 CRANE = dataclasses.replace(
     qtz5613.CRANE,
-    jib=Beam(55.6, 123.8, 206e9, 0.0020),
-    jib_lateral=Beam(55.6, 123.8, 206e9, 0.0035),
+    jib_lateral=Beam(55.6, 123.8, 206e9, 0.0020),
     shaft=Shaft(23.8, 400.0, 1.7e8),
 )
 
