@@ -140,7 +140,8 @@ def angular_momentum(motion):
         place, rate = np.zeros((2, len(total), 3))
         place[:, 0] = x
         if x > 0.0:
-            place[:, 1:], rate[:, 1:] = motion.deflection(x, motion.coordinates), motion.deflection(x, motion.rates)
+            shapes = model.crane.jib_shapes([x])
+            place[:, 1:], rate[:, 1:] = (motion.deflection(shapes, v) for v in (motion.coordinates, motion.rates))
         at, speed = motion.to_fixed(place), motion.to_fixed(rate + np.cross(motion.spin, place))
         total += mass * np.cross(at[:, :2] + u, speed[:, :2] + velocity)
     for mass, (at, speed) in ((crane.trolley_mass, motion.trolley_in_space), (model.load.mass, motion.load_in_space)):

@@ -111,7 +111,7 @@ class FlexibleModel:
         """The drive that turns the head, if its angle is a coordinate."""
         return None if isinstance(self.slewing, str) else self.slewing
 
-    @property
+    @cached_property
     def channels(self) -> tuple[str, ...]:
         """Motions: trolley and rope [m], slewing angle or the drive's shaft [rad], wind [m/s], as the scene has them."""
         turning: tuple[str, ...] = ("shaft",) if self.drive is not None else ("slewing",)
@@ -125,7 +125,7 @@ class FlexibleModel:
         units = {"trolley": "m", "rope": "m", "slewing": "rad", "shaft": "rad"}
         return tuple(units.get(channel, "m/s") for channel in self.channels)
 
-    @property
+    @cached_property
     def counts(self) -> dict[str, int]:
         """Number of coordinates of each kind, in the order of the state."""
         crane = self.crane
@@ -138,7 +138,7 @@ class FlexibleModel:
             "jib_vertical": crane.vertical.count,
         }
 
-    @property
+    @cached_property
     def parts(self) -> dict[str, slice]:
         """Where the coordinates of each kind are in the state."""
         ends = np.cumsum([0, *self.counts.values()])
@@ -155,7 +155,7 @@ class FlexibleModel:
                 names |= {f"{kind}_mode_{i + 1}": "kg^0.5 m" for i in range(count)}
         return names
 
-    @property
+    @cached_property
     def coordinates(self) -> int:
         """Number of structural coordinates."""
         return sum(self.counts.values())
@@ -233,7 +233,7 @@ class FlexibleModel:
         crane, parts, n = self.crane, self.parts, self.coordinates
         vectors = np.zeros((7, n))
         # One mode list per plane of the tower: both see the same tip, slope and wind.
-        swept = crane.tower_drag / crane.tower_mass_per_length * crane.tower.mass_moments()[0]
+        swept = crane.tower_drag / crane.tower_mass_per_length * crane.tower_moments[0]
         for plane in ("tower_x", "tower_y"):
             if self.counts[plane]:
                 vectors[kernel.TIP, parts[plane]] = crane.tower(crane.tower_height)

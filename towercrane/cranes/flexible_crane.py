@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -118,7 +119,7 @@ class FlexibleCrane:
     tower_drag: float = 0.0
     gravity: float = 9.81
 
-    @property
+    @cached_property
     def slewing(self) -> MassSums:
         """Sums over all that turns, without trolley and load."""
         return self.jib + self.counter
@@ -128,6 +129,23 @@ class FlexibleCrane:
         """Sums over the drag of all that turns; None where the wind does not matter."""
         parts = [part for part in (self.jib_exposure, self.counter_exposure) if part is not None]
         return parts[0] if len(parts) == 1 else parts[0] + parts[1] if parts else None
+
+    @cached_property
+    def tower_moments(self) -> tuple[Floats, Floats]:
+        """Sums over the tower's own mass of its shapes, and with the height as weight; shapes (count,)."""
+        return self.tower.mass_moments()
+
+    def jib_shapes(self, position: ArrayLike, derivative: int = 0) -> Floats:
+        """Shapes of the jib to the left, then up, or their derivatives; shape (jib modes, *shape of position)."""
+        bases = [basis for basis in (self.lateral, self.vertical) if basis.count]
+        if not bases:
+            return np.empty((0, *np.shape(position)))
+        return np.concatenate([basis(position, derivative) for basis in bases])
+
+    @cached_property
+    def tip_shapes(self) -> Floats:
+        """Shapes of the jib at its tip, shape (jib modes, 1)."""
+        return self.jib_shapes([self.jib_length])
 
     @property
     def top_slope(self) -> Floats:

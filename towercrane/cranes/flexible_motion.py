@@ -136,20 +136,27 @@ class FlexibleMotion:
         """From the fixed axes to the head's; shapes (p, 3)."""
         return np.asarray(np.einsum("tji,tj->ti", self.axes, vectors))
 
-    def deflection(self, at: Floats | float, values: Floats, derivative: int = 0) -> Floats:
-        """Deflection of the jib to the left and up at positions along it, of coordinates or rates; shape (p, 2)."""
-        x = np.broadcast_to(at, self.times.shape)
-        crane, parts = self.model.crane, self.model.parts
-        left = np.einsum("it,ti->t", crane.lateral(x, derivative), values[:, parts["jib_lateral"]])
-        up = np.einsum("it,ti->t", crane.vertical(x, derivative), values[:, parts["jib_vertical"]])
-        return np.stack([left, up], axis=1)
+    @cached_property
+    def shapes(self) -> tuple[Floats, Floats]:
+        """Shapes of the jib at the trolley, to the left and up, and their slopes; shapes (jib modes, p)."""
+        return self.shapes_at_trolley(0), self.shapes_at_trolley(1)
+
+    def shapes_at_trolley(self, derivative: int) -> Floats:
+        """Derivative of the jib's shapes at the trolley, shape (jib modes, p)."""
+        return self.model.crane.jib_shapes(self.trolley[0], derivative)
+
+    def deflection(self, shapes: Floats, values: Floats) -> Floats:
+        """Sums of the jib's shapes (jib modes, p or 1) with coordinates or rates, to the left and up; shape (p, 2)."""
+        first, middle = self.model.parts["jib_lateral"].start, self.model.parts["jib_vertical"].start
+        products = shapes.T * values[:, first:]
+        return np.stack([products[:, : middle - first].sum(axis=1), products[:, middle - first :].sum(axis=1)], axis=1)
 
     @cached_property
     def suspension(self) -> tuple[Floats, Floats]:
         """Place of the trolley in the head's axes, and its rate there; shapes (p, 3)."""
-        x, xd = self.trolley
-        across = self.deflection(x, self.coordinates)
-        rate = self.deflection(x, self.rates) + xd[:, None] * self.deflection(x, self.coordinates, 1)
+        (x, xd), (shapes, slopes) = self.trolley, self.shapes
+        across = self.deflection(shapes, self.coordinates)
+        rate = self.deflection(shapes, self.rates) + xd[:, None] * self.deflection(slopes, self.coordinates)
         return np.column_stack([x, across]), np.column_stack([xd, rate])
 
     @cached_property

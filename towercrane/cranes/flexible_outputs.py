@@ -125,7 +125,7 @@ def _load(motion: FlexibleMotion) -> Entries:
 
 def _deflections(motion: FlexibleMotion) -> Entries:
     (u, tilt), c, s = motion.top(motion.coordinates), np.cos(motion.heading), np.sin(motion.heading)
-    tip = motion.deflection(motion.model.crane.jib_length, motion.coordinates)
+    tip = motion.deflection(motion.model.crane.tip_shapes, motion.coordinates)
     return {
         "tower_tip_displacement": (
             u[:, 0] * c + u[:, 1] * s,

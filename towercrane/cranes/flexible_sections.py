@@ -44,12 +44,9 @@ class SectionLoads:
         motion, model = self.motion, self.motion.model
         drives = [[motion.drive(c), motion.drive(c, 1), 0.5 * motion.drive(c, 2)] for c in model.channels]
         inputs = np.ascontiguousarray(np.moveaxis(np.array(drives), 2, 0))
-        first = model.coordinates + model.axes
-        rows = [
-            model.system.slope(0.0, state, row)[0][first : first + model.coordinates]
-            for state, row in zip(motion.states, inputs, strict=True)
-        ]
-        return np.array(rows).reshape(len(motion.times), model.coordinates)
+        system, n = model.system, model.coordinates
+        slopes = [system.slope(0.0, state, row)[0] for state, row in zip(motion.states, inputs, strict=True)]
+        return np.array(slopes).reshape(len(slopes), system.size)[:, n + model.axes : 2 * n + model.axes]
 
     @cached_property
     def head_acceleration(self) -> tuple[Floats, Floats]:
@@ -67,12 +64,14 @@ class SectionLoads:
     def hung(self) -> tuple[Floats, Floats]:
         """Force that the jib exerts on trolley and load, and its moment about the tower's top, in the head's axes."""
         motion, crane = self.motion, self.motion.model.crane
-        (place, rate), (x, xd), xdd = motion.suspension, motion.trolley, motion.drive("trolley", 2)
+        (place, rate), (_, xd), xdd = motion.suspension, motion.trolley, motion.drive("trolley", 2)
         q, qd = motion.coordinates, motion.rates
         own = np.zeros_like(place)
         own[:, 0] = xdd
-        own[:, 1:] = motion.deflection(x, self.accelerations) + 2.0 * xd[:, None] * motion.deflection(x, qd, 1)
-        own[:, 1:] += xdd[:, None] * motion.deflection(x, q, 1) + xd[:, None] ** 2 * motion.deflection(x, q, 2)
+        shapes, slopes = motion.shapes
+        own[:, 1:] = motion.deflection(shapes, self.accelerations) + 2.0 * xd[:, None] * motion.deflection(slopes, qd)
+        bent = motion.deflection(motion.shapes_at_trolley(2), q)
+        own[:, 1:] += xdd[:, None] * motion.deflection(slopes, q) + xd[:, None] ** 2 * bent
         straight, turning = self.head_acceleration
         spin = motion.spin
         acceleration = straight + np.cross(turning, place) + np.cross(spin, np.cross(spin, place))
@@ -139,7 +138,7 @@ class SectionLoads:
         force, moment = (motion.to_fixed(part) for part in self.tower_top)
         top = np.column_stack([motion.top(motion.coordinates)[0], np.full(len(force), crane.tower_height)])
         moment = moment + np.cross(top, force)
-        zeroth, first = crane.tower.mass_moments()
+        zeroth, first = crane.tower_moments
         parts, mass = model.parts, model.system.matrices[kernel.OWN]
         weight = crane.gravity if model.self_weight else 0.0
         height = crane.tower_height

@@ -53,7 +53,7 @@ def observe(
         ),
         "tower_tip_tilt": over_time(tilt[:, 1], "rad", "tilt of the tower top, positive: jib tip down"),
         "jib_tip_deflection": over_time(
-            motion.deflection(model.crane.jib.length, motion.coordinates)[:, 1],
+            motion.deflection(motion.model.crane.tip_shapes, motion.coordinates)[:, 1],
             "m",
             "deflection of the jib tip from the tilted straight jib, positive up",
         ),
