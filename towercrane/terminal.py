@@ -35,7 +35,7 @@ def announce_compilation(kind: str, *needed: str) -> None:
     """Say so if the kernels of a kind of crane, or what a command needs besides, have to be compiled first."""
     from modal.compiled import is_compiled
 
-    own = {"radial": "flexible_kernel", "jib": "jib_crane_kernel"}.get(kind, "lumped_kernel")
+    own = {"radial": "flexible_rhs", "jib": "jib_crane_kernel"}.get(kind, "lumped_kernel")
     if not all(is_compiled(module) for module in (f"towercrane.cranes.{own}", *needed)):
         say("compiling for the first time, about ten seconds; later runs start at once ...")
 

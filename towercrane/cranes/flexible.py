@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from towercrane.cranes import flexible_kernel as kernel
+from towercrane.cranes import flexible_layout as layout
+from towercrane.cranes import flexible_rhs
 from towercrane.cranes.corner import Corner
 from towercrane.cranes.shape_table import shape_table
 from towercrane.cranes.wind import CHANNELS
@@ -182,13 +183,13 @@ class FlexibleModel:
         """The model as the solver sees it."""
         n, drive = self.coordinates, self.drive
         floors = np.full(8, -np.inf)
-        floors[kernel.TENSION] = -np.inf if self.rope_as_rod else 0.0
-        floors[[kernel.INNER_END, kernel.OUTER_END]] = -ROUNDING
-        floors[kernel.TILT] = 0.0
+        floors[layout.TENSION] = -np.inf if self.rope_as_rod else 0.0
+        floors[[layout.INNER_END, layout.OUTER_END]] = -ROUNDING
+        floors[layout.TILT] = 0.0
         rows, columns = work_shape(n)
         recorded = ("corner", "corner", "slewing torque", "trolley force")
         return System(
-            rhs=kernel.rhs,
+            rhs=flexible_rhs.rhs,
             size=self.size,
             guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded),
             floors=floors,
@@ -197,58 +198,58 @@ class FlexibleModel:
             vectors=self._vectors(),
             matrices=self._matrices(),
             tables=shape_table((self.crane.lateral, self.crane.vertical), self.crane.jib_length),
-            work_shape=(rows + 4, max(columns, kernel.WIDTH)),
+            work_shape=(rows + layout.ROWS, max(columns, layout.WIDTH)),
             restore=lambda state: restore(state, n, self.axes),
-            switch=Corner(kernel.INSIDE, kernel.OUTSIDE, drive.soft != drive.stiff) if drive else None,
+            switch=Corner(layout.INSIDE, layout.OUTSIDE, drive.soft != drive.stiff) if drive else None,
         )
 
     def _numbers(self) -> Floats:
         crane, load, drive, slewing = self.crane, self.load, self.drive, self.crane.slewing
-        numbers = np.zeros(kernel.NUMBERS)
+        numbers = np.zeros(layout.NUMBERS)
         numbers[: len(self.counts)] = list(self.counts.values())
-        numbers[kernel.TROLLEY_MASS] = crane.trolley_mass
-        numbers[kernel.GRAVITY] = crane.gravity
-        numbers[kernel.SELF_GRAVITY] = crane.gravity if self.self_weight else 0.0
-        numbers[kernel.SLEWING_MASS], numbers[kernel.STATIC_MOMENT] = slewing.mass, slewing.moment
-        numbers[kernel.ROLL], numbers[kernel.PITCH], numbers[kernel.YAW] = slewing.roll, slewing.pitch, slewing.yaw
-        numbers[kernel.JIB_LENGTH] = crane.jib_length
-        numbers[kernel.TILT_LIMIT] = TILT_LIMIT
-        numbers[kernel.LOAD_MASS] = load.mass
-        numbers[kernel.DRAG] = load.drag
-        numbers[kernel.HINGE_DAMPING] = load.rope_damping
-        numbers[kernel.SLEWING_CHANNEL] = -1 if self.slewing == "fixed" else 2
-        numbers[kernel.WIND_CHANNEL] = len(self.channels) - 3 if self.wind else -1
-        numbers[kernel.FRICTION_RATE] = 1.0
+        numbers[layout.TROLLEY_MASS] = crane.trolley_mass
+        numbers[layout.GRAVITY] = crane.gravity
+        numbers[layout.SELF_GRAVITY] = crane.gravity if self.self_weight else 0.0
+        numbers[layout.SLEWING_MASS], numbers[layout.STATIC_MOMENT] = slewing.mass, slewing.moment
+        numbers[layout.ROLL], numbers[layout.PITCH], numbers[layout.YAW] = slewing.roll, slewing.pitch, slewing.yaw
+        numbers[layout.JIB_LENGTH] = crane.jib_length
+        numbers[layout.TILT_LIMIT] = TILT_LIMIT
+        numbers[layout.LOAD_MASS] = load.mass
+        numbers[layout.DRAG] = load.drag
+        numbers[layout.HINGE_DAMPING] = load.rope_damping
+        numbers[layout.SLEWING_CHANNEL] = -1 if self.slewing == "fixed" else 2
+        numbers[layout.WIND_CHANNEL] = len(self.channels) - 3 if self.wind else -1
+        numbers[layout.FRICTION_RATE] = 1.0
         if drive is not None:
-            numbers[kernel.SOFT], numbers[kernel.STIFF] = drive.soft, drive.stiff
-            numbers[kernel.CORNER], numbers[kernel.DRIVE_DAMPING] = drive.corner, drive.damping
+            numbers[layout.SOFT], numbers[layout.STIFF] = drive.soft, drive.stiff
+            numbers[layout.CORNER], numbers[layout.DRIVE_DAMPING] = drive.corner, drive.damping
             if drive.friction == "tanh":
-                numbers[kernel.FRICTION_TORQUE] = drive.friction_torque
-                numbers[kernel.FRICTION_RATE] = drive.friction_rate
+                numbers[layout.FRICTION_TORQUE] = drive.friction_torque
+                numbers[layout.FRICTION_RATE] = drive.friction_rate
         if crane.exposure is not None:
-            numbers[kernel.HEAD_AREA], numbers[kernel.HEAD_AREA_MOMENT] = crane.exposure.mass, crane.exposure.moment
+            numbers[layout.HEAD_AREA], numbers[layout.HEAD_AREA_MOMENT] = crane.exposure.mass, crane.exposure.moment
         return numbers
 
     def _vectors(self) -> Floats:
         crane, parts, n = self.crane, self.parts, self.coordinates
-        vectors = np.zeros((7, n))
+        vectors = np.zeros((layout.VECTORS, n))
         # One mode list per plane of the tower: both see the same tip, slope and wind.
         swept = crane.tower_drag / crane.tower_mass_per_length * crane.tower_moments[0]
         for plane in ("tower_x", "tower_y"):
             if self.counts[plane]:
-                vectors[kernel.TIP, parts[plane]] = crane.tower(crane.tower_height)
-                vectors[kernel.SLOPE, parts[plane]] = crane.top_slope
-                vectors[kernel.EXPOSURE, parts[plane]] = swept
-        vectors[kernel.TWIST, parts["torsion"]] = crane.torsion(crane.tower_height)
-        vectors[kernel.TWIST, parts["slewing"]] = 1.0
+                vectors[layout.TIP, parts[plane]] = crane.tower(crane.tower_height)
+                vectors[layout.SLOPE, parts[plane]] = crane.top_slope
+                vectors[layout.EXPOSURE, parts[plane]] = swept
+        vectors[layout.TWIST, parts["torsion"]] = crane.torsion(crane.tower_height)
+        vectors[layout.TWIST, parts["slewing"]] = 1.0
         jib = slice(parts["jib_lateral"].start, n)
-        vectors[kernel.JIB_MASS, jib] = crane.slewing.first
-        vectors[kernel.JIB_MOMENT, jib] = crane.slewing.second
+        vectors[layout.JIB_MASS, jib] = crane.slewing.first
+        vectors[layout.JIB_MOMENT, jib] = crane.slewing.second
         if crane.exposure is not None:
-            vectors[kernel.EXPOSURE, jib] = crane.exposure.first
+            vectors[layout.EXPOSURE, jib] = crane.exposure.first
         d = self.damping
         ratios = np.repeat([d.tower, d.tower, d.torsion, 0.0, d.lateral, d.vertical], list(self.counts.values()))
-        vectors[kernel.DAMPING] = 2.0 * ratios * self.angular_frequencies
+        vectors[layout.DAMPING] = 2.0 * ratios * self.angular_frequencies
         return vectors
 
     def _matrices(self) -> Floats:
@@ -373,9 +374,9 @@ class FlexibleModel:
         if self.wind:
             fixed[-3:] = 0.0
         work, constants = np.zeros(self.system.work_shape), self.system.constants
-        kernel.structure(self.axes, 0.0, y, fixed, *constants, work)
+        flexible_rhs.structure(self.axes, 0.0, y, fixed, *constants, work)
         if self.drive is not None:
-            kernel.drive(0.0, y, fixed, constants[0], work)
+            flexible_rhs.drive(0.0, y, fixed, constants[0], work)
         return work
 
     def observe(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes import flexible_kernel as kernel
+from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.head_kernel import ROTATION, SIZE, SPIN, move_heads
 
 if TYPE_CHECKING:
@@ -85,14 +85,14 @@ class FlexibleMotion:
 
     def top(self, values: Floats) -> tuple[Floats, Floats]:
         """Translation of the tower's top along x and y, and its tilt vector, of coordinates or their derivatives."""
-        u = [self.along(kernel.TIP, (kind,), values) for kind in ("tower_x", "tower_y")]
-        slope_x, slope_y = (self.along(kernel.SLOPE, (kind,), values) for kind in ("tower_x", "tower_y"))
+        u = [self.along(layout.TIP, (kind,), values) for kind in ("tower_x", "tower_y")]
+        slope_x, slope_y = (self.along(layout.SLOPE, (kind,), values) for kind in ("tower_x", "tower_y"))
         return np.stack(u, axis=1), np.stack([-slope_y, slope_x], axis=1)
 
     @cached_property
     def twist(self) -> Floats:
         """Twist of the tower's top [rad]."""
-        return self.along(kernel.TWIST, ("torsion",), self.coordinates)
+        return self.along(layout.TWIST, ("torsion",), self.coordinates)
 
     @cached_property
     def slewing(self) -> tuple[Floats, Floats]:
@@ -111,7 +111,7 @@ class FlexibleMotion:
     def heads(self) -> Floats:
         """Rows of :func:`towercrane.cranes.head_kernel.move_head`, shape (p, SIZE)."""
         (_, tilt), (velocity, tilting) = self.top(self.coordinates), self.top(self.rates)
-        turning = self.along(kernel.TWIST, ("torsion",), self.rates) + self.slewing[1]
+        turning = self.along(layout.TWIST, ("torsion",), self.rates) + self.slewing[1]
         acceleration = self.drive("slewing", 2)
         columns = [*tilt.T, *tilting.T, self.heading, turning, acceleration, *velocity.T]
         heads = np.empty((len(self.times), SIZE))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes import flexible_kernel as kernel
+from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.flexible_energy import total_energy
 from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.cranes.flexible_sections import SectionLoads
@@ -44,7 +44,7 @@ def observe(
             **_drives(motion, guards),
             **_load(motion),
             **_deflections(motion),
-            **_sections(motion, guards[:, kernel.TENSION]),
+            **_sections(motion, guards[:, layout.TENSION]),
             "total_energy": (total_energy(motion), "J", "kinetic and potential energy"),
             "input_work": (
                 states[:, -1],
@@ -76,16 +76,16 @@ def _drives(motion: FlexibleMotion, guards: Floats) -> Entries:
         "trolley_position": (motion.drive("trolley"), "m", "trolley position along the jib"),
         "trolley_speed": (motion.drive("trolley", 1), "m/s", "trolley speed"),
         "trolley_force": (
-            guards[:, kernel.TROLLEY_FORCE],
+            guards[:, layout.TROLLEY_FORCE],
             "N",
             "force of the trolley's drive along the deflected jib, positive outward",
         ),
         "rope_length": (motion.drive("rope"), "m", "rope length"),
-        "rope_tension": (guards[:, kernel.TENSION], "N", "rope tension, the force of the hoist"),
+        "rope_tension": (guards[:, layout.TENSION], "N", "rope tension, the force of the hoist"),
         "slewing_angle": (angle, "rad", "angle of the head on the tower's top"),
         "slewing_speed": (speed, "rad/s", "rate of that angle"),
         "slewing_torque": (
-            guards[:, kernel.SLEWING_TORQUE],
+            guards[:, layout.SLEWING_TORQUE],
             "N m",
             "torque of the slewing drive on the head; of a coupling with its damper",
         ),

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes import flexible_kernel as kernel
+from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.head_kernel import SPIN_BIAS, TURN_X, TURN_Y
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class SectionLoads:
         """Of the tower's top and the angular one, in the head's axes; shapes (p, 3)."""
         motion = self.motion
         straight, tilting = motion.top(self.accelerations)
-        turning = motion.along(kernel.TWIST, ("torsion", "slewing"), self.accelerations)
+        turning = motion.along(layout.TWIST, ("torsion", "slewing"), self.accelerations)
         spin = motion.heads[:, SPIN_BIAS : SPIN_BIAS + 3].copy()
         spin += tilting[:, :1] * motion.heads[:, TURN_X : TURN_X + 3]
         spin += tilting[:, 1:] * motion.heads[:, TURN_Y : TURN_Y + 3]
@@ -139,7 +139,7 @@ class SectionLoads:
         top = np.column_stack([motion.top(motion.coordinates)[0], np.full(len(force), crane.tower_height)])
         moment = moment + np.cross(top, force)
         zeroth, first = crane.tower_moments
-        parts, mass = model.parts, model.system.matrices[kernel.OWN]
+        parts, mass = model.parts, model.system.matrices[layout.OWN]
         weight = crane.gravity if model.self_weight else 0.0
         height = crane.tower_height
         q, qdd = motion.coordinates, self.accelerations
