@@ -56,7 +56,13 @@ def test_crane_started_in_its_plane_stays_there_exactly_and_is_the_radial_crane(
     options = {"output_step": 0.5, "swing_angle": 0.1, "rtol": 1e-11, "atol": 1e-13}
     space_run = simulate(space.model(2, 1, 2, 3, 800.0), motions | {"slewing": rest(0.0)}, 60.0, **options)
     plane_run = simulate(RadialModel(space.CRANE, Load(800.0), 2, 3), motions, 60.0, **options)
-    for name in ("sway_tangential", "tower_tip_twist", "jib_tip_deflection_sideways", "slewing_torque", "base_torque"):
+    for name in (
+        "sway_tangential",
+        "tower_tip_twist",
+        "jib_tip_deflection_sideways",
+        "slewing_torque",
+        "base_torque",
+    ):
         assert np.all(space_run[name].values == 0.0), name
     for name in ("tower_y_coordinate", "torsion_coordinate", "jib_lateral_coordinate"):
         assert np.all(space_run[name].values == 0.0), name
@@ -71,7 +77,9 @@ def test_heading_does_not_change_the_motion_in_the_jibs_plane():
     # Equal tower in all directions: a run at 2.2 rad is the run at zero, turned.
     motions = {"trolley": trapezoid(5.0, 25.0, 0.8, 0.2), "rope": rest(12.0)}
     runs = [
-        simulate(space.model(2, 1, 2, 2), motions | {"slewing": rest(a)}, 30.0, swing_angle=0.2, rtol=1e-11, atol=1e-13)
+        simulate(
+            space.model(2, 1, 2, 2), motions | {"slewing": rest(a)}, 30.0, swing_angle=0.2, rtol=1e-11, atol=1e-13
+        )
         for a in (0.0, 2.2)
     ]
     for name in ("sway_radial", "tower_tip_displacement", "jib_tip_deflection", "rope_tension"):
@@ -132,7 +140,11 @@ def angular_momentum(motion):
     points, weights = leggauss(32)
     spans = [(0.0, crane.jib.length, crane.jib.mass_per_length)]
     spans.append((-crane.counter_jib_length, crane.counter_jib_length, crane.counter_jib_mass_per_length))
-    masses = [(begin + 0.5 * span * (s + 1), 0.5 * span * w * m) for begin, span, m in spans for s, w in zip(points, weights, strict=True)]
+    masses = [
+        (begin + 0.5 * span * (s + 1), 0.5 * span * w * m)
+        for begin, span, m in spans
+        for s, w in zip(points, weights, strict=True)
+    ]
     masses.append((-crane.counter_jib_length, crane.counterweight))
     u, velocity = motion.top(motion.coordinates)[0], motion.top(motion.rates)[0]
     total = np.zeros(len(motion.times))

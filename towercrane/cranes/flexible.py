@@ -198,7 +198,7 @@ class FlexibleModel:
             vectors=self._vectors(),
             matrices=self._matrices(),
             tables=shape_table((self.crane.lateral, self.crane.vertical), self.crane.jib_length),
-            work_shape=(rows + layout.ROWS, max(columns, layout.WIDTH)),
+            work_shape=(rows + layout.ROWS, columns),
             restore=lambda state: restore(state, n, self.axes),
             switch=Corner(layout.INSIDE, layout.OUTSIDE, drive.soft != drive.stiff) if drive else None,
         )

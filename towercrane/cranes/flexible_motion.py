@@ -149,7 +149,9 @@ class FlexibleMotion:
         """Sums of the jib's shapes (jib modes, p or 1) with coordinates or rates, to the left and up; shape (p, 2)."""
         first, middle = self.model.parts["jib_lateral"].start, self.model.parts["jib_vertical"].start
         products = shapes.T * values[:, first:]
-        return np.stack([products[:, : middle - first].sum(axis=1), products[:, middle - first :].sum(axis=1)], axis=1)
+        return np.stack(
+            [products[:, : middle - first].sum(axis=1), products[:, middle - first :].sum(axis=1)], axis=1
+        )
 
     @cached_property
     def suspension(self) -> tuple[Floats, Floats]:
