@@ -10,7 +10,7 @@ STIFF = 1e12
 """Axial stiffness E A [N]: what the crane's equations take as rigid."""
 
 SLIM = 1e-4
-"""Moment of inertia about a jib element's axis per length [kg m], and its torsional stiffness far above: no torsion."""
+"""Moment of inertia about a jib element's axis per length [kg m], its torsional stiffness far above: no torsion."""
 
 
 def bending(length, mass, stiffness):

@@ -24,7 +24,7 @@ RINGING = {"tower": 1, "torsion": 1, "lateral": 2, "vertical": 2}
 
 
 def ringing(scene, motions):
-    """Every coordinate moved from the equilibrium of the crane with its drives held, load 29 degrees off the vertical."""
+    """Every coordinate away from the equilibrium with its drives held, load 29 degrees off the vertical."""
     rng, n = np.random.default_rng(3), scene.coordinates
     state = space.start(scene, motions, swing_angle=0.5)
     state[:n] += 0.01 * scene.system.scale[:n] * rng.normal(size=n)
@@ -269,10 +269,10 @@ def test_model_refuses_what_it_cannot_be():
         space.model(1, 0, 0, 1, axes=2)
     with pytest.raises(ValueError, match="wanted friction 'none' or 'tanh', got 'stick-slip'"):
         space.model(slewing=Drive("slewing", 1.0, 1.0, 1.0, 0.0, "stick-slip"))
-    with pytest.raises(ValueError, match="Modes.torsion: wanted zero or more, got -1"):
+    with pytest.raises(ValueError, match=r"Modes.torsion: wanted zero or more, got -1"):
         space.model(1, -1, 0, 0)
     planar = dataclasses.replace(space.CRANE, shaft=None)
-    with pytest.raises(ValueError, match="TowerCrane.shaft: wanted for 1 torsion modes, got None"):
+    with pytest.raises(ValueError, match=r"TowerCrane.shaft: wanted for 1 torsion modes, got None"):
         space.model(1, 1, 0, 0, crane=planar)
     with pytest.raises(ValueError, match=r"WindAreas.jib: wanted zero or more, got -1.0"):
         WindAreas(jib=-1.0)

@@ -21,10 +21,10 @@ with vertical too; stiffness."""
 TROLLEY, ROPE, SLEWING = range(3)
 """Rows of ``inputs``; a slewing motion is there unless the head is fixed, the wind's three come last."""
 
-TENSION, INNER_END, OUTER_END, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, TROLLEY_FORCE = range(8)
-"""Guards: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad], way to the corner of the
-drive's coupling from inside and from outside [rad]. Outputs beside them: torque of the slewing drive [N m] and force
-of the trolley's [N]."""
+TENSION, INNER_END, OUTER_END, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, TROLLEY_FORCE, GUARDS = range(9)
+"""Guards, and how many: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad], way to the
+corner of the drive's coupling from inside and from outside [rad]. Outputs beside them: torque of the slewing drive
+[N m] and force of the trolley's [N]."""
 
 SHAPE, ACROSS, ROWS = range(3)
 """Rows of scratch after the mass matrix, and how many: jib modes at the trolley; N q of each jib mode with the other

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numba import types
@@ -11,10 +11,12 @@ from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.drive_kernel import coupling_torque
 from towercrane.cranes.flexible_kernel import structure
-from towercrane.cranes.projection_kernel import SlewingRow
 from towercrane.payload import ACCELERATION, DIRECTION, FORCE, HINGE, MASS, hang_load
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
+
+if TYPE_CHECKING:
+    from towercrane.cranes.projection_kernel import SlewingRow
 
 _one, _two = types.float64[::1], types.float64[:, ::1]
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
-from towercrane.cranes.head_kernel import Vector
 from towercrane.payload import FORCE, MASS
+
+if TYPE_CHECKING:
+    from towercrane.cranes.head_kernel import Vector
 
 
 @kernel(inline=True)
