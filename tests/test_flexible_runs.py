@@ -269,7 +269,7 @@ def test_model_refuses_what_it_cannot_be():
         space.model(1, 0, 0, 1, axes=2)
     with pytest.raises(ValueError, match="wanted friction 'none' or 'tanh', got 'stick-slip'"):
         space.model(slewing=Drive("slewing", 1.0, 1.0, 1.0, 0.0, "stick-slip"))
-    with pytest.raises(ValueError, match=r"Modes.torsion: wanted zero or more, got -1"):
+    with pytest.raises(ValueError, match=r"ModeCounts.torsion: wanted zero or more, got -1"):
         space.model(1, -1, 0, 0)
     planar = dataclasses.replace(space.CRANE, shaft=None)
     with pytest.raises(ValueError, match=r"TowerCrane.shaft: wanted for 1 torsion modes, got None"):

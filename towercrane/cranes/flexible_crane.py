@@ -43,7 +43,7 @@ class TorsionBasis(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Modes:
+class ModeCounts:
     """Numbers of modes of each kind, zero for what is rigid.
 
     Parameters
@@ -69,7 +69,7 @@ class Modes:
     def __post_init__(self) -> None:
         for name in self.__slots__:
             if getattr(self, name) < 0:
-                raise ValueError(f"Modes.{name}: wanted zero or more, got {getattr(self, name)!r}")
+                raise ValueError(f"ModeCounts.{name}: wanted zero or more, got {getattr(self, name)!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,14 +154,14 @@ class FlexibleCrane:
 
 
 def flexible_crane(
-    crane: TowerCrane, modes: Modes, areas: wind.WindAreas | None = None, planes: int = 2
+    crane: TowerCrane, modes: ModeCounts, areas: wind.WindAreas | None = None, planes: int = 2
 ) -> FlexibleCrane:
     """Crane of uniform members in so many of their modes, the tower's with the head on their end.
 
     Parameters
     ----------
     crane : TowerCrane
-    modes : Modes
+    modes : ModeCounts
     areas : WindAreas, optional
     planes : {1, 2}
         Directions in which the tower bends.
