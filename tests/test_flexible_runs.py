@@ -9,6 +9,7 @@ from numpy.polynomial.legendre import leggauss
 from numpy.testing import assert_allclose
 from space_crane import manoeuvre, standing
 
+from modal.beam import Beam
 from towercrane.cranes.flexible import ModalDamping
 from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.cranes.lumped_data import Drive
@@ -269,6 +270,16 @@ def test_model_refuses_what_it_cannot_be():
         space.model(1, 0, 0, 1, axes=2)
     with pytest.raises(ValueError, match="wanted friction 'none' or 'tanh', got 'stick-slip'"):
         space.model(slewing=Drive("slewing", 1.0, 1.0, 1.0, 0.0, "stick-slip"))
+    with pytest.raises(ValueError, match="wanted 'prescribed', 'fixed' or a Drive, got 'free'"):
+        space.model(slewing="free")
+    with pytest.raises(ValueError, match=r"drive_inertia: wanted 0 without a drive, got 5.0"):
+        space.model(drive_inertia=5.0)
+    with pytest.raises(ValueError, match=r"ModalDamping.torsion: wanted zero or more, got -0.1"):
+        ModalDamping(torsion=-0.1)
+    with pytest.raises(ValueError, match=r"FlexibleCrane.planes: wanted 1 or 2, got 3"):
+        space.model(planes=3)
+    with pytest.raises(ValueError, match=r"TowerCrane.jib_lateral.length: wanted 55.6, as in the plane, got 50.0"):
+        dataclasses.replace(space.CRANE, jib_lateral=Beam(50.0, 123.8, 206e9, 0.002))
     with pytest.raises(ValueError, match=r"ModeCounts.torsion: wanted zero or more, got -1"):
         space.model(1, -1, 0, 0)
     planar = dataclasses.replace(space.CRANE, shaft=None)

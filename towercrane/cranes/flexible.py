@@ -44,12 +44,22 @@ class ModalDamping:
     ----------
     tower, torsion, lateral, vertical : float
         Zero or more.
+
+    Raises
+    ------
+    ValueError
+        If one is negative or not finite.
     """
 
     tower: float = 0.0
     torsion: float = 0.0
     lateral: float = 0.0
     vertical: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(f"ModalDamping.{name}: wanted zero or more, got {getattr(self, name)!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +91,8 @@ class FlexibleModel:
     Raises
     ------
     ValueError
-        If a crane that leaves the plane is asked to stay in it, or the drive's friction is set-valued.
+        If a crane that leaves the plane is asked to stay in it, the slewing is of no known kind, the drive's friction
+        is set-valued, or there is inertia of a drive without a drive.
     """
 
     crane: FlexibleCrane
@@ -100,6 +111,10 @@ class FlexibleModel:
         leaves = crane.planes > 1 or crane.torsion.count or crane.lateral.count or self.slewing != "fixed"
         if self.axes == 2 and leaves:
             raise ValueError("FlexibleModel.axes: wanted 3 for a crane that moves out of its plane, got 2")
+        if isinstance(self.slewing, str) and self.slewing not in ("prescribed", "fixed"):
+            raise ValueError(f"FlexibleModel.slewing: wanted 'prescribed', 'fixed' or a Drive, got {self.slewing!r}")
+        if self.drive is None and self.drive_inertia:
+            raise ValueError(f"FlexibleModel.drive_inertia: wanted 0 without a drive, got {self.drive_inertia!r}")
         if self.drive is not None and self.drive.friction == "stick-slip":
             raise ValueError("FlexibleModel.slewing: wanted friction 'none' or 'tanh', got 'stick-slip'")
         if not 0.0 <= self.drive_inertia < np.inf:

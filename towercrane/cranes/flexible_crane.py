@@ -100,6 +100,11 @@ class FlexibleCrane:
         Of the tower, per squared speed and length [kg/m^2].
     gravity : float
         [m/s^2]
+
+    Raises
+    ------
+    ValueError
+        If there are other planes than these.
     """
 
     name: str
@@ -118,6 +123,10 @@ class FlexibleCrane:
     counter_exposure: MassSums | None = None
     tower_drag: float = 0.0
     gravity: float = 9.81
+
+    def __post_init__(self) -> None:
+        if self.planes not in (1, 2):
+            raise ValueError(f"FlexibleCrane.planes: wanted 1 or 2, got {self.planes!r}")
 
     @cached_property
     def slewing(self) -> MassSums:
