@@ -1,6 +1,6 @@
 """Radial equations as one would first write them in NumPy: matrices, a general solve, the swing as an angle.
 
-The same model as :mod:`towercrane.cranes.radial_kernel` in other coordinates and without its shortcuts. It shows what
+The same model as :class:`towercrane.cranes.radial.RadialModel` in other coordinates and without its shortcuts. It shows what
 the compiled right-hand side saves, and checks it.
 """
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes import radial_kernel as kernel
+from towercrane.cranes import flexible_layout as layout
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,8 +33,13 @@ def plain_rhs(model: RadialModel) -> Rhs:
     """
     crane, system = model.crane, model.system
     tower, n = model.tower_modes, model.coordinates
-    tip, slope, jib_mass = (system.vectors[row] for row in (kernel.TIP, kernel.SLOPE, kernel.JIB_MASS))
-    base, stiffness = system.matrices[kernel.BASE], system.matrices[kernel.STIFFNESS]
+    tip, slope, jib_mass, jib_moment = np.zeros((4, n))
+    tip[:tower], slope[:tower] = model.tower(crane.tower.length), model.tower.rotation(crane.tower.length)
+    jib_mass[tower:], jib_moment[tower:] = model.jib.mass_moments()
+    base, stiffness = np.zeros((n, n)), system.matrices[layout.STIFFNESS]
+    base[:tower, :tower], base[tower:, tower:] = model.tower.mass_matrix(), model.jib.mass_matrix()
+    base += crane.slewing_mass * np.outer(tip, tip) + crane.slewing_inertia * np.outer(slope, slope)
+    base -= np.outer(slope, jib_moment) + np.outer(jib_moment, slope)
     weight = crane.gravity if model.self_weight else 0.0
     static, trolley, load, gravity = crane.static_moment, crane.trolley_mass, model.load.mass, crane.gravity
     tables, width = system.tables, crane.jib.length / len(system.tables)
@@ -44,8 +49,8 @@ def plain_rhs(model: RadialModel) -> Rhs:
 
     def rhs(t: float, y: Floats, inputs: Floats) -> Floats:
         q, theta, rates, turning = y[:n], y[n], y[n + 1 : -1], y[-1]
-        x, xd, xdd = (np.polynomial.polynomial.polyval(t, c) for c in _derivatives(inputs[kernel.TROLLEY]))
-        rope, winding, hauling = (np.polynomial.polynomial.polyval(t, c) for c in _derivatives(inputs[kernel.ROPE]))
+        x, xd, xdd = (np.polynomial.polynomial.polyval(t, c) for c in _derivatives(inputs[0]))
+        rope, winding, hauling = (np.polynomial.polynomial.polyval(t, c) for c in _derivatives(inputs[1]))
         cell = min(max(int(x / width), 0), len(tables) - 1)
         xi = x - (cell + 0.5) * width
         phi, phi1, phi2 = np.zeros((3, n))

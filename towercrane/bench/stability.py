@@ -10,7 +10,8 @@ import numpy as np
 from towercrane.bench.clock import short, whole
 from towercrane.bench.scenes import radial_outputs, unwatched
 from towercrane.case import load_case
-from towercrane.cranes.radial_outputs import total_energy
+from towercrane.cranes.flexible_energy import total_energy
+from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.drift import ATOL_SHARE, NAMED, SPAN, energy_drift, notice, refusal
 from towercrane.integrate import METHODS, integrate
 from towercrane.models import radial_model
@@ -77,7 +78,7 @@ class FreeVibration:
         cut = phases((self.motions["trolley"], self.motions["rope"]), 1.0)
         ends = np.array([self.model.start(cut.inputs[0]), run.states[0], run.states[-1]])
         with np.errstate(all="ignore"):
-            least, first, last = total_energy(self.model, self.motions, np.zeros(3), ends)
+            least, first, last = total_energy(FlexibleMotion(self.model.scene, self.motions, np.zeros(3), ends))
         change = float((last - first) / (first - least))
         return change if np.isfinite(change) else np.inf
 

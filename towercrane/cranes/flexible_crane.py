@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -42,7 +43,7 @@ class TorsionBasis(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Modes:
+class ModeCounts:
     """Numbers of modes of each kind, zero for what is rigid.
 
     Parameters
@@ -68,7 +69,7 @@ class Modes:
     def __post_init__(self) -> None:
         for name in self.__slots__:
             if getattr(self, name) < 0:
-                raise ValueError(f"Modes.{name}: wanted zero or more, got {getattr(self, name)!r}")
+                raise ValueError(f"ModeCounts.{name}: wanted zero or more, got {getattr(self, name)!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,16 +88,23 @@ class FlexibleCrane:
         Bending of the jib to the left and up.
     jib, counter : MassSums
         The jib; counter-jib, counterweight and whatever else is rigid on the head.
+    tower_mass : float
+        Of the tower and its own bodies [kg].
     trolley_mass : float
         [kg]
     planes : {1, 2}
         Directions in which the tower bends: x, or x and y.
-    exposure : MassSums, optional
-        Sums over the head's drag per squared speed [kg/m], in place of its mass.
+    jib_exposure, counter_exposure : MassSums, optional
+        Sums over the drag per squared speed [kg/m] of jib and counter-jib, in place of their mass.
     tower_drag : float
         Of the tower, per squared speed and length [kg/m^2].
     gravity : float
         [m/s^2]
+
+    Raises
+    ------
+    ValueError
+        If there are other planes than these.
     """
 
     name: str
@@ -108,16 +116,45 @@ class FlexibleCrane:
     vertical: Basis
     jib: MassSums
     counter: MassSums
+    tower_mass: float
     trolley_mass: float
     planes: int = 2
-    exposure: MassSums | None = None
+    jib_exposure: MassSums | None = None
+    counter_exposure: MassSums | None = None
     tower_drag: float = 0.0
     gravity: float = 9.81
 
-    @property
+    def __post_init__(self) -> None:
+        if self.planes not in (1, 2):
+            raise ValueError(f"FlexibleCrane.planes: wanted 1 or 2, got {self.planes!r}")
+
+    @cached_property
     def slewing(self) -> MassSums:
         """Sums over all that turns, without trolley and load."""
         return self.jib + self.counter
+
+    @property
+    def exposure(self) -> MassSums | None:
+        """Sums over the drag of all that turns; None where the wind does not matter."""
+        parts = [part for part in (self.jib_exposure, self.counter_exposure) if part is not None]
+        return parts[0] if len(parts) == 1 else parts[0] + parts[1] if parts else None
+
+    @cached_property
+    def tower_moments(self) -> tuple[Floats, Floats]:
+        """Sums over the tower's own mass of its shapes, and with the height as weight; shapes (count,)."""
+        return self.tower.mass_moments()
+
+    def jib_shapes(self, position: ArrayLike, derivative: int = 0) -> Floats:
+        """Shapes of the jib to the left, then up, or their derivatives; shape (jib modes, *shape of position)."""
+        bases = [basis for basis in (self.lateral, self.vertical) if basis.count]
+        if not bases:
+            return np.empty((0, *np.shape(position)))
+        return np.concatenate([basis(position, derivative) for basis in bases])
+
+    @cached_property
+    def tip_shapes(self) -> Floats:
+        """Shapes of the jib at its tip, shape (jib modes, 1)."""
+        return self.jib_shapes([self.jib_length])
 
     @property
     def top_slope(self) -> Floats:
@@ -126,14 +163,14 @@ class FlexibleCrane:
 
 
 def flexible_crane(
-    crane: TowerCrane, modes: Modes, areas: wind.WindAreas | None = None, planes: int = 2
+    crane: TowerCrane, modes: ModeCounts, areas: wind.WindAreas | None = None, planes: int = 2
 ) -> FlexibleCrane:
     """Crane in so many modes of its members, the tower's with the head on their end.
 
     Parameters
     ----------
     crane : TowerCrane
-    modes : Modes
+    modes : ModeCounts
     areas : WindAreas, optional
     planes : {1, 2}
         Directions in which the tower bends.
@@ -159,11 +196,12 @@ def flexible_crane(
         roll=crane.roll_inertia,
     )
     tower = crane.tower_modes(modes.tower)
-    exposure = None
+    jib_exposure, counter_exposure = None, None
     if areas is not None:
         length, per_length = crane.counter_jib_length, wind.drag(areas.counter_jib)
         tip = wind.drag(areas.counterweight)
-        exposure = jib.scaled(wind.drag(areas.jib) / crane.jib.mass_per_length) + rigid_sums(
+        jib_exposure = jib.scaled(wind.drag(areas.jib) / crane.jib.mass_per_length)
+        counter_exposure = rigid_sums(
             per_length * length + tip,
             -(per_length * length / 2 + tip) * length,
             (per_length * length / 3 + tip) * length**2,
@@ -179,9 +217,11 @@ def flexible_crane(
         vertical=vertical,
         jib=jib,
         counter=counter,
+        tower_mass=crane.tower_mass,
         trolley_mass=crane.trolley_mass,
         planes=planes,
-        exposure=exposure,
+        jib_exposure=jib_exposure,
+        counter_exposure=counter_exposure,
         tower_drag=wind.drag(areas.tower) if areas is not None else 0.0,
         gravity=crane.gravity,
     )

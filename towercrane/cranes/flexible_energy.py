@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes import flexible_kernel as kernel
+from towercrane.cranes import flexible_layout as layout
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,7 +24,7 @@ def total_energy(motion: FlexibleMotion) -> Floats:
 def kinetic_energy(motion: FlexibleMotion) -> Floats:
     """Kinetic energy of crane and load, shape (p,) [J]."""
     model = motion.model
-    sums, own, rates = model.crane.slewing, model.system.matrices[kernel.OWN], motion.rates
+    sums, own, rates = model.crane.slewing, model.system.matrices[layout.OWN], motion.rates
     jib = model.parts["jib_lateral"].start
     energy = 0.5 * np.einsum("ti,ij,tj->t", rates[:, :jib], own[:jib, :jib], rates[:, :jib])
     velocity, spin = np.zeros((len(rates), 3)), motion.spin
@@ -47,7 +47,7 @@ def kinetic_energy(motion: FlexibleMotion) -> Floats:
 def potential_energy(motion: FlexibleMotion) -> Floats:
     """Elastic energy, and weights over the undeformed tower top; shape (p,) [J]."""
     model, q, crane = motion.model, motion.coordinates, motion.model.crane
-    energy = 0.5 * np.einsum("ti,ij,tj->t", q, model.system.matrices[kernel.STIFFNESS], q)
+    energy = 0.5 * np.einsum("ti,ij,tj->t", q, model.system.matrices[layout.STIFFNESS], q)
     weight = crane.gravity if model.self_weight else 0.0
     energy += weight * motion.to_fixed(motion.first_moment(crane.slewing))[:, 2]
     energy += crane.gravity * crane.trolley_mass * motion.trolley_in_space[0][:, 2]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes import flexible_kernel as kernel
+from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.head_kernel import ROTATION, SIZE, SPIN, move_heads
 
 if TYPE_CHECKING:
@@ -85,14 +85,14 @@ class FlexibleMotion:
 
     def top(self, values: Floats) -> tuple[Floats, Floats]:
         """Translation of the tower's top along x and y, and its tilt vector, of coordinates or their derivatives."""
-        u = [self.along(kernel.TIP, (kind,), values) for kind in ("tower_x", "tower_y")]
-        slope_x, slope_y = (self.along(kernel.SLOPE, (kind,), values) for kind in ("tower_x", "tower_y"))
+        u = [self.along(layout.TIP, (kind,), values) for kind in ("tower_x", "tower_y")]
+        slope_x, slope_y = (self.along(layout.SLOPE, (kind,), values) for kind in ("tower_x", "tower_y"))
         return np.stack(u, axis=1), np.stack([-slope_y, slope_x], axis=1)
 
     @cached_property
     def twist(self) -> Floats:
         """Twist of the tower's top [rad]."""
-        return self.along(kernel.TWIST, ("torsion",), self.coordinates)
+        return self.along(layout.TWIST, ("torsion",), self.coordinates)
 
     @cached_property
     def slewing(self) -> tuple[Floats, Floats]:
@@ -111,7 +111,7 @@ class FlexibleMotion:
     def heads(self) -> Floats:
         """Rows of :func:`towercrane.cranes.head_kernel.move_head`, shape (p, SIZE)."""
         (_, tilt), (velocity, tilting) = self.top(self.coordinates), self.top(self.rates)
-        turning = self.along(kernel.TWIST, ("torsion",), self.rates) + self.slewing[1]
+        turning = self.along(layout.TWIST, ("torsion",), self.rates) + self.slewing[1]
         acceleration = self.drive("slewing", 2)
         columns = [*tilt.T, *tilting.T, self.heading, turning, acceleration, *velocity.T]
         heads = np.empty((len(self.times), SIZE))
@@ -136,20 +136,29 @@ class FlexibleMotion:
         """From the fixed axes to the head's; shapes (p, 3)."""
         return np.asarray(np.einsum("tji,tj->ti", self.axes, vectors))
 
-    def deflection(self, at: Floats | float, values: Floats, derivative: int = 0) -> Floats:
-        """Deflection of the jib to the left and up at positions along it, of coordinates or rates; shape (p, 2)."""
-        x = np.broadcast_to(at, self.times.shape)
-        crane, parts = self.model.crane, self.model.parts
-        left = np.einsum("it,ti->t", crane.lateral(x, derivative), values[:, parts["jib_lateral"]])
-        up = np.einsum("it,ti->t", crane.vertical(x, derivative), values[:, parts["jib_vertical"]])
-        return np.stack([left, up], axis=1)
+    @cached_property
+    def shapes(self) -> tuple[Floats, Floats]:
+        """Shapes of the jib at the trolley, to the left and up, and their slopes; shapes (jib modes, p)."""
+        return self.shapes_at_trolley(0), self.shapes_at_trolley(1)
+
+    def shapes_at_trolley(self, derivative: int) -> Floats:
+        """Derivative of the jib's shapes at the trolley, shape (jib modes, p)."""
+        return self.model.crane.jib_shapes(self.trolley[0], derivative)
+
+    def deflection(self, shapes: Floats, values: Floats) -> Floats:
+        """Sums of the jib's shapes (jib modes, p or 1) with coordinates or rates, left and up; shape (p, 2)."""
+        first, middle = self.model.parts["jib_lateral"].start, self.model.parts["jib_vertical"].start
+        products = shapes.T * values[:, first:]
+        return np.stack(
+            [products[:, : middle - first].sum(axis=1), products[:, middle - first :].sum(axis=1)], axis=1
+        )
 
     @cached_property
     def suspension(self) -> tuple[Floats, Floats]:
         """Place of the trolley in the head's axes, and its rate there; shapes (p, 3)."""
-        x, xd = self.trolley
-        across = self.deflection(x, self.coordinates)
-        rate = self.deflection(x, self.rates) + xd[:, None] * self.deflection(x, self.coordinates, 1)
+        (x, xd), (shapes, slopes) = self.trolley, self.shapes
+        across = self.deflection(shapes, self.coordinates)
+        rate = self.deflection(shapes, self.rates) + xd[:, None] * self.deflection(slopes, self.coordinates)
         return np.column_stack([x, across]), np.column_stack([xd, rate])
 
     @cached_property

@@ -36,6 +36,9 @@ class Basis(Protocol):
     def mass_moments(self) -> tuple[Floats, Floats]:
         """Sums of shapes over the member's own mass, and with the position as weight."""
 
+    def rotary_moments(self) -> Floats:
+        """Sums of the sections' and bodies' own rotary inertia over the rotation of each shape."""
+
     def slope_matrix(self) -> Floats:
         """Products of slopes over the length."""
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes import flexible_kernel as kernel
+from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.flexible_energy import total_energy
 from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.results import Quantity
@@ -53,7 +53,7 @@ def observe(
         ),
         "tower_tip_tilt": over_time(tilt[:, 1], "rad", "tilt of the tower top, positive: jib tip down"),
         "jib_tip_deflection": over_time(
-            motion.deflection(model.crane.jib.length, motion.coordinates)[:, 1],
+            motion.deflection(motion.model.crane.tip_shapes, motion.coordinates)[:, 1],
             "m",
             "deflection of the jib tip from the tilted straight jib, positive up",
         ),
@@ -63,7 +63,7 @@ def observe(
             "swing of the rope from the vertical in the jib's plane, positive outward",
         ),
         "swing_rate": over_time(rate, "rad/s", "rate of the swing angle"),
-        "rope_tension": over_time(guards[:, kernel.TENSION], "N", "rope tension"),
+        "rope_tension": over_time(guards[:, layout.TENSION], "N", "rope tension"),
         "payload_position": Quantity(
             ("time", "axis"),
             motion.load_in_space[0],

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes import flexible_kernel as kernel
+from towercrane.cranes import flexible_layout as layout
 from towercrane.differences import jacobian
 from towercrane.payload import JACOBIAN, MASS
 from towercrane.system import NoEquilibrium
@@ -80,7 +80,7 @@ def linear_matrices(model: FlexibleModel, drives: ArrayLike, *, about: Floats | 
     mass[n:, n:] = load * np.eye(sways)
     stiffness = np.zeros_like(mass)
     if about is None:
-        stiffness[:n, :n] = model.system.matrices[kernel.STIFFNESS]
+        stiffness[:n, :n] = model.system.matrices[layout.STIFFNESS]
     elif n:
         slope, _ = jacobian(lambda q: -model.static_force(q, inputs), about, model.system.scale[:n])
         stiffness[:n, :n] = 0.5 * (slope + slope.T)

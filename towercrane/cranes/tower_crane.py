@@ -107,6 +107,12 @@ class TowerCrane:
         return self.jib.mass * self.jib.length / 2 + self.counter_moment
 
     @property
+    def tower_mass(self) -> float:
+        """Mass of the tower and its own bodies [kg]."""
+        bodies = () if isinstance(self.tower, Beam) else self.tower.bodies.values()
+        return self.tower.mass + sum(body.mass for body in bodies)
+
+    @property
     def end_body(self) -> EndBody:
         """The slewing part as the tower's end body: what Gao et al. (2023), Eq. 26, calls m_r and J_r."""
         return EndBody(self.slewing_mass, self.slewing_inertia)

@@ -89,7 +89,7 @@ def gusts(step: float, velocities: ArrayLike) -> dict[str, Motion]:
         raise ValueError(f"step: wanted a positive time, got {step!r}")
     if rows.ndim != 2 or rows.shape[1] != 3 or len(rows) < 2 or not np.all(np.isfinite(rows)):
         raise ValueError(f"velocities: wanted two or more rows of 3 finite components, got shape {rows.shape}")
-    times = step * np.arange(len(rows))
+    times = np.arange(len(rows), dtype=np.float64) * step
     slopes = np.diff(rows, axis=0) / step
     return {
         channel: Motion(times, np.stack([rows[:-1, k], slopes[:, k]], axis=1)) for k, channel in enumerate(CHANNELS)
