@@ -8,14 +8,14 @@ from numpy.testing import assert_allclose
 from qtz5613 import CONDITIONS, CRANE, model, motions, standing
 from scipy.integrate import solve_ivp
 
-from modal import finite_element_structure_frequencies
+from modal import crane_structure, finite_element_structure_frequencies
 from towercrane.cranes.radial import RadialModel
 from towercrane.drift import EnergyDriftWarning
 from towercrane.motion import rest, s_curve, sequence, trapezoid
-from towercrane.natural import plane_frame
 from towercrane.payload import Load
 from towercrane.simulate import simulate
 from towercrane.system import NoEquilibrium
+from towercrane.towers import frame_of
 
 RUN_OPTIONS = ("state", "rtol", "atol", "output_step", "method")
 TIGHT = {"rtol": 1e-11, "atol": 1e-13}
@@ -333,7 +333,8 @@ def test_loose_tolerance_does_not_step_over_a_slack_rope():
 
 
 def frame(trolley: float):
-    return finite_element_structure_frequencies(plane_frame(CRANE, trolley, 800.0, 18.0), 3, elements=40)
+    structure = crane_structure(frame_of(CRANE, 800.0, 18.0), trolley)
+    return finite_element_structure_frequencies(structure, 3, elements=40)
 
 
 @pytest.mark.parametrize("trolley", [5.0, 23.0, 41.0, 55.0])
