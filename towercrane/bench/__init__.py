@@ -9,12 +9,22 @@ from typing import TYPE_CHECKING, Any
 from towercrane.bench.radial import modes_left_out, radial_run, right_hand_side
 from towercrane.bench.roots import roots
 from towercrane.bench.slewing import example_runs, right_hand_sides
+from towercrane.bench.structure import crane_map, stepped_tower
 from towercrane.simulate import versions
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-SUBJECTS = (roots, right_hand_side, radial_run, modes_left_out, right_hand_sides, example_runs)
+SUBJECTS = (
+    roots,
+    stepped_tower,
+    crane_map,
+    right_hand_side,
+    radial_run,
+    modes_left_out,
+    right_hand_sides,
+    example_runs,
+)
 """Each takes the number of repeats and gives a table."""
 
 
