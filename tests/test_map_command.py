@@ -115,3 +115,33 @@ def test_crane_without_beams_is_sent_elsewhere():
     done = towercrane("map", "jib-crane/plan")
     assert done.returncode == 2
     assert "try: towercrane linearise jib-crane/plan" in done.stderr
+
+
+def test_pictures_name_units_branches_and_loads():
+    from test_plane_modes import FRAME
+
+    from towercrane.frequency_map import frequency_map
+    from towercrane.plane_modes import PlaneCrane
+    from towercrane.plots import frequency_map as pictured
+
+    data = frequency_map(FRAME, [0.0, 25.0, 50.0], [400.0, 800.0], modes=2)
+    data.attrs |= {"crane": "crane", "assumed": json.dumps([["crane.jib.length", "50 m", "no source"]])}
+    figure = pictured.frequencies(data)
+    (axes,) = figure.axes
+    assert axes.get_xlabel().endswith("[m]")
+    assert axes.get_ylabel().endswith("[Hz]")
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert labels[:2] == data.branch.values.tolist()
+    assert labels[2].startswith("load 400 kg")
+    styles = [(line.get_color(), line.get_linestyle()) for line in axes.lines]
+    assert len(set(styles)) == 4
+    assert "crane.jib.length = 50 m" in figure._supxlabel.get_text()
+
+    drawn = pictured.shapes(PlaneCrane(FRAME).modes(25.0, 4), "modes", [])
+    panels = [axes for axes in drawn.axes if axes.get_visible()]
+    assert len(panels) == 4
+    assert all("Hz" in axes.get_title() and axes.get_aspect() == 1.0 for axes in panels)
+    # Undeformed and deformed tower, jib and rope; the crane hangs together.
+    tower, jib, rope = (line.get_xydata() for line in panels[1].lines[1:6:2])
+    assert tower[-1] == pytest.approx(jib[0])
+    assert jib[50][1] - rope[0][1] == pytest.approx(0.0, abs=0.5)
