@@ -26,7 +26,7 @@ JIB = Segment(40.0, 100.0, 210e9 * 0.003)
 OUTPUTS = ("tower_tip_displacement", "tower_tip_tilt", "jib_tip_deflection", "swing_angle")
 
 COLUMN = LacedColumn(50e-4, 1.7, 1.4, 8e-4, 210e9, "X", 6e-4)
-MAST = Segment(18.0, 350.0, COLUMN.bending_stiffness.value, COLUMN.shear_stiffness.value)
+MAST = Segment(18.0, 350.0, COLUMN.bending_stiffness.value, COLUMN.shear_stiffness.value, 350.0 * 0.85**2)
 BY_HAND = Chain(
     (Segment(12.0, 500.0, 206e9 * 0.02, 150e6, 300.0, 0.6, 1.0, 3.0, 1.0), *MAST.split(8.0)),
     {0: EndBody(100e3), 2: EndBody(2000.0, 3000.0, -0.4), 3: EndBody(5000.0, 0.0, 1.0)},
@@ -111,7 +111,7 @@ def test_the_shipped_laced_tower_is_the_published_crane_on_its_lattice():
     # Lacing as soft as this costs the first mode, which the slewing part's inertia governs, next to nothing.
     stated = load_case("qtz5613/condition-3").radial_crane().tower_modes(4).frequencies_hz
     loss = laced.radial_crane().tower_modes(4).frequencies_hz / stated - 1.0
-    assert_allclose(loss, [-0.0065, -0.1728, -0.4256, -0.5686], atol=1e-4)
+    assert_allclose(loss, [-0.0065, -0.1728, -0.4261, -0.5699], atol=1e-4)
 
 
 RIGID = ["crane.counter_jib={length=11, mass_per_length=180, counterweight=10300}"]

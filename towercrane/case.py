@@ -161,7 +161,7 @@ class Case:
         """The tower: a beam where it is uniform and clamped, else a chain; without what the tolerance leaves out."""
         from towercrane.effects import kept_tower
 
-        return kept_tower(self)
+        return kept_tower(self, self._radial.crane)
 
     def tower_beam(self) -> Beam:
         """The tower as a uniform Euler beam, clamped at its foot.

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.case import Case
+    from towercrane.schema_cranes import Crane
 
     Floats = NDArray[np.float64]
 
@@ -86,9 +87,9 @@ def effects_in(case: Case) -> Effects:
     return Effects(known, above, plain.angular_frequencies, found, kept, tolerance)
 
 
-def kept_tower(case: Case) -> Beam | Chain:
-    """The tower of a radial case, without the slewing part and without weight, as its tolerance keeps it."""
-    tower = tower_of(case.crane)
+def kept_tower(case: Case, crane: Crane) -> Beam | Chain:
+    """The tower of a case, without the slewing part and without weight, as the case's tolerance keeps it."""
+    tower = tower_of(crane)
     if isinstance(tower, Beam) or case.accuracy.frequency is None:
         return tower
     return keeping(tower, effects_in(case).kept)

@@ -112,9 +112,9 @@ def frequency_map(
     """
     places, masses = _ascending("positions", positions), _ascending("payloads", payloads)
     if frame.jib is not None and not 0.0 <= places[0] <= places[-1] <= frame.jib.length * (1.0 + 1e-12):
-        raise ValueError(f"positions: wanted 0 to {frame.jib.length!r} m, got {places[0]!r} to {places[-1]!r}")
+        raise ValueError(f"positions: wanted 0 to {frame.jib.length:g} m, got {places[0]:g} to {places[-1]:g}")
     if not (masses[0] > 0.0 and masses[-1] < np.inf):
-        raise ValueError(f"payloads: wanted masses above 0 kg, got {masses[0]!r} to {masses[-1]!r}")
+        raise ValueError(f"payloads: wanted masses above 0 kg, got {masses[0]:g} to {masses[-1]:g}")
     if modes < 1:
         raise ValueError(f"modes: wanted one or more, got {modes!r}")
     began = time.perf_counter()

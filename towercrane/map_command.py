@@ -38,9 +38,7 @@ def frequency_map(
     case: CaseName,
     positions: Annotated[
         int | None,
-        typer.Option(
-            "--positions", metavar="N", help="Places of the trolley, evenly along the jib; else the case's."
-        ),
+        typer.Option("--positions", metavar="N", help="Places of the trolley along the jib; else the case's."),
     ] = None,
     payload: Annotated[
         list[str] | None,

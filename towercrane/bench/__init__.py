@@ -11,6 +11,7 @@ from towercrane.bench.radial import modes_left_out, right_hand_side
 from towercrane.bench.roots import roots
 from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene
 from towercrane.bench.slewing import right_hand_sides
+from towercrane.bench.structure import crane_map, stepped_tower
 from towercrane.bench.workprecision import work_precision
 from towercrane.simulate import versions
 
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 
 SUBJECTS: dict[str, tuple[str, Subject]] = {
     "roots": ("characteristic roots against finite elements", lambda repeats, quick: roots(repeats)),
+    "structure": ("dynamic stiffness of a stepped tower", lambda repeats, quick: stepped_tower(repeats)),
+    "map": ("frequency map of the plane crane", lambda repeats, quick: crane_map(repeats)),
     "radial-rhs": ("right-hand side of the radial crane", lambda repeats, quick: right_hand_side(repeats)),
     "radial": ("radial crane", lambda repeats, quick: work_precision(radial_scene(), repeats, quick=quick)),
     "radial-modes": ("modes left out", lambda repeats, quick: modes_left_out(repeats)),

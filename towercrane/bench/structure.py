@@ -1,0 +1,192 @@
+"""Benchmark of the exact structures: a tower of three segments and the frequency map, beside finite elements."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modal import Chain, EndBody, Segment, chain_frequencies, chain_structure, crane_structure
+from towercrane.bench.clock import interleaved, short
+from towercrane.case import load_case
+from towercrane.towers import crane_frame
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from modal import CraneFrame
+
+    Floats = NDArray[np.float64]
+
+CASE = "qtz5613/condition-3"
+
+POSITIONS = 50
+
+MODES = 8
+
+NO_MPMATH = "errors not measured: they need mpmath (pip install mpmath)"
+
+TOWER = Chain(
+    (
+        Segment(24.0, 780.0, 6.6e9, 4.6e8, 780.0),
+        Segment(18.0, 600.0, 4.9e9, 3.9e8, 600.0),
+        Segment(18.0, 460.0, 3.3e9, 3.1e8, 460.0),
+    ),
+    {3: EndBody(11000.0, 6e4)},
+)
+"""A tower of 60 m in three sections with shear strain and rotary inertia, and a slewing part on its top."""
+
+
+def stepped_tower(repeats: int) -> dict[str, Any]:
+    """Eight frequencies of a tower of three shear-flexible segments."""
+    from modal.structure_elements import finite_element_structure_frequencies
+
+    def elements(number: int) -> Callable[[], Floats]:
+        return lambda: finite_element_structure_frequencies(chain_structure(TOWER), MODES, elements=number)
+
+    contestants: dict[str, Callable[[], Floats]] = {"exact": lambda: chain_frequencies(TOWER, MODES)}
+    contestants |= {f"{n} elements a segment": elements(n) for n in (2, 4, 8, 16)}
+    values, seconds, _ = interleaved(contestants, repeats)
+    reference, note = _transfer_matrices(values["exact"])
+    return _compared(
+        "Eight frequencies of a tower of three shear-flexible segments with a body: relative error of the worst",
+        values, seconds, reference, [note],
+    )  # fmt: skip
+
+
+def crane_map(repeats: int) -> dict[str, Any]:
+    """Eight frequencies of the plane QTZ5613 at fifty positions of its trolley."""
+    from modal.structure_elements import finite_element_structure_frequencies
+    from towercrane.frequency_map import SPARE, frequency_map
+
+    case = load_case(CASE)
+    frame = crane_frame(case)
+    places = np.linspace(0.0, case.radial_crane().jib.length, POSITIONS)
+
+    def exact() -> Floats:
+        return np.array([crane_structure(frame, float(x)).angular_frequencies(MODES) for x in places])
+
+    def branches() -> Floats:
+        found = frequency_map(frame, places, [frame.payload_mass], modes=MODES - SPARE)
+        return 2.0 * np.pi * np.sort(found["frequency"].values[0], axis=1)
+
+    def elements(number: int) -> Floats:
+        structures = (crane_structure(frame, float(x)) for x in places)
+        return np.array([finite_element_structure_frequencies(s, MODES, elements=number) for s in structures])
+
+    contestants: dict[str, Callable[[], Floats]] = {
+        "exact": exact,
+        "exact, with shapes, branches, participation": branches,
+        "8 elements a member": partial(elements, 8),
+        "16 elements a member": partial(elements, 16),
+    }
+    values, seconds, _ = interleaved(contestants, min(repeats, 3))
+    found = zip(places.tolist(), values["exact"], strict=True)
+    rows = [_krylov_functions(frame, position, near) for position, near in found]
+    reference = None if rows[0] is None else np.array(rows)
+    note = "reference: Krylov functions of the three uniform spans, matched in 50-digit arithmetic"
+    return _compared(
+        f"Plane QTZ5613, eight frequencies at {POSITIONS} positions of the trolley: relative error of the worst",
+        values, seconds, reference, [NO_MPMATH if reference is None else note],
+    )  # fmt: skip
+
+
+def _compared(
+    title: str, values: dict[str, Floats], seconds: dict[str, float], reference: Floats | None, notes: list[str]
+) -> dict[str, Any]:
+    """Table of errors and times; methods with fewer frequencies are compared by those."""
+    records: list[dict[str, Any]] = []
+    for name, found in values.items():
+        error = None
+        if reference is not None:
+            error = float(np.max(abs(found / reference[..., : found.shape[-1]] - 1.0)))
+        records.append({"method": name, "error": error, "milliseconds": 1e3 * seconds[name]})
+    return {
+        "title": title,
+        "columns": ["method", "error", "median [ms]"],
+        "rows": [[r["method"], short(r["error"]), f"{r['milliseconds']:.2f}"] for r in records],
+        "records": records,
+        "notes": notes,
+    }
+
+
+def _transfer_matrices(near: Floats) -> tuple[Floats | None, str]:
+    """Frequencies of the tower by matrix exponentials in 50-digit arithmetic; None without mpmath."""
+    try:
+        import mpmath as mp
+    except ImportError:
+        return None, NO_MPMATH
+    body = TOWER.bodies[3]
+
+    def closing(omega: Any) -> Any:
+        state = mp.matrix([[0, 0], [0, 0], [1, 0], [0, 1]])
+        for s in TOWER.segments:
+            # Deflection, rotation, transverse force and moment along a Timoshenko beam.
+            slopes = mp.matrix(
+                [
+                    [0, 1, 1 / mp.mpf(s.shear_stiffness), 0],
+                    [0, 0, 0, 1 / mp.mpf(s.bending_stiffness)],
+                    [-s.mass_per_length * omega**2, 0, 0, 0],
+                    [0, -s.rotary_inertia * omega**2, -1, 0],
+                ]
+            )
+            state = mp.expm(slopes * s.length) * state
+        inertia = mp.matrix([[-body.mass * omega**2, 0, 1, 0], [0, -body.rotary_inertia * omega**2, 0, 1]])
+        return mp.det(inertia * state)
+
+    with mp.workdps(50):
+        exact = [float(mp.findroot(closing, (mp.mpf(x), mp.mpf(x) * (1 + mp.mpf("1e-7"))))) for x in near]
+    return np.array(exact), "reference: transfer matrices in 50-digit arithmetic"
+
+
+def _krylov_functions(frame: CraneFrame, position: float, near: Floats) -> Floats | None:
+    """Frequencies of a crane of two uniform Euler beams in 50-digit arithmetic; None without mpmath."""
+    try:
+        import mpmath as mp
+    except ImportError:
+        return None
+    assert frame.jib is not None, "the benchmark's crane has one"
+    (tower,), (jib,), head = frame.tower.segments, frame.jib.segments, frame.tower.bodies[1]
+    carried = mp.mpf(frame.trolley_mass) + mp.mpf(frame.payload_mass)
+    along = head.mass + mp.mpf(jib.mass_per_length) * jib.length + frame.trolley_mass
+    swing2 = mp.mpf(frame.gravity) / frame.rope_length
+
+    def span(segment: Segment, length: Any, omega: Any) -> Any:
+        # (v, theta, V, M) at the far end from that at the near end, by Krylov's functions and their derivatives.
+        stiffness = mp.mpf(segment.bending_stiffness)
+        k = mp.sqrt(omega * mp.sqrt(segment.mass_per_length / stiffness))
+        x = k * length
+        even, odd = (mp.cosh(x) + mp.cos(x)) / 2, (mp.sinh(x) + mp.sin(x)) / 2
+        even2, odd2 = (mp.cosh(x) - mp.cos(x)) / 2, (mp.sinh(x) - mp.sin(x)) / 2
+        units = (1, 1 / k, -1 / (stiffness * k**3), 1 / (stiffness * k**2))
+        waves = (
+            (even, odd, odd2, even2),
+            (odd2, even, even2, odd),
+            (odd, even2, even, odd2),
+            (even2, odd2, odd, even),
+        )
+        return mp.matrix([[waves[i][j] * units[j] / units[i] for j in range(4)] for i in range(4)])
+
+    def closing(omega: Any) -> Any:
+        top = span(tower, mp.mpf(tower.length), omega)[:, 2:]
+        trolley = mp.eye(4)
+        trolley[2, 0] = -carried * omega**2
+        inner, outer = (span(jib, x, omega) for x in (mp.mpf(position), mp.mpf(jib.length) - position))
+        end = outer * trolley * inner
+        rows = mp.zeros(4, 4)
+        for j in range(2):
+            # Head, jib and trolley move outward, the load as far as its pendulum follows.
+            rows[0, j] = (top[2, j] - omega**2 * along * top[0, j]) * (swing2 - omega**2)
+            rows[0, j] -= omega**2 * frame.payload_mass * swing2 * top[0, j]
+            rows[1, j] = top[3, j] - omega**2 * head.rotary_inertia * top[1, j]
+            rows[2, j], rows[3, j] = -end[2, 1] * top[1, j], -end[3, 1] * top[1, j]
+            rows[2, 2 + j], rows[3, 2 + j] = end[2, 2 + j], end[3, 2 + j]
+        rows[1, 3] = 1
+        return mp.det(rows)
+
+    with mp.workdps(50):
+        exact = [float(mp.findroot(closing, (mp.mpf(x), mp.mpf(x) * (1 + mp.mpf("1e-9"))))) for x in near]
+    return np.array(exact)
