@@ -1,4 +1,4 @@
-"""Natural frequencies and mode shapes of beams, lattice columns and plane frames."""
+"""Natural frequencies and mode shapes of beams, shafts, lattice columns and plane frames."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         finite_element_frequencies,
         finite_element_structure_frequencies,
     )
+    from modal.torsion import Shaft, TorsionModes, torsion_modes
     from modal.truss import ColumnTruss, Mechanism
 
 __all__ = [
@@ -36,8 +37,10 @@ __all__ = [
     "Modes",
     "Pendulum",
     "Segment",
+    "Shaft",
     "Structure",
     "StructureElements",
+    "TorsionModes",
     "Unstable",
     "cantilever_modes",
     "chain_frequencies",
@@ -47,6 +50,7 @@ __all__ = [
     "crane_structure",
     "finite_element_frequencies",
     "finite_element_structure_frequencies",
+    "torsion_modes",
 ]
 
 _HOME = {
@@ -74,6 +78,9 @@ _HOME = {
     "crane_structure": "crane_frame",
     "finite_element_frequencies": "structure_elements",
     "finite_element_structure_frequencies": "structure_elements",
+    "Shaft": "torsion",
+    "TorsionModes": "torsion",
+    "torsion_modes": "torsion",
 }
 
 

@@ -100,6 +100,18 @@ class ChainModes:
             first = first + body.mass * (self.chain.nodes[node] + body.offset) * motion
         return zeroth, first
 
+    def rotary_moments(self) -> Floats:
+        """Moment of momentum of the sections' and bodies' own rotary inertia [kg^1/2 m], shape (n,)."""
+        along: Floats = np.tensordot(
+            self.shapes.at_points(ROTATION), self.shapes.rotary_inertia * self.shapes.weights, 2
+        )
+        return along + sum(body.rotary_inertia * turn for body, _, turn in self._of_bodies())
+
+    def deflection_integrals(self) -> Floats:
+        """Integrals ``int phi dx`` [m kg^-1/2], shape (n,)."""
+        integrals: Floats = np.tensordot(self.shapes.at_points(DEFLECTION), self.shapes.weights, 2)
+        return integrals
+
     def stiffness_matrix(self) -> Floats:
         """Stiffness of segments and foundation [1/s^2], shape (n, n)."""
         total = self.shapes.strain_matrix()

@@ -108,6 +108,14 @@ class Modes:
         first = self.beam.mass * self.beam.length * shape_integrals(self.roots, self.coefficients, "from_root")
         return zeroth, first
 
+    def rotary_moments(self) -> NDArray[np.float64]:
+        """Moment of momentum of the sections' own rotary inertia [kg^1/2 m], shape (n,): none here."""
+        return np.zeros(self.count)
+
+    def deflection_integrals(self) -> NDArray[np.float64]:
+        """Integrals ``int phi dx`` [m kg^-1/2], shape (n,)."""
+        return self.beam.length * shape_integrals(self.roots, self.coefficients)
+
     def slope_matrix(self) -> NDArray[np.float64]:
         """Products of slopes, ``int phi_i' phi_j' dx`` [1/(kg m)], shape (n, n).
 

@@ -22,11 +22,10 @@ from numba import types
 from modal.compiled import kernel
 
 (LENGTH, MASS, BENDING, SHEAR_FLEXIBILITY, ROTARY, RATIO, MASS_POWER, BENDING_POWER, SHEAR_POWER,
- COMPRESSION, WEIGHT, ENGESSER) = range(12)  # fmt: skip
+ COMPRESSION, WEIGHT, ENGESSER, SHORT) = range(13)  # fmt: skip
 """Properties of a segment, those of the section at its near end. COMPRESSION is that at the near end, of which WEIGHT
-times the mass passed is taken away along the segment; both are multiplied by the load factor."""
-
-PROPERTIES = 12
+times the mass passed is taken away along the segment; both are multiplied by the load factor. SHORT says that the far
+end's unknowns are its departure from where the near end would move it if the segment were rigid."""
 
 TERMS = 22
 """Terms of the Taylor series: with the pieces cut as below, what is left out is rounding, 1e-16 of a stiffness."""
@@ -37,11 +36,12 @@ REACH = 3.0
 JOINT_REACH = 3.6
 """The same for the wave number that all effects give together, on which the series' convergence hangs [rad^2]."""
 
-TAPER = 0.15
-"""Largest change of breadth over one piece, relative."""
+TAPER = 0.1
+"""Change of breadth over one piece, relative; up to one and a half times as much in the last of a segment."""
 
-LEAST_SHEAR = 1e-6
-"""Part of the shear stiffness that compression must leave (Engesser); with less a segment counts as unstable."""
+LEAST_SHEAR = 1e-4
+"""Part of the shear stiffness that compression must leave (Engesser); with less a segment counts as unstable: the
+number of pieces grows without bound towards none."""
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 
@@ -81,7 +81,6 @@ def pieces_within(segment: Any, near: float, far: float, omega2: float, load: fl
     if segment[ENGESSER] != 0.0:
         if least < LEAST_SHEAR:
             return 0
-        force /= least
         flexibility /= least
         # 1 / (1 - P/S) must vary little along a piece as well.
         change = abs(load) * segment[WEIGHT] * mass * (far - near) * segment[SHEAR_FLEXIBILITY]
@@ -100,12 +99,15 @@ def pieces_within(segment: Any, near: float, far: float, omega2: float, load: fl
 
 @kernel(types.float64(_one, types.float64))
 def cell_end(segment: Any, near: float) -> float:
-    """Far end of the cell that starts at a distance: breadth changes by no more than `TAPER` in it."""
+    """Far end of the cell that starts at a distance: breadth changes by about `TAPER` in it.
+
+    What is left of a segment is never a sliver, whose stiffness would drown all else in rounding errors.
+    """
     slope = (segment[RATIO] - 1.0) / segment[LENGTH]
     if slope == 0.0:
         return float(segment[LENGTH])
     far = near + TAPER * (1.0 + slope * near) / abs(slope)
-    return float(segment[LENGTH] if far > segment[LENGTH] * (1.0 - 1e-3 * TAPER) else far)
+    return float(segment[LENGTH] if far + 0.5 * (far - near) > segment[LENGTH] else far)
 
 
 @kernel()
@@ -204,34 +206,51 @@ def state_series(series: Any, terms: int, state: Any) -> None:
 
 
 @kernel(types.void(_one, types.float64, types.float64, types.float64, types.float64, _two, _two, _two, _two))
-def piece_stiffness(
+def relative_stiffness(
     segment: Any, start: float, length: float, omega2: float, load: float, series: Any, state: Any, T: Any, out: Any
 ) -> None:
-    """Dynamic stiffness (4, 4) of one piece, for (v, theta) at its near and its far end, into ``out``.
+    """Dynamic stiffness (4, 4) of one piece for (v, theta) at its near end and the far end's departure from it.
+
+    The far end departs from where it would be if the piece were rigid. Bending then works on the departure alone, and
+    the large stiffness of a short piece takes no digits from the motion of the whole.
 
     ``series`` (8, TERMS), ``state`` (TERMS + 1, 5) and ``T`` (4, 4) are scratch.
     """
     terms = coefficients(segment, start, length, omega2, load, series)
+    # Columns: what a unit of v, theta, V, M at the near end gives at the far end beyond rigid motion and equilibrium.
     for column in range(4):
         for i in range(4):
             state[0, i] = 1.0 if i == column else 0.0
         state_series(series, terms, state)
+        if column == 1:
+            state[1, 0] -= 1.0
+        if column == 2:
+            state[1, 3] += 1.0
         for i in range(4):
             total = 0.0
-            for k in range(TERMS, -1, -1):
+            for k in range(TERMS, 0, -1):
                 total += state[k, i]
             T[i, column] = total
-    # Deflections at the far end are T11 d + T12 p, forces T21 d + T22 p; forces on the near end count negative.
+    # Departure d' = E d + F p, far forces p' = G d + (R^-T + H) p with the near motion d and the near forces p; R
+    # moves the far end rigidly. F is the block above right, inverted here.
     determinant = T[0, 2] * T[1, 3] - T[0, 3] * T[1, 2]
     i00, i01 = T[1, 3] / determinant, -T[0, 3] / determinant
     i10, i11 = -T[1, 2] / determinant, T[0, 2] / determinant
-    out[0, 0] = i00 * T[0, 0] + i01 * T[1, 0]
-    out[0, 1] = i00 * T[0, 1] + i01 * T[1, 1]
-    out[1, 1] = i10 * T[0, 1] + i11 * T[1, 1]
-    out[0, 2], out[0, 3], out[1, 2], out[1, 3] = -i00, -i01, -i10, -i11
-    out[2, 2] = T[2, 2] * i00 + T[2, 3] * i10
-    out[2, 3] = T[2, 2] * i01 + T[2, 3] * i11
-    out[3, 3] = T[3, 2] * i01 + T[3, 3] * i11
+    # R^T H and R^T G, R = [[1, 1], [0, 1]] in lengths of the piece.
+    h00, h01 = T[2, 2], T[2, 3]
+    h10, h11 = T[2, 2] + T[3, 2], T[2, 3] + T[3, 3]
+    g00, g01 = T[2, 0], T[2, 1]
+    g11 = T[2, 1] + T[3, 1]
+    # Near, with departure: R^T H F^-1.
+    out[0, 2], out[0, 3] = h00 * i00 + h01 * i10, h00 * i01 + h01 * i11
+    out[1, 2], out[1, 3] = h10 * i00 + h11 * i10, h10 * i01 + h11 * i11
+    out[0, 0] = g00 - out[0, 2] * T[0, 0] - out[0, 3] * T[1, 0]
+    out[0, 1] = g01 - out[0, 2] * T[0, 1] - out[0, 3] * T[1, 1]
+    out[1, 1] = g11 - out[1, 2] * T[0, 1] - out[1, 3] * T[1, 1]
+    # Departure: (R^-T + H) F^-1, R^-T = [[1, 0], [-1, 1]].
+    out[2, 2] = (1.0 + T[2, 2]) * i00 + T[2, 3] * i10
+    out[2, 3] = (1.0 + T[2, 2]) * i01 + T[2, 3] * i11
+    out[3, 3] = (T[3, 2] - 1.0) * i01 + (1.0 + T[3, 3]) * i11
     slope = (segment[RATIO] - 1.0) / segment[LENGTH]
     bending = segment[BENDING] * (1.0 + slope * start) ** segment[BENDING_POWER]
     unit = bending / length**3
@@ -244,6 +263,32 @@ def piece_stiffness(
                 value *= length
             out[i, j] = value
             out[j, i] = value
+
+
+@kernel(types.void(_two, types.float64))
+def make_absolute(matrix: Any, length: float) -> None:
+    """Turn a relative stiffness (4, 4) into that for (v, theta) at both ends, in place."""
+    a, b, c = matrix[2, 2], matrix[2, 3], matrix[3, 3]
+    # R^T C, then near with far B - R^T C, then near A - B R - R^T B^T + R^T C R.
+    rows = (a, b, length * a + b, length * b + c)
+    b00, b01, b10, b11 = matrix[0, 2], matrix[0, 3], matrix[1, 2], matrix[1, 3]
+    matrix[0, 0] += rows[0] - 2.0 * b00
+    matrix[0, 1] += rows[0] * length + rows[1] - b00 * length - b01 - b10
+    matrix[1, 1] += rows[2] * length + rows[3] - 2.0 * (b10 * length + b11)
+    matrix[0, 2], matrix[0, 3] = b00 - rows[0], b01 - rows[1]
+    matrix[1, 2], matrix[1, 3] = b10 - rows[2], b11 - rows[3]
+    for i in range(4):
+        for j in range(i):
+            matrix[i, j] = matrix[j, i]
+
+
+@kernel(types.void(_one, types.float64, types.float64, types.float64, types.float64, _two, _two, _two, _two))
+def piece_stiffness(
+    segment: Any, start: float, length: float, omega2: float, load: float, series: Any, state: Any, T: Any, out: Any
+) -> None:
+    """Dynamic stiffness (4, 4) of one piece for (v, theta) at both its ends; arguments of `relative_stiffness`."""
+    relative_stiffness(segment, start, length, omega2, load, series, state, T, out)
+    make_absolute(out, length)
 
 
 @kernel(types.int64(_two, _two, _two))

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from math import inf, isinf, sqrt
+from math import isinf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,9 +16,6 @@ if TYPE_CHECKING:
     from modal.segment import Segment
 
     Floats = NDArray[np.float64]
-
-LONGEST = 5
-"""Pieces, see `modal.stiffness`, that a member may have without a node of its own; each is some 1.7 rad of wave."""
 
 HELD = -1
 """Unknown of an end that does not move."""
@@ -58,6 +54,25 @@ class Member:
     part: str = "tower"
     position: float = 0.0
 
+    def split(self, distance: float, first: int) -> tuple[Member, Member]:
+        """The same member as two, cut at a distance from its near end [m], on the unknowns ``first`` and the next."""
+        near, far = self.segment.split(distance)
+        lower = replace(
+            self,
+            segment=near,
+            unknowns=(self.unknowns[0], self.unknowns[1], first, first + 1),
+            factors=(self.factors[0], self.factors[1], 1.0, 1.0),
+        )
+        upper = replace(
+            self,
+            segment=far,
+            unknowns=(first, first + 1, self.unknowns[2], self.unknowns[3]),
+            factors=(1.0, 1.0, self.factors[2], self.factors[3]),
+            compression=self.compression - self.gravity * near.mass,
+            position=self.position + near.length,
+        )
+        return lower, upper
+
     def cut(self, parts: int, first: int, spread: float = 0.0) -> list[Member]:
         """The same member as several, on new unknowns from ``first`` on.
 
@@ -66,24 +81,8 @@ class Member:
         members, rest = [], self
         lengths = self.segment.length / parts * (1.0 + spread * (-1.0) ** np.arange(1, parts + 1))
         for i in range(parts - 1):
-            near, far = rest.segment.split(float(lengths[i]))
-            node = (first + 2 * i, first + 2 * i + 1)
-            members.append(
-                replace(
-                    rest,
-                    segment=near,
-                    unknowns=(rest.unknowns[0], rest.unknowns[1], *node),
-                    factors=(rest.factors[0], rest.factors[1], 1.0, 1.0),
-                )
-            )
-            rest = replace(
-                rest,
-                segment=far,
-                unknowns=(*node, rest.unknowns[2], rest.unknowns[3]),
-                factors=(1.0, 1.0, rest.factors[2], rest.factors[3]),
-                compression=rest.compression - rest.gravity * near.mass,
-                position=rest.position + near.length,
-            )
+            near, rest = rest.split(float(lengths[i]), first + 2 * i)
+            members.append(near)
         return [*members, rest]
 
 
@@ -165,59 +164,19 @@ class Structure:
             self.springs[i, j] += sign * stiffness
         self.bodies[load, load] += mass
 
-    @cached_property
-    def units(self) -> tuple[float, float, float]:
-        """Length [m], force [N] and circular frequency [rad/s] that numbers are counted in."""
-        segments = [member.segment for member in self.members]
-        length = max(segment.length for segment in segments)
-        bending = max(segment.bending_stiffness for segment in segments)
-        mass = max(segment.mass_per_length for segment in segments)
-        return length, bending / length**2, sqrt(bending / mass) / length**2
-
-    @cached_property
-    def arrays(self) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
-        """The structure as `modal.structure_kernel` takes it, in the units of `units`."""
-        length, force, frequency = self.units
-        mass = force / (length * frequency**2)
-        rows = []
-        for member in self.members:
-            s = member.segment
-            flexibility = 0.0 if isinf(s.shear_stiffness) else force / s.shear_stiffness
-            rows.append(
-                [
-                    s.length / length, s.mass_per_length * length / mass, s.bending_stiffness / (force * length**2),
-                    flexibility, s.rotary_inertia / (mass * length), s.end_ratio,
-                    s.mass_power, s.bending_power, s.shear_power,
-                    member.compression / force, member.gravity * mass / force, float(self.shear_theory == "engesser"),
-                ]
-            )  # fmt: skip
-        # A rotation counts as it is, a deflection in units of length.
-        size = np.array([length if unit == "m" else 1.0 for unit in self.unknowns])
-        product = np.outer(size, size)
-        energy = force * length
-        points = np.array([self.springs, self.geometric, self.bodies * frequency**2]) * product / energy
-        unknowns = np.array([member.unknowns for member in self.members], dtype=np.int64).reshape(-1, 4)
-        factors = np.array([member.factors for member in self.members]).reshape(-1, 4)
-        return np.array(rows), unknowns, factors, np.ascontiguousarray(points)
-
     def count_below(self, angular_frequency: float) -> int:
         """Number of natural frequencies below one [rad/s], each with its multiplicity."""
-        return self._count((angular_frequency / self.units[2]) ** 2, 1.0)
+        from modal.assembly import assembly
 
-    def _count(self, omega2: float, load: float) -> int:
-        from modal.structure_kernel import dynamic_stiffness
-
-        n = len(self.unknowns)
-        static, matrix = np.zeros((n, n)), np.zeros((n, n))
-        dynamic_stiffness(0.0, 0.0, *self.arrays, static)
-        inside = dynamic_stiffness(omega2, load, *self.arrays, matrix)
-        _, geometric, bodies = self.arrays[-1]
-        # Heavy bodies are scaled down, or their rounding errors would drown light ones.
-        scale = 1.0 / np.sqrt(np.diag(static) + load * np.abs(np.diag(geometric)) + omega2 * np.diag(bodies))
-        return int(inside) + int((np.linalg.eigvalsh(matrix * np.outer(scale, scale)) < 0.0).sum())
+        return assembly(self, angular_frequency).count(angular_frequency)
 
     def angular_frequencies(self, count: int) -> Floats:
         """Lowest natural angular frequencies [rad/s], ascending, each as often as it is one; shape (count,).
+
+        Against 60-digit arithmetic the relative error is 1e-15 as a rule. A frequency at a relative distance d from a
+        fixed-end one of some part of a member loses more, about 1e-16 / d: the worst of 60 modes of a cantilever has
+        5e-11. So does the slow mode of a structure on springs that are softer than its beams by a factor d, or on a
+        body whose ``mass offset^2`` is 1/d times all other inertia.
 
         Raises
         ------
@@ -226,47 +185,50 @@ class Structure:
         Unstable
             If the structure buckles under its weights and loads.
         """
-        from modal.structure_kernel import find_roots
+        from modal.assembly import assembly
 
         if count < 0:
             raise ValueError(f"count: wanted zero or more, got {count!r}")
-        if self._count(0.0, 1.0) > 0:
+        ready = assembly(self, 0.0)
+        if ready.count(0.0) > 0:
             raise Unstable(f"the structure carries only {self.buckling_factor():.4g} times its weights and loads")
-        highest = 1.0
-        while self._count(highest**2, 1.0) < count:
+        highest = ready.units[2]
+        while ready.count(highest) < count:
             highest *= 2.0
-        roots = np.zeros(count)
-        find_roots(*self.refined(highest * self.units[2]).arrays, False, 1.0, inf, roots)
-        return roots * self.units[2]
-
-    def refined(self, angular_frequency: float) -> Structure:
-        """The same structure with nodes inside members that are long for the waves at a frequency [rad/s].
-
-        Between its ends a long member has fixed-end frequencies exponentially close to natural ones of the structure,
-        and its condensed stiffness no longer tells one from the other: e^x digits are lost, x the length in waves.
-        """
-        from modal.structure_kernel import piece_ends
-
-        fine = Structure(self.unknowns, shear_theory=self.shear_theory)
-        omega2, none = (angular_frequency / self.units[2]) ** 2, np.empty(1)
-        for member, row in zip(self.members, self.arrays[0], strict=True):
-            parts = -(-piece_ends(row, omega2, 1.0, none) // LONGEST)
-            # Equal ones would all have the same fixed-end frequencies.
-            fine.members += member.cut(parts, len(fine.unknowns), spread=0.1)
-            fine.unknowns += ("m", "rad") * (parts - 1)
-        extra = len(fine.unknowns) - len(self.unknowns)
-        for name in ("springs", "geometric", "bodies"):
-            setattr(fine, name, np.pad(getattr(self, name), (0, extra)))
-        # The same units, so that roots can be compared.
-        fine.__dict__["units"] = self.units
-        return fine
+            ready = assembly(self, highest)
+        return ready.angular_frequencies(count)
 
     def buckling_factor(self) -> float:
         """Factor on all weights and axial loads at which the structure buckles [1]; ``inf``: it never does."""
-        from modal.structure_kernel import find_roots
+        from modal.assembly import assembly
 
-        roots = np.zeros(1)
-        return float(roots[0]) if find_roots(*self.arrays, True, 1.0, 1e9, roots) else inf
+        return assembly(self, 0.0).buckling_factor()
+
+    def stiffness(self) -> Floats:
+        """Static stiffness on the unknowns under all weights and loads [N/m, N, N m], shape (n, n)."""
+        from modal.assembly import assembly
+
+        return assembly(self, 0.0).stiffness(len(self.unknowns))
+
+    def displacements(self, forces: Floats) -> Floats:
+        """Static displacements of the unknowns [m, rad] under forces and moments on them [N, N m].
+
+        Parameters
+        ----------
+        forces : ndarray, shape (n,) or (n, k)
+            One load case, or k in columns.
+
+        Raises
+        ------
+        Unstable
+            If the structure buckles under its weights and loads.
+        """
+        from modal.assembly import assembly
+
+        ready = assembly(self, 0.0)
+        if ready.count(0.0) > 0:
+            raise Unstable(f"the structure carries only {self.buckling_factor():.4g} times its weights and loads")
+        return ready.displacements(forces)
 
 
 def chain_structure(chain: Chain) -> Structure:

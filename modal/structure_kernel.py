@@ -1,9 +1,9 @@
 """Compiled assembly of segments and bodies into a dynamic stiffness, the count of its modes and their search.
 
-Kernels take a structure as four arrays: ``segments`` (s, 12), properties of `modal.stiffness`; ``unknowns`` (s, 4),
-which of the n unknowns are (v, theta) of a segment's near and far end, -1 where they are held; ``factors`` (s, 4), by
-which to multiply them; ``points`` (3, n, n), stiffness of springs, geometric stiffness of bodies under unit load (to
-be taken away), mass of bodies. A circular frequency and a load factor say which dynamic stiffness is meant.
+Kernels take a structure as three arrays: ``segments`` (s, 13), properties of `modal.stiffness`; ``motions``
+(s, 4, n), how (v, theta) of a segment's near and far end follow the n unknowns; ``points`` (3, n, n), stiffness of
+springs, geometric stiffness of bodies under unit load (to be taken away), mass of bodies. A circular frequency and a
+load factor say which dynamic stiffness is meant.
 """
 
 from __future__ import annotations
@@ -19,13 +19,16 @@ from modal.stiffness import (
     BENDING_POWER,
     LENGTH,
     RATIO,
+    SHORT,
     TERMS,
     WEIGHT,
     cell_end,
     coefficients,
     join,
+    make_absolute,
     piece_stiffness,
     pieces_within,
+    relative_stiffness,
     state_series,
 )
 
@@ -36,25 +39,29 @@ SPRINGS, GEOMETRIC, BODIES = range(3)
 """Entries of ``points``."""
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
-_whole = types.int64[:, ::1]
-_structure = (_two, _whole, _two, _three)
+_structure = (_two, _three, _three)
 
 
 @kernel()
 def _segment_stiffness(
     segment: Any, omega2: float, load: float, series: Any, state: Any, T: Any, piece: Any, recovery: Any, total: Any
 ) -> int:
-    """Dynamic stiffness (4, 4) of a whole segment into ``total``; its count of fixed-end modes."""
+    """Dynamic stiffness (4, 4) of a whole segment into ``total``; its count of fixed-end modes.
+
+    A short segment is one piece, whatever the frequency: the caller sees to that.
+    """
     count, first, near = 0, True, 0.0
     uniform = segment[RATIO] == 1.0 and load * segment[WEIGHT] == 0.0
     while near < segment[LENGTH]:
         far = cell_end(segment, near)
-        pieces = pieces_within(segment, near, far, omega2, load)
+        pieces = 1 if segment[SHORT] != 0.0 else pieces_within(segment, near, far, omega2, load)
         if pieces == 0:
             return UNSTABLE
         length = (far - near) / pieces
         for i in range(pieces):
-            if i == 0 or not uniform:
+            if segment[SHORT] != 0.0:
+                relative_stiffness(segment, near, length, omega2, load, series, state, T, piece)
+            elif i == 0 or not uniform:
                 piece_stiffness(segment, near + i * length, length, omega2, load, series, state, T, piece)
             if first:
                 for row in range(4):
@@ -68,9 +75,7 @@ def _segment_stiffness(
 
 
 @kernel(types.int64(types.float64, types.float64, *_structure, _two))
-def dynamic_stiffness(
-    omega2: float, load: float, segments: Any, unknowns: Any, factors: Any, points: Any, out: Any
-) -> int:
+def dynamic_stiffness(omega2: float, load: float, segments: Any, motions: Any, points: Any, out: Any) -> int:
     """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments."""
     series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
     piece, recovery, total = np.zeros((4, 4)), np.zeros((2, 4)), np.zeros((4, 4))
@@ -85,10 +90,13 @@ def dynamic_stiffness(
             return UNSTABLE
         count += inside
         for a in range(4):
-            for b in range(4):
-                i, j = unknowns[s, a], unknowns[s, b]
-                if i >= 0 and j >= 0:
-                    out[i, j] += factors[s, a] * factors[s, b] * total[a, b]
+            for j in range(n):
+                force = 0.0
+                for b in range(4):
+                    force += total[a, b] * motions[s, b, j]
+                if force != 0.0:
+                    for i in range(n):
+                        out[i, j] += motions[s, a, i] * force
     return count
 
 
@@ -136,7 +144,7 @@ def _between(near: float, f_near: float, far: float, f_far: float, third: float,
 
 @kernel(types.boolean(*_structure, types.boolean, types.float64, types.float64, _one))
 def find_roots(
-    segments: Any, unknowns: Any, factors: Any, points: Any, by_load: bool, guess: float, limit: float, roots: Any
+    segments: Any, motions: Any, points: Any, by_load: bool, guess: float, limit: float, roots: Any
 ) -> bool:
     """Lowest circular frequencies, or critical load factors, ascending and with their multiplicity, into ``roots``.
 
@@ -146,7 +154,7 @@ def find_roots(
     """
     n = points.shape[1]
     matrix, values, static, scale = np.zeros((n, n)), np.zeros(n), np.zeros(n), np.zeros(n)
-    dynamic_stiffness(0.0, 0.0, segments, unknowns, factors, points, matrix)
+    dynamic_stiffness(0.0, 0.0, segments, motions, points, matrix)
     for i in range(n):
         static[i] = matrix[i, i]
     low, high = np.zeros(roots.size), np.zeros(roots.size)
@@ -160,7 +168,7 @@ def find_roots(
         third, f_third = far, f_far
         for _ in range(400):
             omega2, load = (0.0, x) if by_load else (x * x, 1.0)
-            inside = dynamic_stiffness(omega2, load, segments, unknowns, factors, points, matrix)
+            inside = dynamic_stiffness(omega2, load, segments, motions, points, matrix)
             count = inside
             if inside != UNSTABLE:
                 # Every unknown is scaled by what springs, segments at rest and bodies put on it, so that no heavy
@@ -222,26 +230,31 @@ def segment_shape(segment: Any, ends: Any, omega2: float, load: float, held: Any
 
     Parameters
     ----------
-    segment : ndarray, shape (12,)
+    segment : ndarray, shape (13,)
     ends : ndarray, shape (p + 1,)
         Ends of the pieces.
     held : ndarray, shape (4,)
-        (v, theta) at the near and the far end.
+        (v, theta) at the near and the far end; of a short segment the far end's departure.
     out : ndarray, shape (p, TERMS + 1, 5)
         Coefficients in the fraction of the piece's length.
     """
     pieces = ends.size - 1
     series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
-    total, recovery = np.zeros((4, 4)), np.zeros((pieces, 2, 4))
-    stiffness, nodes = np.zeros((pieces, 4, 4)), np.zeros((pieces + 1, 2))
+    total, piece, recovery = np.zeros((4, 4)), np.zeros((4, 4)), np.zeros((pieces, 2, 4))
+    relative, nodes, departure = np.zeros((pieces, 4, 4)), np.zeros((pieces + 1, 2)), np.zeros(2)
     for p in range(pieces):
-        piece_stiffness(segment, ends[p], ends[p + 1] - ends[p], omega2, load, series, state, T, stiffness[p])
+        length = ends[p + 1] - ends[p]
+        relative_stiffness(segment, ends[p], length, omega2, load, series, state, T, relative[p])
+        for i in range(4):
+            for j in range(4):
+                piece[i, j] = relative[p, i, j]
+        make_absolute(piece, length)
         if p == 0:
             for i in range(4):
                 for j in range(4):
-                    total[i, j] = stiffness[0, i, j]
+                    total[i, j] = piece[i, j]
         else:
-            join(total, stiffness[p], recovery[p])
+            join(total, piece, recovery[p])
     nodes[0, 0], nodes[0, 1], nodes[pieces, 0], nodes[pieces, 1] = held[0], held[1], held[2], held[3]
     for p in range(pieces - 1, 0, -1):
         for i in range(2):
@@ -256,10 +269,20 @@ def segment_shape(segment: Any, ends: Any, omega2: float, load: float, held: Any
         terms = coefficients(segment, ends[p], length, omega2, load, series)
         breadth = 1.0 + (segment[RATIO] - 1.0) * ends[p] / segment[LENGTH]
         bending = segment[BENDING] * breadth ** segment[BENDING_POWER]
-        force, moment = 0.0, 0.0
+        departure[0], departure[1] = nodes[p + 1, 0], nodes[p + 1, 1]
+        if segment[SHORT] == 0.0:
+            departure[0] -= nodes[p, 0] + length * nodes[p, 1]
+            departure[1] -= nodes[p, 1]
+        # Force on the far end, then on the near end with the far one held, with which the state begins, negative.
+        K = relative[p]
+        far_force, far_moment, force, moment = 0.0, 0.0, 0.0, 0.0
         for j in range(2):
-            force -= stiffness[p, 0, j] * nodes[p, j] + stiffness[p, 0, 2 + j] * nodes[p + 1, j]
-            moment -= stiffness[p, 1, j] * nodes[p, j] + stiffness[p, 1, 2 + j] * nodes[p + 1, j]
+            far_force += K[2, j] * nodes[p, j] + K[2, 2 + j] * departure[j]
+            far_moment += K[3, j] * nodes[p, j] + K[3, 2 + j] * departure[j]
+            force -= K[0, j] * nodes[p, j] + K[0, 2 + j] * departure[j]
+            moment -= K[1, j] * nodes[p, j] + K[1, 2 + j] * departure[j]
+        force += far_force
+        moment += length * far_force + far_moment
         units = (length, 1.0, bending / length**2, bending / length, 1.0)
         state[0, 0], state[0, 1] = nodes[p, 0] / length, nodes[p, 1]
         state[0, 2], state[0, 3] = force / units[2], moment / units[3]

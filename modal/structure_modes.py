@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.structure import HELD
-
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from modal.assembly import Assembly
     from modal.structure import Member, Structure
 
     Floats = NDArray[np.float64]
@@ -184,13 +183,15 @@ def structure_modes(structure: Structure, count: int) -> StructureModes:
     """
     if count < 1:
         raise ValueError(f"count: wanted one or more, got {count!r}")
+    from modal.assembly import assembly
+
     omega = structure.angular_frequencies(count)
-    fine = structure.refined(float(omega[-1]))
-    vectors = _null_vectors(fine, omega / structure.units[2])
-    names = dict.fromkeys(member.part for member in fine.members)
-    parts = {name: _part_shapes(fine, name, vectors, omega) for name in names}
-    size = _sizes(fine)
-    modes = StructureModes(structure, omega, (vectors * size)[:, : len(structure.unknowns)], parts)
+    ready = assembly(structure, float(omega[-1]))
+    vectors = ready.null_vectors(omega, _DOUBLE)
+    names = dict.fromkeys(member.part for member in structure.members)
+    parts = {name: _part_shapes(ready, name, vectors, omega) for name in names}
+    motion = vectors @ ready.composition.T[:, : len(structure.unknowns)]
+    modes = StructureModes(structure, omega, motion, parts)
     mix = _orthonormal(modes)
     first = structure.members[0].part
     end = max((m for m in structure.members if m.part == first), key=lambda m: m.position).unknowns
@@ -207,29 +208,6 @@ def structure_modes(structure: Structure, count: int) -> StructureModes:
     return StructureModes(structure, omega, mix @ modes.vectors, mixed)
 
 
-def _sizes(structure: Structure) -> Floats:
-    """Unknowns in SI per unknown as the kernels count them."""
-    return np.array([structure.units[0] if unit == "m" else 1.0 for unit in structure.unknowns])
-
-
-def _null_vectors(structure: Structure, roots: Floats) -> Floats:
-    """Motion of the unknowns at every root, in the kernels' units; of equal roots independent ones."""
-    from modal.structure_kernel import dynamic_stiffness
-
-    arrays = structure.arrays
-    n = len(structure.unknowns)
-    matrix = np.zeros((n, n))
-    dynamic_stiffness(0.0, 0.0, *arrays, matrix)
-    scale = 1.0 / np.sqrt(np.diag(matrix))
-    vectors = np.zeros((roots.size, n))
-    for k, root in enumerate(roots):
-        dynamic_stiffness(root**2, 1.0, *arrays, matrix)
-        values, found = np.linalg.eigh(matrix * np.outer(scale, scale))
-        before = int((np.abs(roots[:k] - root) <= _DOUBLE * root).sum())
-        vectors[k] = scale * found[:, np.argsort(np.abs(values))[before]]
-    return vectors
-
-
 def _orthonormal(modes: StructureModes) -> Floats:
     """What makes the shapes orthonormal: a scale for each, a mixture of those of equal frequency; shape (n, n)."""
     mass, omega = modes.mass_matrix(), modes.angular_frequencies
@@ -242,15 +220,15 @@ def _orthonormal(modes: StructureModes) -> Floats:
     return mix
 
 
-def _part_shapes(structure: Structure, part: str, vectors: Floats, omega: Floats) -> PartShapes:
+def _part_shapes(ready: Assembly, part: str, vectors: Floats, omega: Floats) -> PartShapes:
     """Shapes along one part from the motion of its nodes."""
     from modal.structure_kernel import piece_ends, segment_shape
 
-    length, force, frequency = structure.units
+    length, force, frequency = ready.units
     squares = (omega / frequency) ** 2
     along, shapes = [np.zeros(1)], []
     properties: list[list[Floats]] = [[], [], [], []]
-    for member, row in zip(structure.members, structure.arrays[0], strict=True):
+    for member, row, motion in zip(ready.structure.members, ready.segments, ready.motions, strict=True):
         if member.part != part:
             continue
         # The same pieces for all modes: those of the highest.
@@ -258,8 +236,7 @@ def _part_shapes(structure: Structure, part: str, vectors: Floats, omega: Floats
         piece_ends(row, float(squares[-1]), 1.0, ends)
         shape = np.zeros((omega.size, ends.size - 1, *_coefficient_shape()))
         for k, square in enumerate(squares):
-            held = np.array([vectors[k, i] if i != HELD else 0.0 for i in member.unknowns]) * member.factors
-            segment_shape(row, ends, float(square), 1.0, held, shape[k])
+            segment_shape(row, ends, float(square), 1.0, motion @ vectors[k], shape[k])
         # Deflections come in the unit of length, forces in that of force.
         shapes.append(shape * np.array([length, 1.0, force, force * length, 1.0]))
         along.append(member.position + ends[1:] * length)

@@ -802,10 +802,16 @@ VALUES = st.recursive(
 
 
 @settings(max_examples=200, deadline=None)
-@given(st.sampled_from([*sorted(known_keys()), "x", "crane.x.y", "motion.trolley.start.x"]), VALUES)
-def test_any_value_at_any_key_is_read_or_explained(key, value):
+@given(
+    st.sampled_from(["qtz5613/condition-3", "towers/tapered"]),
+    st.sampled_from([*sorted(known_keys()), "x", "crane.x.y", "motion.trolley.start.x"]),
+    VALUES,
+)
+def test_any_value_at_any_key_is_read_or_explained(name, key, value):
+    for listed in ("segments", "bodies"):
+        key = key.replace(f"tower.{listed}.", f"tower.{listed}.1.")
     try:
-        load_case("qtz5613/condition-3", [f"{key}={value}"])
+        load_case(name, [f"{key}={value}"])
         faults = [Fault("none", "", "none", "none")]
     except CaseError as error:
         faults = error.faults

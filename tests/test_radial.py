@@ -8,13 +8,14 @@ from numpy.testing import assert_allclose
 from qtz5613 import CONDITIONS, CRANE, model, motions, standing
 from scipy.integrate import solve_ivp
 
-from modal import finite_element_structure_frequencies
+from modal import crane_structure, finite_element_structure_frequencies
 from towercrane.cranes.radial import RadialModel
+from towercrane.drift import EnergyDriftWarning
 from towercrane.motion import rest, s_curve, sequence, trapezoid
-from towercrane.natural import plane_frame
 from towercrane.payload import Load
 from towercrane.simulate import simulate
 from towercrane.system import NoEquilibrium
+from towercrane.towers import frame_of
 
 RUN_OPTIONS = ("state", "rtol", "atol", "output_step", "method")
 TIGHT = {"rtol": 1e-11, "atol": 1e-13}
@@ -132,7 +133,8 @@ def test_settings_of_the_source_pump_energy_and_the_default_does_not():
         lowest = 9.81 * -(800 * 18.0) - float(abs(_sag_energy(weightless)))
         return float((energy[-1] - energy[0]) / (energy[0] - lowest))
 
-    assert gain(method="dopri5", rtol=1e-3, atol=1e-6) > 0.15
+    with pytest.warns(EnergyDriftWarning, match="dopri5 at rtol 0.001 gains energy"):
+        assert gain(method="dopri5", rtol=1e-3, atol=1e-6) > 0.15
     assert abs(gain()) < 1e-6
 
 
@@ -319,7 +321,8 @@ def test_slack_rope_of_a_falling_winch():
 
 def test_loose_tolerance_does_not_step_over_a_slack_rope():
     tight = condition(4, 2, 3, state="zero")
-    loose = condition(4, 2, 3, state="zero", rtol=1e-4, atol=1e-6)
+    with pytest.warns(EnergyDriftWarning, match="loses energy"):
+        loose = condition(4, 2, 3, state="zero", rtol=1e-4, atol=1e-6)
     assert loose.attrs["outcome"] == tight.attrs["outcome"] == "slack rope"
     assert_allclose(loose.attrs["end_time"], tight.attrs["end_time"], atol=1e-3)
     assert float(loose.time[-1]) == loose.attrs["end_time"]
@@ -330,7 +333,8 @@ def test_loose_tolerance_does_not_step_over_a_slack_rope():
 
 
 def frame(trolley: float):
-    return finite_element_structure_frequencies(plane_frame(CRANE, trolley, 800.0, 18.0), 3, elements=40)
+    structure = crane_structure(frame_of(CRANE, 800.0, 18.0), trolley)
+    return finite_element_structure_frequencies(structure, 3, elements=40)
 
 
 @pytest.mark.parametrize("trolley", [5.0, 23.0, 41.0, 55.0])

@@ -101,6 +101,11 @@ class Case:
         return self.checked.solver
 
     @property
+    def expect(self) -> schema.Expect | None:
+        """What a run must come to, if the case says so."""
+        return self.checked.expect
+
+    @property
     def modes(self) -> schema_cases.ModesRequest:
         """What to show of the modes of a radial crane; trolley positions default to both ends of its way."""
         modes = self._radial.modes

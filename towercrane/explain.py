@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import UnionType
-from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin
+from typing import TYPE_CHECKING, Any, Literal, Union, get_args, get_origin
 
 from towercrane.faults import Fault, closest, shown
 from towercrane.kinds import known_keys, known_to, of_kinds, plain_key
@@ -127,7 +127,7 @@ def _words(annotation: Any) -> tuple[str, ...]:
     """Words that a field may be, alone or beside None; nothing for a field of another sort."""
     if get_origin(annotation) is Literal:
         return get_args(annotation)
-    if get_origin(annotation) is UnionType:
+    if get_origin(annotation) in (Union, UnionType):
         return tuple(word for part in get_args(annotation) for word in _words(part))
     return ()
 

@@ -298,6 +298,8 @@ def _scipy(
         for index, times in zip(watched, solution.t_events or (), strict=True):
             if len(times):
                 return system.guards[index]
+        if not np.all(np.isfinite(run.state)):
+            return NOT_FINITE  # LSODA calls that a success.
         if not solution.success:
             return COLLAPSED
     return FINISHED

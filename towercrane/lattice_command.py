@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) -> None:
     """The tower's lattice as three beams beside its truss: deflections, frequencies, errors and times."""
     loaded = load(case, changes)
-    if loaded.kind != "radial" or loaded.lattice() is None:
-        fail(
-            f"{case}: wanted a crane with crane.tower.lattice, a uniform tower's members; try: towercrane modes {case}"
-        )
-    announce_compilation("modal.structure_kernel")
+    if loaded.kind != "radial":
+        fail(f"{case}: a crane of kind {loaded.kind!r} has no lattice; try: towercrane linearise {case}")
+    if loaded.lattice() is None:
+        fail(f"{case}: crane.tower.lattice: wanted the members of a uniform tower, got none")
+    announce_compilation(loaded.kind, "modal.structure_kernel")
     try:
         report = lattice_report(loaded)
     except ValueError as error:

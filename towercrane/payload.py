@@ -27,10 +27,11 @@ if TYPE_CHECKING:
 AIR_DENSITY = 1.225
 """Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""
 
-FORCE, VELOCITY, BIAS, ACCELERATION, DIRECTION, HINGE, ALONG, JACOBIAN = range(8)
+FORCE, VELOCITY, BIAS, ACCELERATION, DIRECTION, HINGE, WIND, ALONG, JACOBIAN = range(9)
 """Rows of the scratch array: forces without the load (n), velocity, bias acceleration and acceleration of D (d),
-rope direction (d), hinge force on the load (d), direction seen by the coordinates (n), and from here on
-d rows of the Jacobian of D."""
+rope direction (d), hinge force on the load (d), velocity of the air (d), direction seen by the coordinates (n), and
+from here on d rows of the Jacobian of D. Scratch starts as zeros, so a crane that writes no WIND stands in still air.
+"""
 
 MASS = JACOBIAN + 3
 """First of the n rows of the mass matrix, of which only the lower triangle is used."""
@@ -47,7 +48,7 @@ class Load:
     rope_damping : float
         Damping where the rope hangs, a torque per rate of swing [N m s/rad].
     drag_area : float
-        Drag coefficient times area [m^2], in still air.
+        Drag coefficient times area [m^2].
 
     Raises
     ------
@@ -120,8 +121,8 @@ def hang_load(
     stiffness, loss : float
         Of an elastic rope [N/m, N s/m]; a stiffness of zero means inextensible.
     work : ndarray
-        FORCE, VELOCITY, BIAS, JACOBIAN and MASS filled by the structure; ACCELERATION, DIRECTION and HINGE are
-        left for it.
+        FORCE, VELOCITY, BIAS, JACOBIAN and MASS filled by the structure, WIND where there is any; ACCELERATION,
+        DIRECTION and HINGE are left for it.
 
     Returns
     -------
@@ -158,7 +159,7 @@ def hang_load(
     for k in range(d):
         w = y[sway + k] - along * work[DIRECTION, k]
         ww += w * w
-        v = work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w
+        v = work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w - work[WIND, k]
         speed += v * v
     speed = np.sqrt(speed)
     power = -hinge * ww
@@ -168,8 +169,9 @@ def hang_load(
         power -= loss * y[rates + n] * y[rates + n]
     for k in range(d):
         w = y[sway + k] - along * work[DIRECTION, k]
-        air = -drag * speed * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w)
-        power += air * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w)
+        v = work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w
+        air = -drag * speed * (v - work[WIND, k])
+        power += air * v
         work[HINGE, k] = -hinge / length * w
         if not elastic:
             s += work[DIRECTION, k] * (air - mass * work[BIAS, k])
@@ -197,7 +199,7 @@ def hang_load(
         work[ACCELERATION, k] = a
     for k in range(d):
         w = y[sway + k] - along * work[DIRECTION, k]
-        air = -drag * speed * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w)
+        air = -drag * speed * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w - work[WIND, k])
         b = work[ACCELERATION, k] - (air + work[HINGE, k]) / mass
         if k == d - 1:
             b += gravity

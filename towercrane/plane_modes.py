@@ -253,7 +253,6 @@ class PlaneModes:
     def static(self) -> Floats:
         """Outputs under a static unit force on the trolley [m/N; N m/N], shape (2 loads, 3 outputs)."""
         structure = self.modes.structure
-        stiffness = stiffness_matrix(structure)
         tower = [m for m in structure.members if m.part == "tower"]
         jib = [m for m in structure.members if m.part == "jib"]
         top = tower[-1].unknowns[2]
@@ -264,7 +263,7 @@ class PlaneModes:
             node = min(jib, key=lambda m: abs(m.position + m.segment.length - self.position))
             if node.position + node.segment.length < 2.0 * self.position:
                 forces[node.unknowns[2], 0] = -1.0
-        found: Floats = np.linalg.solve(stiffness, forces).astype(float)
+        found = self.modes.structure.displacements(forces)
         return np.stack([found[top], -found[jib[-1].unknowns[2]], self._foot_moment(tower[0], found)], axis=1)
 
     def _foot_moment(self, lowest: Member, motion: Floats) -> Floats:
@@ -272,16 +271,5 @@ class PlaneModes:
         alone = Structure(("m", "rad", "m", "rad"), shear_theory=self.modes.structure.shear_theory)
         alone.members.append(replace(lowest, unknowns=(0, 1, 2, 3), factors=(1.0, 1.0, 1.0, 1.0)))
         ends = np.array([motion[i] if i != HELD else np.zeros(2) for i in lowest.unknowns])
-        moment: Floats = -stiffness_matrix(alone)[1] @ (ends * np.array(lowest.factors)[:, None])
+        moment: Floats = -alone.stiffness()[1] @ (ends * np.array(lowest.factors)[:, None])
         return moment
-
-
-def stiffness_matrix(structure: Structure) -> Floats:
-    """Static stiffness of a structure on its unknowns, softened by its weights and loads [N/m, N, N m]."""
-    from modal.structure_kernel import dynamic_stiffness
-
-    length, force, _ = structure.units
-    size = np.array([length if unit == "m" else 1.0 for unit in structure.unknowns])
-    matrix = np.zeros((len(size), len(size)))
-    dynamic_stiffness(0.0, 1.0, *structure.arrays, matrix)
-    return matrix * force * length / np.outer(size, size)

@@ -7,6 +7,7 @@ from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any
 
 from towercrane.casefile import leaves
+from towercrane.drift import refusal
 from towercrane.faults import Fault, did_you_mean, shown
 from towercrane.kinds import known_to, plain_key
 from towercrane.units import UnitError, split, to_si
@@ -174,11 +175,14 @@ def check_values(tree: dict[str, Any]) -> Iterator[Fault]:
 
 
 def _check_method(tree: dict[str, Any]) -> Iterator[Fault]:
-    """A solver that cannot follow friction from sticking to slipping."""
+    """A solver that cannot follow friction from sticking to slipping, or that feeds vibration."""
     law, method = at(tree, "crane.friction.law"), at(tree, "solver.method")
     if law == "stick-slip" and isinstance(method, str) and method.startswith("scipy-"):
         hint = 'friction that sticks and slips switches equations; "tanh" friction needs no switching'
         yield Fault("", "solver.method", '"dop853" or "dopri5" with stick-slip friction', shown(method), hint)
+    rtol, atol = si_at(tree, "solver.rtol", "1", 1e-8), si_at(tree, "solver.atol", "1", 1e-10)
+    if isinstance(method, str) and rtol and atol and (reason := refusal(method, rtol, atol)):
+        yield Fault("", "solver.rtol", f"tolerances at which {method} is stable", f"{rtol:g}, atol {atol:g}", reason)
 
 
 def _check_output(tree: dict[str, Any]) -> Iterator[Fault]:

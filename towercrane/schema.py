@@ -148,6 +148,18 @@ class Solver(Table):
     atol: Annotated[float, Quantity("1", above=0)] = 1e-10
 
 
+class Expect(Table):
+    """What a run of the case must come to.
+
+    ``energy_gap`` bounds the relative gap of the energy balance; ``error`` the error against runs with a hundredth of
+    the tolerances, which only ``towercrane bench --hard`` makes.
+    """
+
+    outcome: str = "finished"
+    energy_gap: Annotated[float | None, Quantity("1", above=0)] = None
+    error: Annotated[float | None, Quantity("1", above=0)] = None
+
+
 def tables(annotation: Any) -> Iterator[type[Table]]:
     """The tables that a field's annotation admits."""
     if isinstance(annotation, type) and issubclass(annotation, Table):

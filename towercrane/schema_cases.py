@@ -8,6 +8,7 @@ from pydantic import Field, StrictBool, StrictInt
 
 from towercrane.schema import (
     Angle,
+    Expect,
     Mass,
     ModeCount,
     Payload,
@@ -89,6 +90,7 @@ class RadialCase(Table):
     map: MapRequest = MapRequest()
     accuracy: Accuracy = Accuracy()
     allow_implausible: tuple[str, ...] = ()
+    expect: Expect | None = None
 
 
 class SlewingStart(Table):
@@ -117,6 +119,7 @@ class SlewingCase(Table):
     run: Run
     solver: Solver = Solver()
     allow_implausible: tuple[str, ...] = ()
+    expect: Expect | None = None
 
 
 class MultiMassCase(SlewingCase):
@@ -149,6 +152,7 @@ class JibCase(Table):
     run: Run
     solver: Solver = Solver()
     allow_implausible: tuple[str, ...] = ()
+    expect: Expect | None = None
 
 
 AnyCase = RadialCase | SlewingCase | JibCase

@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import platform
 import time
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane import __version__
+from towercrane import __version__, drift
 from towercrane.integrate import FINISHED, Trajectory, evaluate, integrate
 from towercrane.models import model_of
 from towercrane.motion import Motion, phases
@@ -65,10 +66,20 @@ def simulate(
     Raises
     ------
     ValueError
-        If an argument is out of its range.
+        If an argument is out of its range, or the method feeds free vibration at these tolerances.
+
+    Warns
+    -----
+    EnergyDriftWarning
+        If a free vibration would gain or lose more than one per cent of its energy in 600 s.
     """
     if not 0.0 < output_step <= duration < np.inf:
         raise ValueError(f"output_step, duration: wanted 0 < step <= duration, got {output_step}, {duration}")
+    if method in drift.ENERGY_DRIFT:
+        if reason := drift.refusal(method, rtol, atol):
+            raise ValueError(f"rtol, atol: {reason}, got {rtol:g}, {atol:g}")
+        if said := drift.notice(method, rtol, atol):
+            warnings.warn(said, drift.EnergyDriftWarning, stacklevel=2)
     began = time.perf_counter()
     cut = phases(tuple(motions[channel] for channel in model.channels), duration)
     rows = int(np.floor(duration / output_step * (1.0 + 1e-12))) + 1
@@ -114,18 +125,21 @@ def simulate(
 
 def run_case(case: Case, *, progress: Progress | None = None) -> xr.Dataset:
     """Simulate a case; its text and its assumed values go into the result's attributes."""
-    result = simulate(
-        model_of(case),
-        case.motions,
-        case.run.duration,
-        output_step=case.run.output_step,
-        state="equilibrium" if case.start.state == "equilibrium" else "zero",
-        swing_angle=case.start.swing_angle,
-        method=case.solver.method,
-        rtol=case.solver.rtol,
-        atol=case.solver.atol,
-        progress=progress,
-    )
+    with warnings.catch_warnings():
+        # The summary says it.
+        warnings.simplefilter("ignore", drift.EnergyDriftWarning)
+        result = simulate(
+            model_of(case),
+            case.motions,
+            case.run.duration,
+            output_step=case.run.output_step,
+            state="equilibrium" if case.start.state == "equilibrium" else "zero",
+            swing_angle=case.start.swing_angle,
+            method=case.solver.method,
+            rtol=case.solver.rtol,
+            atol=case.solver.atol,
+            progress=progress,
+        )
     result.attrs["title"] = case.title
     result.attrs["case"] = case.name
     result.attrs["changes"] = json.dumps(case.changes)

@@ -1,4 +1,4 @@
-"""Commands that study a case instead of running it: sensitivity and linearise."""
+"""Commands that study a case or the program itself instead of running a case: linearise, sensitivity, bench."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import typer
 
 from towercrane.terminal import (
     ENDED_EARLY,
+    NOT_AS_EXPECTED,
     AsJson,
     CaseName,
     Changes,
@@ -154,3 +155,71 @@ def _study(case: Case, names: list[str], step: float, tolerance: float) -> Any:
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(f"{len(names)} parameters, {len(percent)} values each", total=1.0)
         return run(progress=lambda done: bar.update(task, completed=done))
+
+
+def bench(
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer repeats and rivals; about a minute.")] = False,
+    subject: Annotated[str, typer.Option("--subject", metavar="NAME", help="Measure one subject only.")] = "",
+    hard: Annotated[bool, typer.Option("--hard", help="Run the hard cases against their targets.")] = False,
+    stability: Annotated[
+        bool, typer.Option("--stability", help="Energy drift, error growth and failures of every method.")
+    ] = False,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="DIR", help="Folder for bench.json and the pictures.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Measure speed against error on this machine, beside other solvers."""
+    chosen = [
+        name for name, wanted in (("--subject", subject), ("--hard", hard), ("--stability", stability)) if wanted
+    ]
+    if len(chosen) > 1:
+        fail(f"bench: wanted one of --subject, --hard and --stability, got {' and '.join(chosen)}")
+    if out is not None:
+        folder_for_results(out)
+    report = _measured(quick, subject, hard, stability)
+    if out is not None:
+        from towercrane.plots.bench import pictures
+
+        files = {**pictures(report), "bench.json": json.dumps(_finite(report), indent=2, allow_nan=False) + "\n"}
+        write(out, files)
+    if as_json:
+        typer.echo(json.dumps(_finite(report), indent=2, allow_nan=False))
+    else:
+        from towercrane.tables import bench_tables
+
+        bench_tables(report)
+        if out is not None:
+            typer.echo(f"written to {out}: {', '.join(files)}")
+        suggest("run", "qtz5613/condition-3", "--set", "solver.rtol=1e-6")
+    if not report.get("met", True):
+        say("not all as expected, see the rows marked NO or !")
+        raise typer.Exit(NOT_AS_EXPECTED)
+
+
+def _measured(quick: bool, subject: str, hard: bool, stability: bool) -> dict[str, Any]:
+    """What the benchmark was asked for."""
+    announce_compilation("radial", "towercrane.stepper")
+    if hard:
+        from towercrane.bench.hard import hard_cases
+
+        found = hard_cases(say)
+        return {"subjects": [found], "met": found["met"]}
+    if stability:
+        from towercrane.bench import stability as long_run
+
+        return long_run.stability(quick=quick, say=say)
+    from towercrane.bench import SUBJECTS, measure
+
+    if subject and subject not in SUBJECTS:
+        fail(f"--subject: wanted one of {', '.join(SUBJECTS)}, got {subject!r}")
+    return measure(quick=quick, subject=subject, say=say)
+
+
+def _finite(node: Any) -> Any:
+    """The report with what is not finite as text: JSON has no infinity."""
+    if isinstance(node, dict):
+        return {key: _finite(item) for key, item in node.items()}
+    if isinstance(node, list):
+        return [_finite(item) for item in node]
+    return str(node) if isinstance(node, float) and not abs(node) < float("inf") else node

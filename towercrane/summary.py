@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane import drift
 from towercrane.integrate import FINISHED
 from towercrane.models import model_of, radial_model
 from towercrane.spectrum import spectrum_peaks, swing_period
@@ -56,8 +57,8 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         ``outcome``, ``end_time_s``, ``peaks`` per variable (maximum, maximum_time_s, minimum, minimum_time_s,
         units) among the rows of the result, ``spectrum_peaks_hz`` of the structure (of its free vibration where that
         is long enough), ``swing_period_s`` after the drives have stopped (None without a regular swing),
-        ``natural_frequencies_hz`` where the run ended, ``energy_balance``, ``notices``, ``assumed``, ``solver``,
-        ``wall_seconds``.
+        ``natural_frequencies_hz`` where the run ended, ``energy_balance``, ``expected``, ``notices``,
+        ``assumed``, ``solver``, ``wall_seconds``.
     """
     attributes = result.attrs
     times = result["time"].values
@@ -82,6 +83,7 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         "natural_frequencies_hz": frequencies,
         "swing_mode": None if swing is None else swing + 1,
         "energy_balance": energy_balance(result),
+        "expected": expected(case, result),
         "notices": notices(case, result, frequencies, swing, free),
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(result)],
         "solver": {
@@ -134,6 +136,25 @@ def energy_balance(result: xr.Dataset) -> dict[str, float]:
     }
 
 
+def expected(case: Case, result: xr.Dataset) -> dict[str, Any] | None:
+    """What the case expects beside what the run came to; None for a case that expects nothing.
+
+    Returns
+    -------
+    dict
+        ``met``, and ``misses``, a sentence for each expectation that was not met.
+    """
+    if case.expect is None:
+        return None
+    misses = []
+    if result.attrs["outcome"] != case.expect.outcome:
+        misses.append(f'expected the outcome "{case.expect.outcome}", got "{result.attrs["outcome"]}"')
+    gap, most = energy_balance(result)["relative_gap"], case.expect.energy_gap
+    if most is not None and not gap <= most:
+        misses.append(f"expected an energy balance within {most:g}, got {gap:.2g}")
+    return {"met": not misses, "misses": misses}
+
+
 def notices(case: Case, result: xr.Dataset, frequencies: list[float], swing: int | None, free: slice) -> list[str]:
     """What deserves a second look, in sentences."""
     found = []
@@ -147,6 +168,8 @@ def notices(case: Case, result: xr.Dataset, frequencies: list[float], swing: int
             f"the rope pushes from {first:.2f} s on (down to {tension.min():.0f} N): "
             "a real rope would be slack there; this case takes it as a rod"
         )
+    if said := drift.notice(*(result.attrs[name] for name in ("method", "rtol", "atol"))):
+        found.append(said)
     gap = energy_balance(result)["relative_gap"]
     if gap > LOOSE:
         found.append(f"the energy balance is off by {gap:.1e} of the change: tighten solver.rtol and solver.atol")

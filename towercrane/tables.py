@@ -212,6 +212,9 @@ def run_tables(summary: dict[str, Any]) -> None:
         f"solver                {solver['method']}, rtol {solver['rtol']:g}, {solver['evaluations']} evaluations, "
         f"{solver['solver_wall_seconds']:.3f} s of {summary['wall_seconds']:.3f} s wall"
     )
+    if expected := summary["expected"]:
+        for miss in expected["misses"] or ["met"]:
+            console.print(f"expected by the case  {miss}", style="bold" if expected["misses"] else None)
     for notice in summary["notices"]:
         console.print(f"note     {notice}", style="bold")
     _assumed(console, summary["assumed"])
@@ -303,7 +306,7 @@ def bench_tables(report: dict[str, Any]) -> None:
     """Speed against error, as :func:`towercrane.bench.measure` gives it."""
     console = _console()
     for subject in report["subjects"]:
-        table = _table(subject["title"], *subject["columns"])
+        table = _table(subject["title"], *subject["columns"], left=subject.get("left", 1))
         for row in subject["rows"]:
             table.add_row(*row)
         console.print(table)

@@ -13,8 +13,9 @@ if TYPE_CHECKING:
 
     from towercrane.case import Case
 
-BAD_INPUT, ENDED_EARLY, INTERRUPTED = 2, 3, 130
-"""Exit codes besides 0: bad input; the run ended before its time with a named outcome; Ctrl-C."""
+NOT_AS_EXPECTED, BAD_INPUT, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
+"""Exit codes besides 0: not what a case or a benchmark expects; bad input; the run ended before its time with a named
+outcome; Ctrl-C."""
 
 CaseName = Annotated[str, typer.Argument(metavar="CASE", help="A case file, or the name of a shipped case.")]
 Changes = Annotated[
@@ -32,12 +33,33 @@ def load(name: str, changes: list[str] | None) -> Case:
 
 
 def announce_compilation(kind: str, *needed: str) -> None:
-    """Say so if the kernels of a kind of crane, or what a command needs besides, have to be compiled first."""
+    """Compile the kernels of a kind of crane, and what a command needs besides, if they are not yet, and say so."""
     from modal.compiled import is_compiled
 
-    own = {"radial": "radial_kernel", "jib": "jib_crane_kernel"}.get(kind, "lumped_kernel")
-    if not all(is_compiled(module) for module in (f"towercrane.cranes.{own}", *needed)):
+    own = {"radial": "flexible_rhs", "jib": "jib_crane_kernel"}.get(kind, "lumped_kernel")
+    missing = [m for m in (f"towercrane.cranes.{own}", *needed) if not is_compiled(m)]
+    if missing:
         say("compiling for the first time, about ten seconds; later runs start at once ...")
+        _compile(*missing)
+
+
+def _compile(here: str, *beside: str) -> None:
+    """Import modules of kernels, the first here, the others in processes beside: all leave code in the cache."""
+    import subprocess
+    from importlib import import_module
+
+    # A process that fails does no harm: what it should have compiled is compiled where it is used.
+    others = [
+        subprocess.Popen(
+            [sys.executable, "-c", f"import {module}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+        for module in beside
+    ]
+    try:
+        import_module(here)
+    finally:
+        for process in others:
+            process.wait()
 
 
 def folder_for_results(folder: Path) -> None:

@@ -10,6 +10,7 @@ from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Seg
 
 if TYPE_CHECKING:
     from towercrane.case import Case
+    from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.schema_cranes import Crane
     from towercrane.schema_towers import BeamChoice, Lattice, Section, Tower, TowerSegment
 
@@ -92,9 +93,20 @@ def crane_frame(case: Case, *, weight: bool = False) -> CraneFrame:
     weight : bool
         Whether the weight softens the tower.
     """
-    crane = case.radial_crane()
-    tower = as_chain(crane.tower)
     counter_jib = _flexible_counter_jib(case.crane)
+    return frame_of(case.radial_crane(), case.payload.mass, case.rope.length, weight=weight, counter_jib=counter_jib)
+
+
+def frame_of(
+    crane: TowerCrane,
+    payload_mass: float,
+    rope_length: float,
+    *,
+    weight: bool = False,
+    counter_jib: Chain | None = None,
+) -> CraneFrame:
+    """A crane with its load in their common vertical plane; without a counter-jib of its own, that is rigid."""
+    tower = as_chain(crane.tower)
     if counter_jib is None:
         tower = with_end_body(tower, EndBody(crane.counter_mass, crane.counter_inertia))
     return CraneFrame(
@@ -102,8 +114,8 @@ def crane_frame(case: Case, *, weight: bool = False) -> CraneFrame:
         jib=as_chain(crane.jib),
         counter_jib=counter_jib,
         trolley_mass=crane.trolley_mass,
-        payload_mass=case.payload.mass,
-        rope_length=case.rope.length,
+        payload_mass=payload_mass,
+        rope_length=rope_length,
         gravity=crane.gravity,
     )
 

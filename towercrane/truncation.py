@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from towercrane.cranes import radial_kernel as kernel
-
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -46,7 +44,7 @@ def truncation_error(model: RadialModel, trolley_position: float, rope_length: f
     mass, stiffness = model.linear_matrices(trolley_position, rope_length)
     squared, vectors = eigh(stiffness, mass)
     tower, n = model.tower_modes, model.coordinates
-    slope = model.system.vectors[kernel.SLOPE, :tower]
+    slope = model.tower.rotation(model.crane.tower.length)
     at_trolley, moment = kept(trolley_position), kept.mass_moments()[1]
     tilt = slope @ vectors[:tower]
     rise = at_trolley @ vectors[tower:n] - trolley_position * tilt

@@ -10,10 +10,12 @@ from __future__ import annotations
 import math
 import re
 from functools import cache
-
-import pint
+from typing import TYPE_CHECKING
 
 from towercrane.faults import did_you_mean, shown
+
+if TYPE_CHECKING:
+    import pint
 
 DEFINITIONS = """
 micro- = 1e-6 = µ- = μ- = u-
@@ -88,6 +90,23 @@ KINDS = {
 ALSO = {"N m s/rad": ("N m s",), "N m/rad": ("N m",)}
 """Units accepted as equal to the wanted one."""
 
+USUAL = {
+    ("mm", "m"): 1e-3,
+    ("cm^2", "m^2"): 1e-4,
+    ("t", "kg"): 1e3,
+    ("ms", "s"): 1e-3,
+    ("min", "s"): 60.0,
+    ("h", "s"): 3600.0,
+    ("GPa", "Pa"): 1e9,
+    ("deg", "rad"): 0.017453292519943295,
+    ("kN/m", "N/m"): 1e3,
+    ("MN/m", "N/m"): 1e6,
+    ("kN m/rad", "N m/rad"): 1e3,
+    ("MN m/rad", "N m/rad"): 1e6,
+    ("kg/m", "N s^2/m^2"): 1.0,
+}
+"""Sizes of the commonest units in SI: a case that has no others is read without loading pint, in half the time."""
+
 FLOAT = r"[+-]?(?:\d+(?:_\d+)*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)\b"
 NUMBER = re.compile(rf"\s*({FLOAT})\s*(.*?)\s*", re.ASCII)
 # Only what a unit needs reaches pint's expression parser: large or stacked powers could run for hours.
@@ -112,6 +131,8 @@ class UnitError(ValueError):
 @cache
 def registry() -> pint.UnitRegistry[float]:
     """The registry of known units."""
+    import pint
+
     units: pint.UnitRegistry[float] = pint.UnitRegistry(None)
     units.load_definitions(DEFINITIONS.strip().splitlines())
     return units
@@ -184,6 +205,10 @@ def to_si(value: object, unit: str) -> float:
 
 def _factor(value: str, text: str, unit: str) -> float:
     """Size of the unit ``text`` in ``unit``."""
+    if text == unit:
+        return 1.0
+    if (text, unit) in USUAL:
+        return USUAL[text, unit]
     units = registry()
     source = units.Unit("dimensionless") if text == "1" else _parse(value, text, unit)
     for target in (unit, *ALSO.get(unit, ())):
@@ -195,6 +220,8 @@ def _factor(value: str, text: str, unit: str) -> float:
 
 def _parse(value: str, text: str, unit: str) -> pint.Unit:
     """The unit ``text``; ``value`` and ``unit`` are for the message."""
+    import pint
+
     got = f"{shown(value)}, whose unit cannot be read"
     unreadable = UnitError(wanted(unit), got, f'write the unit like "{unit}"')
     # "m/s2" and "cm4" are how data sheets print powers.

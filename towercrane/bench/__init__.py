@@ -6,47 +6,69 @@ import os
 import platform
 from typing import TYPE_CHECKING, Any
 
-from towercrane.bench.radial import modes_left_out, radial_run, right_hand_side
+from towercrane.bench.growth import growth
+from towercrane.bench.radial import modes_left_out, right_hand_side
 from towercrane.bench.roots import roots
-from towercrane.bench.slewing import example_runs, right_hand_sides
+from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene
+from towercrane.bench.slewing import right_hand_sides
 from towercrane.bench.structure import crane_map, stepped_tower
+from towercrane.bench.workprecision import work_precision
 from towercrane.simulate import versions
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-SUBJECTS = (
-    roots,
-    stepped_tower,
-    crane_map,
-    right_hand_side,
-    radial_run,
-    modes_left_out,
-    right_hand_sides,
-    example_runs,
-)
-"""Each takes the number of repeats and gives a table."""
+    Subject = Callable[[int, bool], dict[str, Any]]
+
+SUBJECTS: dict[str, tuple[str, Subject]] = {
+    "roots": ("characteristic roots against finite elements", lambda repeats, quick: roots(repeats)),
+    "tower": ("tower of three segments against finite elements", lambda repeats, quick: stepped_tower(repeats)),
+    "map": ("frequency map against finite elements", lambda repeats, quick: crane_map(repeats)),
+    "radial-rhs": ("right-hand side of the radial crane", lambda repeats, quick: right_hand_side(repeats)),
+    "radial": ("radial crane", lambda repeats, quick: work_precision(radial_scene(), repeats, quick=quick)),
+    "radial-modes": ("modes left out", lambda repeats, quick: modes_left_out(repeats)),
+    "slewing-rhs": ("right-hand sides of the slewing cranes", lambda repeats, quick: right_hand_sides(repeats)),
+    "multi-mass": ("slewing crane, multi-mass", lambda repeats, quick: _lumped("multi-mass", repeats, quick)),
+    "enhanced": ("slewing crane, enhanced", lambda repeats, quick: _lumped("enhanced", repeats, quick)),
+    "basic": ("slewing crane, basic", lambda repeats, quick: _lumped("basic", repeats, quick)),
+    "jib": ("jib crane", lambda repeats, quick: work_precision(jib_scene(), repeats, quick=quick)),
+    "growth": ("growth of the cost", lambda repeats, quick: growth(repeats)),
+}
+"""What is measured, by name; each takes the number of repeats and whether to be quick, and gives a table."""
 
 
-def measure(*, quick: bool = False, say: Callable[[str], None] = print) -> dict[str, Any]:
-    """All subjects of the benchmark.
+def measure(*, quick: bool = False, subject: str = "", say: Callable[[str], None] = print) -> dict[str, Any]:
+    """Subjects of the benchmark.
 
     Parameters
     ----------
     quick : bool
-        Fewer repeats.
+        Fewer repeats, one tolerance for each rival.
+    subject : str
+        Name of a single subject; empty: all.
     say : callable
         Told what is being measured.
 
     Returns
     -------
     dict
-        ``machine``, ``versions`` and ``subjects``, each with title, columns, rows (text), records and notes.
+        ``machine``, ``versions`` and ``subjects``, each with name, title, columns, rows (text), records and notes.
+
+    Raises
+    ------
+    ValueError
+        If there is no such subject.
     """
-    repeats = 3 if quick else 9
+    if subject and subject not in SUBJECTS:
+        raise ValueError(f"subject: wanted one of {', '.join(SUBJECTS)}, got {subject!r}")
     subjects = []
-    for subject in SUBJECTS:
-        say(f"measuring: {subject.__doc__.splitlines()[0] if subject.__doc__ else subject.__name__}")
-        subjects.append(subject(repeats))
+    for name, (about, run) in SUBJECTS.items():
+        if name == subject or not subject:
+            say(f"measuring: {about}")
+            subjects.append(run(2 if quick else 9, quick))
     machine = {"processor": platform.processor() or platform.machine(), "cores": os.cpu_count()}
     return {"machine": machine, "versions": versions(), "subjects": subjects}
+
+
+def _lumped(kind: str, repeats: int, quick: bool) -> dict[str, Any]:
+    return work_precision(lumped_scene(kind), repeats, quick=quick)

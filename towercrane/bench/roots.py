@@ -39,15 +39,16 @@ def roots(repeats: int) -> dict[str, Any]:
         "32 elements, 4 roots": elements(32),
         "64 elements, 4 roots": elements(64),
     }
-    values, seconds, _ = interleaved(contestants, repeats)
+    values, timings = interleaved(contestants, repeats)
     reference, note = _exact_roots(ratios, 500)
     records: list[dict[str, Any]] = []
     for name, found in values.items():
         error = None
         if reference is not None:
             error = float(np.max(abs(found / reference[: len(found)] - 1.0)))
-        records.append({"method": name, "error": error, "milliseconds": 1e3 * seconds[name]})
+        records.append({"method": name, "error": error, "milliseconds": 1e3 * timings[name].wall})
     return {
+        "name": "roots",
         "title": "Roots of the tower: relative error of the worst root against wall time",
         "columns": ["method", "error", "median [ms]"],
         "rows": [[r["method"], short(r["error"]), f"{r['milliseconds']:.3f}"] for r in records],

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from modal import CraneFrame
+    from towercrane.bench.clock import Timing
 
     Floats = NDArray[np.float64]
 
@@ -49,11 +50,12 @@ def stepped_tower(repeats: int) -> dict[str, Any]:
 
     contestants: dict[str, Callable[[], Floats]] = {"exact": lambda: chain_frequencies(TOWER, MODES)}
     contestants |= {f"{n} elements a segment": elements(n) for n in (2, 4, 8, 16)}
-    values, seconds, _ = interleaved(contestants, repeats)
+    values, timings = interleaved(contestants, repeats)
     reference, note = _transfer_matrices(values["exact"])
     return _compared(
+        "tower",
         "Eight frequencies of a tower of three shear-flexible segments with a body: relative error of the worst",
-        values, seconds, reference, [note],
+        values, timings, reference, [note],
     )  # fmt: skip
 
 
@@ -83,28 +85,35 @@ def crane_map(repeats: int) -> dict[str, Any]:
         "8 elements a member": partial(elements, 8),
         "16 elements a member": partial(elements, 16),
     }
-    values, seconds, _ = interleaved(contestants, min(repeats, 3))
+    values, timings = interleaved(contestants, min(repeats, 3))
     found = zip(places.tolist(), values["exact"], strict=True)
     rows = [_krylov_functions(frame, position, near) for position, near in found]
     reference = None if rows[0] is None else np.array(rows)
     note = "reference: Krylov functions of the three uniform spans, matched in 50-digit arithmetic"
     return _compared(
+        "map",
         f"Plane QTZ5613, eight frequencies at {POSITIONS} positions of the trolley: relative error of the worst",
-        values, seconds, reference, [NO_MPMATH if reference is None else note],
+        values, timings, reference, [NO_MPMATH if reference is None else note],
     )  # fmt: skip
 
 
 def _compared(
-    title: str, values: dict[str, Floats], seconds: dict[str, float], reference: Floats | None, notes: list[str]
+    name: str,
+    title: str,
+    values: dict[str, Floats],
+    timings: dict[str, Timing],
+    reference: Floats | None,
+    notes: list[str],
 ) -> dict[str, Any]:
     """Table of errors and times; methods with fewer frequencies are compared by those."""
     records: list[dict[str, Any]] = []
-    for name, found in values.items():
+    for method, found in values.items():
         error = None
         if reference is not None:
             error = float(np.max(abs(found / reference[..., : found.shape[-1]] - 1.0)))
-        records.append({"method": name, "error": error, "milliseconds": 1e3 * seconds[name]})
+        records.append({"method": method, "error": error, "milliseconds": 1e3 * timings[method].wall})
     return {
+        "name": name,
         "title": title,
         "columns": ["method", "error", "median [ms]"],
         "rows": [[r["method"], short(r["error"]), f"{r['milliseconds']:.2f}"] for r in records],

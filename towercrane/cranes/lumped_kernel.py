@@ -14,6 +14,7 @@ import numpy as np
 from numba import types
 
 from modal.compiled import kernel
+from towercrane.cranes.drive_kernel import coupling_torque
 from towercrane.payload import BIAS, DIRECTION, FORCE, HINGE, JACOBIAN, MASS, VELOCITY, hang_load
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
@@ -50,14 +51,6 @@ TENSION, INSIDE, OUTSIDE, SLIDING, HOLDING, NEEDED = range(6)
 slip [rad/s]; torque that friction can still take, and the torque that holds the coordinate at rest [N m]."""
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
-
-
-@kernel()
-def coupling_torque(twist: float, soft: float, stiff: float, corner: float) -> float:
-    """Torque of the three straight lines of the drive's coupling, odd in the twist (Marinovic et al., Eq. 17)."""
-    if abs(twist) <= corner:
-        return soft * twist
-    return np.sign(twist) * (soft * corner + stiff * (abs(twist) - corner))
 
 
 @kernel()

@@ -1,53 +1,42 @@
-"""Crane in radial motion: tower, jib, trolley and load in the vertical plane of the jib.
+"""Crane in radial motion: tower, jib, trolley and load in the vertical plane of the jib, whose head does not slew.
 
-Source: Gao et al. (2023); the equations are derived anew, see :mod:`towercrane.cranes.radial_kernel`.
+Source: Gao et al. (2023). It is the flexible crane of :mod:`towercrane.cranes.flexible` in a scene whose tower bends
+along the jib only and whose jib bends up and down only.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import factorial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from towercrane.cranes import radial_kernel as kernel
-from towercrane.equilibrium import Unstable, stable_equilibrium
-from towercrane.payload import FORCE, JACOBIAN, MASS, Load, restore, work_shape
-from towercrane.system import NoEquilibrium, System
+from towercrane.cranes.flexible import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB, FlexibleModel, ModalDamping
+from towercrane.cranes.flexible_constants import geometric_stiffness
+from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
+from towercrane.cranes.small_motions import linear_matrices, reciprocal_modes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from modal.chain_modes import ChainModes
-    from modal.shapes import Modes
+    from towercrane.cranes.mass_sums import Basis
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.motion import Motion
+    from towercrane.payload import Load
     from towercrane.results import Quantity
+    from towercrane.system import System
 
     Floats = NDArray[np.float64]
 
-SLACK_ROPE = "slack rope"
-TROLLEY_OFF_JIB = "trolley off the jib"
-TOWER_BUCKLED = "tower buckled"
-
-TILT_LIMIT = 0.5
-"""Tilt of the tower top at which a run ends as buckled [rad]: far beyond what a beam theory of small slopes holds."""
-
-ROUNDING = 1e-9
-"""Way beyond an end of the jib that counts as parked on it [m]."""
-
-TABLE_POWERS = 8
-"""Coefficients per cell of the tabulated jib shapes."""
-
-TABLE_REACH = 0.04
-"""Largest wave number times half a cell: the next Taylor term is then below 0.04^8/8! = 2e-16."""
+__all__ = ["SLACK_ROPE", "TOWER_BUCKLED", "TROLLEY_OFF_JIB", "RadialModel"]
 
 
 @dataclass(frozen=True, eq=False)
 class RadialModel:
     """Equations of motion in chosen coordinates: any numbers of tower and jib modes, 0 meaning rigid.
+
+    The counter-jib is rigid, also where a case gives it a bending stiffness for the exact frequencies of the crane.
 
     Parameters
     ----------
@@ -83,15 +72,30 @@ class RadialModel:
             if getattr(self, name) < 0:
                 raise ValueError(f"RadialModel.{name}: wanted zero or more, got {getattr(self, name)!r}")
 
+    @cached_property
+    def scene(self) -> FlexibleModel:
+        """The flexible crane that this is."""
+        modes = ModeCounts(tower=self.tower_modes, torsion=0, lateral=0, vertical=self.jib_modes)
+        return FlexibleModel(
+            flexible_crane(self.crane, modes, planes=1),
+            self.load,
+            slewing="fixed",
+            damping=ModalDamping(tower=self.tower_damping_ratio, vertical=self.jib_damping_ratio),
+            weight_softening=self.weight_softening,
+            self_weight=self.self_weight,
+            rope_as_rod=self.rope_as_rod,
+            axes=self.axes,
+        )
+
     @property
     def channels(self) -> tuple[str, ...]:
         """Motions: position of the trolley along the jib and length of the rope [m]."""
-        return ("trolley", "rope")
+        return self.scene.channels
 
     @property
     def channel_units(self) -> tuple[str, ...]:
         """Units of the channels."""
-        return ("m", "m")
+        return self.scene.channel_units
 
     @property
     def state_names(self) -> dict[str, str]:
@@ -107,127 +111,35 @@ class RadialModel:
     @property
     def size(self) -> int:
         """Number of states: coordinates and rope direction with their rates, and the work done."""
-        return 2 * (self.coordinates + self.axes) + 1
+        return self.scene.size
 
-    @cached_property
-    def tower(self) -> Modes | ChainModes:
+    @property
+    def tower(self) -> Basis:
         """Modes of the tower with the slewing part on its end."""
-        return self.crane.tower_modes(self.tower_modes)
+        return self.scene.crane.tower
 
-    @cached_property
-    def jib(self) -> Modes:
+    @property
+    def jib(self) -> Basis:
         """Modes of the jib, clamped at the tower top and free at its end."""
-        return self.crane.jib_modes(self.jib_modes)
+        return self.scene.crane.vertical
 
-    @cached_property
+    @property
     def geometric_stiffness(self) -> Floats:
-        """Stiffness that the weight takes from the tower modes, int N phi' phi' (tower, tower) [1/s^2].
+        """Stiffness that the weight takes from the tower modes [1/s^2], shape (tower_modes, tower_modes)."""
+        return geometric_stiffness(self.scene)
 
-        N(s) is the weight of all that is above the height s; of the tower and its own bodies with self_weight.
-        """
-        crane = self.crane
-        own = 1.0 if self.self_weight else 0.0
-        above = own * crane.slewing_mass + crane.trolley_mass + self.load.mass
-        return crane.gravity * (above * self.tower.slope_matrix() + own * self.tower.weight_matrix())
-
-    @cached_property
+    @property
     def system(self) -> System:
         """The model as the solver sees it."""
-        crane, load = self.crane, self.load
-        n, tower = self.coordinates, self.tower_modes
-        vectors = np.zeros((5, n))
-        vectors[kernel.TIP, :tower] = self.tower(crane.tower.length)
-        vectors[kernel.SLOPE, :tower] = self.tower.rotation(crane.tower.length)
-        vectors[kernel.JIB_MASS, tower:], vectors[kernel.JIB_MOMENT, tower:] = self.jib.mass_moments()
-        tip, slope = vectors[kernel.TIP], vectors[kernel.SLOPE]
-        omega = np.concatenate([self.tower.angular_frequencies, self.jib.angular_frequencies])
-        ratio = np.repeat([self.tower_damping_ratio, self.jib_damping_ratio], [tower, self.jib_modes])
-        vectors[kernel.DAMPING] = 2.0 * ratio * omega
-
-        base = np.zeros((n, n))
-        base[:tower, :tower] = self.tower.mass_matrix()
-        base += crane.slewing_mass * np.outer(tip, tip) + crane.slewing_inertia * np.outer(slope, slope)
-        base[tower:, tower:] = self.jib.mass_matrix()
-        # Tilting the tower top moves the clamped jib through -gamma x: first order, absent in the source.
-        base[:tower, tower:] = -np.outer(slope[:tower], vectors[kernel.JIB_MOMENT, tower:])
-        base[tower:, :tower] = base[:tower, tower:].T
-        stiffness = np.diag(omega**2)
-        stiffness[:tower, :tower] = self.tower.stiffness_matrix()
-        if self.weight_softening:
-            stiffness[:tower, :tower] -= self.geometric_stiffness
-
-        numbers = np.zeros(10)
-        numbers[kernel.TOWER_MODES] = tower
-        numbers[kernel.TROLLEY_MASS] = crane.trolley_mass
-        numbers[kernel.GRAVITY] = crane.gravity
-        numbers[kernel.SELF_GRAVITY] = crane.gravity if self.self_weight else 0.0
-        numbers[kernel.STATIC_MOMENT] = crane.static_moment
-        numbers[kernel.JIB_LENGTH] = crane.jib.length
-        numbers[kernel.TILT_LIMIT] = TILT_LIMIT
-        numbers[kernel.LOAD_MASS] = load.mass
-        numbers[kernel.DRAG] = load.drag
-        numbers[kernel.HINGE_DAMPING] = load.rope_damping
-        return System(
-            rhs=kernel.rhs,
-            size=self.size,
-            guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED),
-            floors=np.array([-np.inf if self.rope_as_rod else 0.0, -ROUNDING, -ROUNDING, 0.0]),
-            scale=self._scale(),
-            numbers=numbers,
-            vectors=vectors,
-            matrices=np.array([base, stiffness]),
-            tables=self._shape_table(),
-            work_shape=work_shape(n),
-            restore=lambda state: restore(state, n, self.axes),
-        )
-
-    def _scale(self) -> Floats:
-        """Tolerances are metres where a mode moves most, radians of swing; the work steers nothing."""
-        # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
-        largest = [abs(m(np.linspace(0.0, m.length, 201))).max(axis=1) for m in (self.tower, self.jib)]
-        scale = np.concatenate([1.0 / np.concatenate(largest), np.ones(self.axes)])
-        return np.concatenate([scale, scale, [np.inf]])
-
-    def _shape_table(self) -> Floats:
-        """Jib shapes as Taylor polynomials about the middle of equal cells; shape (cells, modes, powers)."""
-        length = self.crane.jib.length
-        highest = self.jib.roots[-1] if self.jib_modes else 0.0
-        cells = max(1, int(np.ceil(highest / (2.0 * TABLE_REACH))))
-        middles = (np.arange(cells) + 0.5) * length / cells
-        shapes = [self.jib(middles, derivative).T / factorial(derivative) for derivative in range(TABLE_POWERS)]
-        return np.ascontiguousarray(np.stack(shapes, axis=-1).reshape(cells, self.jib_modes, TABLE_POWERS))
+        return self.scene.system
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
-        """State at rest at the start.
+        """State at rest at the start, see :meth:`towercrane.cranes.flexible.FlexibleModel.start`."""
+        return self.scene.start(inputs, state, swing_angle)
 
-        Parameters
-        ----------
-        inputs : ndarray
-            Polynomials of the first phase.
-        state : str
-            "equilibrium" (the static solution) or "zero" (undeformed, all weights on).
-        swing_angle : float
-            Angle of the rope from the vertical, positive outward [rad].
-
-        Returns
-        -------
-        ndarray, shape (size,)
-
-        Raises
-        ------
-        NoEquilibrium
-            If there is no stable equilibrium.
-        ValueError
-            If the state is not one of the two.
-        """
-        if state not in ("equilibrium", "zero"):
-            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
-        y = np.zeros(self.size)
-        if state == "equilibrium":
-            y[: self.coordinates] = self.equilibrium(inputs)
-        y[self.coordinates] = np.sin(swing_angle)
-        y[self.coordinates + self.axes - 1] = -np.cos(swing_angle)
-        return y
+    def equilibrium(self, inputs: Floats) -> Floats:
+        """Coordinates at rest under all weights, see :meth:`towercrane.cranes.flexible.FlexibleModel.equilibrium`."""
+        return self.scene.equilibrium(inputs)
 
     def observe(
         self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
@@ -235,7 +147,7 @@ class RadialModel:
         """Outputs over time, see :func:`towercrane.cranes.radial_outputs.observe`."""
         from towercrane.cranes.radial_outputs import observe
 
-        return observe(self, motions, times, states, guards[:, kernel.TENSION])
+        return observe(self, motions, times, states, guards)
 
     def provenance(self) -> dict[str, Any]:
         """Crane, modes and load, for a result's attributes."""
@@ -247,65 +159,15 @@ class RadialModel:
             "gravity": self.crane.gravity,
         }
 
-    def equilibrium(self, inputs: Floats) -> Floats:
-        """Coordinates at rest under all weights, load hanging straight down; shape (coordinates,).
-
-        Newton's method on f(q) - m_p g J_D^T e_z = 0. The rope's direction is known, so the inverted pendulum
-        cannot be found; the solution is refused unless it is stable.
-
-        Raises
-        ------
-        NoEquilibrium
-            If the stiffness is not positive definite, or no equilibrium is found.
-        """
-        n = self.coordinates
-
-        def residual(at: Floats) -> Floats:
-            work = self._at_rest(at, inputs)
-            up = work[JACOBIAN + self.axes - 1, :n]
-            return work[FORCE, :n] - self.load.mass * self.crane.gravity * up
-
-        try:
-            return stable_equilibrium(residual, self.system.scale[:n])
-        except Unstable as failure:
-            raise NoEquilibrium(TOWER_BUCKLED, f"{failure}; {self._buckling_message()}") from failure
-
-    def _buckling_message(self) -> str:
-        if not self.tower_modes:
-            return "the tower is rigid"
-        geometric = np.linalg.eigvals(np.linalg.solve(self.tower.stiffness_matrix(), self.geometric_stiffness))
-        return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
-
-    def _at_rest(self, q: Floats, inputs: Floats) -> Floats:
-        """Scratch array of the structure at rest at these coordinates."""
-        y = np.zeros(self.size)
-        y[: self.coordinates] = q
-        fixed = np.zeros_like(inputs)
-        fixed[:, 0] = inputs[:, 0]
-        work = np.zeros(self.system.work_shape)
-        kernel.structure(self.axes, 0.0, y, fixed, *self.system.constants, work)
-        return work
-
     def linear_matrices(self, trolley_position: float, rope_length: float) -> tuple[Floats, Floats]:
         """Mass and stiffness of small motions about the undeformed crane; shapes (n + 1, n + 1).
 
         The last coordinate is the load's horizontal distance from the trolley [m]. The second-order effect of the
         static deflection is not in it, as in any linear frame.
         """
-        n, load = self.coordinates, self.load.mass
-        inputs = np.array([[trolley_position, 0.0, 0.0], [rope_length, 0.0, 0.0]])
-        work = self._at_rest(np.zeros(n), inputs)
-        lower = np.tril(work[MASS : MASS + n, :n])
-        forward, up = work[JACOBIAN, :n], work[JACOBIAN + self.axes - 1, :n]
-        mass = np.zeros((n + 1, n + 1))
-        mass[:n, :n] = lower + np.tril(lower, -1).T
-        mass[:n, :n] += load * (np.outer(forward, forward) + np.outer(up, up))
-        mass[n, :n] = mass[:n, n] = load * forward
-        mass[n, n] = load
-        stiffness = np.zeros((n + 1, n + 1))
-        stiffness[:n, :n] = self.system.matrices[kernel.STIFFNESS]
-        stiffness[n, n] = load * self.crane.gravity / rope_length
-        return mass, stiffness
+        mass, stiffness = linear_matrices(self.scene, np.array([[trolley_position], [rope_length]]))
+        outward = np.arange(self.coordinates + 1)
+        return mass[np.ix_(outward, outward)], stiffness[np.ix_(outward, outward)]
 
     def natural_frequencies(self, trolley_position: float, rope_length: float) -> Floats:
         """Angular frequencies of small motions, pendulum included; shape (coordinates + 1,) [rad/s]."""
@@ -327,14 +189,6 @@ class RadialModel:
         NoEquilibrium
             If the weight's softening leaves the tower no stiffness.
         """
-        from scipy.linalg import eigh
-
         mass, stiffness = self.linear_matrices(trolley_position, rope_length)
-        if np.linalg.eigvalsh(stiffness).min() <= 0.0:
-            raise NoEquilibrium(TOWER_BUCKLED, self._buckling_message())
-        # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is. Its vectors
-        # have unit energy in the stiffness.
-        reciprocal, vectors = eigh(mass, stiffness)
-        frequencies = 1.0 / np.sqrt(reciprocal[::-1])
-        swing = int(np.argmax(stiffness[-1, -1] * vectors[-1, ::-1] ** 2))
-        return frequencies, swing
+        frequencies, vectors = reciprocal_modes(self.scene, mass, stiffness)
+        return frequencies, int(np.argmax(stiffness[-1, -1] * vectors[-1] ** 2))

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from modal.chain import Chain
     from modal.chain_modes import ChainModes
     from modal.shapes import Modes
+    from modal.torsion import Shaft
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +36,17 @@ class TowerCrane:
         Mass of the trolley [kg].
     gravity : float
         Acceleration of gravity [m/s^2].
+    jib_lateral : Beam, optional
+        The jib in bending to its sides; needed for such modes alone.
+    shaft : Shaft, optional
+        The tower in torsion; needed for such modes alone.
+    roll_inertia : float
+        Moment of inertia of the slewing part about the jib's axis [kg m^2].
+
+    Raises
+    ------
+    ValueError
+        If jib and lateral jib, or tower and shaft, differ in what they must share.
     """
 
     name: str
@@ -45,6 +57,19 @@ class TowerCrane:
     counterweight: float
     trolley_mass: float
     gravity: float = 9.81
+    jib_lateral: Beam | None = None
+    shaft: Shaft | None = None
+    roll_inertia: float = 0.0
+
+    def __post_init__(self) -> None:
+        pairs = [("jib_lateral", self.jib_lateral, self.jib, "length"), ("shaft", self.shaft, self.tower, "length")]
+        pairs.append(("jib_lateral", self.jib_lateral, self.jib, "mass_per_length"))
+        for name, other, member, shared in pairs:
+            if other is not None and getattr(other, shared) != getattr(member, shared):
+                wanted, got = getattr(member, shared), getattr(other, shared)
+                raise ValueError(f"TowerCrane.{name}.{shared}: wanted {wanted!r}, as in the plane, got {got!r}")
+        if not 0.0 <= self.roll_inertia < float("inf"):
+            raise ValueError(f"TowerCrane.roll_inertia: wanted zero or more, got {self.roll_inertia!r}")
 
     @property
     def counter_mass(self) -> float:
@@ -56,6 +81,12 @@ class TowerCrane:
         """Moment of inertia of counter-jib and counterweight about the tower top [kg m^2]."""
         length = self.counter_jib_length
         return self.counter_jib_mass_per_length * length**3 / 3 + self.counterweight * length**2
+
+    @property
+    def counter_moment(self) -> float:
+        """First moment of counter-jib and counterweight about the tower axis, which is negative [kg m]."""
+        counter = self.counter_jib_mass_per_length * self.counter_jib_length / 2 + self.counterweight
+        return -counter * self.counter_jib_length
 
     @property
     def slewing_mass(self) -> float:
@@ -73,8 +104,13 @@ class TowerCrane:
     @property
     def static_moment(self) -> float:
         """First moment S_r of everything that turns about the tower axis, positive towards the jib [kg m]."""
-        counter = self.counter_jib_mass_per_length * self.counter_jib_length / 2 + self.counterweight
-        return self.jib.mass * self.jib.length / 2 - counter * self.counter_jib_length
+        return self.jib.mass * self.jib.length / 2 + self.counter_moment
+
+    @property
+    def tower_mass(self) -> float:
+        """Mass of the tower and its own bodies [kg]."""
+        bodies = () if isinstance(self.tower, Beam) else self.tower.bodies.values()
+        return self.tower.mass + sum(body.mass for body in bodies)
 
     @property
     def end_body(self) -> EndBody:

@@ -1,0 +1,324 @@
+"""Flexible crane in space: equations of motion in chosen modes, for simulation, equilibrium and small motions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from towercrane.cranes import flexible_kernel, flexible_rhs
+from towercrane.cranes import flexible_layout as layout
+from towercrane.cranes.corner import Corner
+from towercrane.cranes.flexible_constants import geometric_stiffness, matrices, numbers, scale, vectors
+from towercrane.cranes.shape_table import shape_table
+from towercrane.cranes.wind import CHANNELS
+from towercrane.equilibrium import Unstable, stable_equilibrium
+from towercrane.payload import FORCE, JACOBIAN, Load, restore, work_shape
+from towercrane.system import NoEquilibrium, System
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.flexible_crane import FlexibleCrane
+    from towercrane.cranes.lumped_data import Drive
+    from towercrane.motion import Motion
+    from towercrane.results import Quantity
+
+    Floats = NDArray[np.float64]
+
+SLACK_ROPE = "slack rope"
+TROLLEY_OFF_JIB = "trolley off the jib"
+TOWER_BUCKLED = "tower buckled"
+
+ROUNDING = 1e-9
+"""Way beyond an end of the jib that counts as parked on it [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class ModalDamping:
+    """Damping of the modes of each kind as a fraction of critical.
+
+    Parameters
+    ----------
+    tower, torsion, lateral, vertical : float
+        Zero or more.
+
+    Raises
+    ------
+    ValueError
+        If one is negative or not finite.
+    """
+
+    tower: float = 0.0
+    torsion: float = 0.0
+    lateral: float = 0.0
+    vertical: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(f"ModalDamping.{name}: wanted zero or more, got {getattr(self, name)!r}")
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleModel:
+    """Equations of motion of a flexible crane with its load.
+
+    Parameters
+    ----------
+    crane : FlexibleCrane
+        With as many modes as are to move; made by :func:`towercrane.cranes.flexible_crane.flexible_crane`.
+    load : Load
+    slewing : {"prescribed", "fixed"} or Drive
+        The slewing angle of the head on the tower's top as a motion, at zero, or as a coordinate that a drive with an
+        elastic coupling turns.
+    drive_inertia : float
+        Moment of inertia that turns with the slewing angle and does not tilt [kg m^2]; with a drive only.
+    damping : ModalDamping
+    weight_softening : bool
+        Include the geometric stiffness of the weight above each section of the tower.
+    self_weight : bool
+        Whether the structure has weight; without it only trolley and load do.
+    rope_as_rod : bool
+        Let the rope push, as most published models do. Without it a slack rope ends the run.
+    wind : bool
+        Whether a wind blows, prescribed by motions of its three components.
+    axes : {2, 3}
+        2 for a load that swings in the plane of a jib at rest, 3 in space.
+
+    Raises
+    ------
+    ValueError
+        If a crane that leaves the plane is asked to stay in it, the slewing is of no known kind, the drive's friction
+        is set-valued, or there is inertia of a drive without a drive.
+    """
+
+    crane: FlexibleCrane
+    load: Load
+    slewing: Literal["prescribed", "fixed"] | Drive = "prescribed"
+    drive_inertia: float = 0.0
+    damping: ModalDamping = field(default_factory=ModalDamping)
+    weight_softening: bool = False
+    self_weight: bool = True
+    rope_as_rod: bool = False
+    wind: bool = False
+    axes: Literal[2, 3] = 3
+
+    def __post_init__(self) -> None:
+        crane = self.crane
+        leaves = crane.planes > 1 or crane.torsion.count or crane.lateral.count or self.slewing != "fixed"
+        if self.axes == 2 and leaves:
+            raise ValueError("FlexibleModel.axes: wanted 3 for a crane that moves out of its plane, got 2")
+        if isinstance(self.slewing, str) and self.slewing not in ("prescribed", "fixed"):
+            raise ValueError(f"FlexibleModel.slewing: wanted 'prescribed', 'fixed' or a Drive, got {self.slewing!r}")
+        if self.drive is None and self.drive_inertia:
+            raise ValueError(f"FlexibleModel.drive_inertia: wanted 0 without a drive, got {self.drive_inertia!r}")
+        if self.drive is not None and self.drive.friction == "stick-slip":
+            raise ValueError("FlexibleModel.slewing: wanted friction 'none' or 'tanh', got 'stick-slip'")
+        if not 0.0 <= self.drive_inertia < np.inf:
+            raise ValueError(f"FlexibleModel.drive_inertia: wanted zero or more, got {self.drive_inertia!r}")
+
+    @property
+    def drive(self) -> Drive | None:
+        """The drive that turns the head, if its angle is a coordinate."""
+        return None if isinstance(self.slewing, str) else self.slewing
+
+    @cached_property
+    def channels(self) -> tuple[str, ...]:
+        """Motions: trolley and rope [m], slewing angle or shaft of its drive [rad], wind [m/s], as there are."""
+        turning: tuple[str, ...] = ("shaft",) if self.drive is not None else ("slewing",)
+        if self.slewing == "fixed":
+            turning = ()
+        return ("trolley", "rope", *turning, *(CHANNELS if self.wind else ()))
+
+    @property
+    def channel_units(self) -> tuple[str, ...]:
+        """Units of the channels."""
+        units = {"trolley": "m", "rope": "m", "slewing": "rad", "shaft": "rad"}
+        return tuple(units.get(channel, "m/s") for channel in self.channels)
+
+    @cached_property
+    def counts(self) -> dict[str, int]:
+        """Number of coordinates of each kind, in the order of the state."""
+        crane = self.crane
+        return {
+            "tower_x": crane.tower.count,
+            "tower_y": crane.tower.count if crane.planes > 1 else 0,
+            "torsion": crane.torsion.count,
+            "slewing": int(self.drive is not None),
+            "jib_lateral": crane.lateral.count,
+            "jib_vertical": crane.vertical.count,
+        }
+
+    @cached_property
+    def parts(self) -> dict[str, slice]:
+        """Where the coordinates of each kind are in the state."""
+        ends = np.cumsum([0, *self.counts.values()])
+        return {kind: slice(int(a), int(b)) for kind, a, b in zip(self.counts, ends[:-1], ends[1:], strict=True)}
+
+    @property
+    def state_names(self) -> dict[str, str]:
+        """Name and unit of every coordinate."""
+        names: dict[str, str] = {}
+        for kind, count in self.counts.items():
+            if kind == "slewing":
+                names |= dict.fromkeys(["slewing_angle"][:count], "rad")
+            else:
+                names |= {f"{kind}_mode_{i + 1}": "kg^0.5 m" for i in range(count)}
+        return names
+
+    @cached_property
+    def coordinates(self) -> int:
+        """Number of structural coordinates."""
+        return sum(self.counts.values())
+
+    @property
+    def size(self) -> int:
+        """Number of states: coordinates and rope direction with their rates, and the work done."""
+        return 2 * (self.coordinates + self.axes) + 1
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        n, drive = self.coordinates, self.drive
+        floors = np.full(layout.GUARDS, -np.inf)
+        floors[layout.TENSION] = -np.inf if self.rope_as_rod else 0.0
+        floors[[layout.INNER_END, layout.OUTER_END]] = -ROUNDING
+        floors[layout.TILT] = 0.0
+        rows, columns = work_shape(n)
+        recorded = ("corner", "corner", "slewing torque", "trolley force")
+        return System(
+            rhs=flexible_rhs.rhs,
+            size=self.size,
+            guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded),
+            floors=floors,
+            scale=scale(self),
+            numbers=numbers(self),
+            vectors=vectors(self),
+            matrices=matrices(self),
+            tables=shape_table((self.crane.lateral, self.crane.vertical), self.crane.jib_length),
+            work_shape=(rows + layout.ROWS, columns),
+            restore=lambda state: restore(state, n, self.axes),
+            switch=Corner(layout.INSIDE, layout.OUTSIDE, drive.soft != drive.stiff) if drive else None,
+        )
+
+    @cached_property
+    def angular_frequencies(self) -> Floats:
+        """Of each coordinate's mode by itself [rad/s], zero for the slewing angle; shape (coordinates,)."""
+        crane, counts = self.crane, self.counts
+        tower = np.asarray(crane.tower.angular_frequencies)
+        return np.concatenate([
+            tower,
+            tower[: counts["tower_y"]],
+            crane.torsion.angular_frequencies,
+            np.zeros(counts["slewing"]),
+            crane.lateral.angular_frequencies,
+            crane.vertical.angular_frequencies,
+        ])  # fmt: skip
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State at rest at the start.
+
+        Parameters
+        ----------
+        inputs : ndarray
+            Polynomials of the first phase.
+        state : str
+            "equilibrium" (the static solution) or "zero" (undeformed, all weights on).
+        swing_angle : float
+            Angle of the rope from the vertical, positive outward as the head is turned [rad].
+
+        Returns
+        -------
+        ndarray, shape (size,)
+
+        Raises
+        ------
+        NoEquilibrium
+            If there is no stable equilibrium.
+        ValueError
+            If the state is not one of the two.
+        """
+        if state not in ("equilibrium", "zero"):
+            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+        n, y = self.coordinates, np.zeros(self.size)
+        heading = 0.0 if self.slewing == "fixed" else float(inputs[layout.SLEWING, 0])
+        if self.drive is not None:
+            y[self.parts["slewing"]] = heading
+        if state == "equilibrium":
+            y[:n] = self.equilibrium(inputs)
+        y[n] = np.sin(swing_angle)
+        if self.axes == 3:
+            y[n : n + 2] = np.sin(swing_angle) * np.array([np.cos(heading), np.sin(heading)])
+        y[n + self.axes - 1] = -np.cos(swing_angle)
+        return y
+
+    def equilibrium(self, inputs: Floats) -> Floats:
+        """Coordinates at rest under all weights, load hanging straight down, in still air; shape (coordinates,).
+
+        Newton's method on f(q) - m_p g J_D^T e_z = 0. The rope's direction is known, so the inverted pendulum
+        cannot be found; the solution is refused unless it is stable.
+
+        Raises
+        ------
+        NoEquilibrium
+            If the stiffness is not positive definite, or no equilibrium is found.
+        """
+        origin = np.zeros(self.coordinates)
+        if self.drive is not None:
+            origin[self.parts["slewing"]] = inputs[layout.SLEWING, 0]
+
+        def residual(departure: Floats) -> Floats:
+            return self.static_force(origin + departure, inputs)
+
+        try:
+            return origin + stable_equilibrium(residual, self.system.scale[: self.coordinates])
+        except Unstable as failure:
+            raise NoEquilibrium(TOWER_BUCKLED, f"{failure}; {self.buckling_message()}") from failure
+
+    def static_force(self, q: Floats, inputs: Floats) -> Floats:
+        """Generalised forces on the crane at rest with its load hanging straight down; shape (coordinates,)."""
+        n, work = self.coordinates, self.at_rest(q, inputs)
+        up = work[JACOBIAN + self.axes - 1, :n]
+        return np.asarray(work[FORCE, :n] - self.load.mass * self.crane.gravity * up)
+
+    def buckling_message(self) -> str:
+        """How far the tower is from buckling."""
+        if not self.crane.tower.count:
+            return "the tower is rigid"
+        geometric = np.linalg.eigvals(np.linalg.solve(self.crane.tower.stiffness_matrix(), geometric_stiffness(self)))
+        return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
+
+    def at_rest(self, q: Floats, inputs: Floats) -> Floats:
+        """Scratch array of the structure at rest at these coordinates in still air."""
+        y = np.zeros(self.size)
+        y[: self.coordinates] = q
+        fixed = np.zeros_like(inputs)
+        fixed[:, 0] = inputs[:, 0]
+        if self.wind:
+            fixed[-3:] = 0.0
+        work, constants = np.zeros(self.system.work_shape), self.system.constants
+        flexible_kernel.structure(self.axes, 0.0, y, fixed, *constants, work)
+        if self.drive is not None:
+            flexible_rhs.drive(0.0, y, fixed, constants[0], work)
+        return work
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time, see :func:`towercrane.cranes.flexible_outputs.observe`."""
+        from towercrane.cranes.flexible_outputs import observe
+
+        return observe(self, motions, times, states, guards)
+
+    def provenance(self) -> dict[str, Any]:
+        """Crane, modes and load, for a result's attributes."""
+        modes = {f"{kind}_modes": count for kind, count in self.counts.items() if kind != "slewing"}
+        return {
+            "crane": self.crane.name,
+            **modes,
+            "payload_mass": self.load.mass,
+            "gravity": self.crane.gravity,
+        }

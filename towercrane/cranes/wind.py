@@ -1,0 +1,96 @@
+"""Wind: what it presses on, and motions that describe it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.motion import Motion, rest
+from towercrane.payload import AIR_DENSITY
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+CHANNELS = ("wind_x", "wind_y", "wind_z")
+"""Names of the motions whose values are the components of the wind's velocity in fixed axes [m/s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class WindAreas:
+    """Drag areas of a crane's structure, drag coefficients included.
+
+    The tower is pressed along the wind; jib, counter-jib and counterweight across their axis, by the component of
+    the wind normal to it. The structure's own motion is slow beside the wind's.
+
+    Parameters
+    ----------
+    tower, jib, counter_jib : float
+        Per unit length [m].
+    counterweight : float
+        [m^2]
+
+    Raises
+    ------
+    ValueError
+        If a value is negative or not finite.
+    """
+
+    tower: float = 0.0
+    jib: float = 0.0
+    counter_jib: float = 0.0
+    counterweight: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(f"WindAreas.{name}: wanted zero or more, got {getattr(self, name)!r}")
+
+
+def drag(area: float) -> float:
+    """Drag per squared speed of a drag area, rho C_d A / 2 [kg/m]."""
+    return 0.5 * AIR_DENSITY * area
+
+
+def steady(velocity: ArrayLike) -> dict[str, Motion]:
+    """Wind of constant velocity, a motion for each channel.
+
+    Parameters
+    ----------
+    velocity : array_like, shape (3,)
+        [m/s]
+    """
+    vector = np.asarray(velocity, dtype=float)
+    if vector.shape != (3,) or not np.all(np.isfinite(vector)):
+        raise ValueError(f"velocity: wanted 3 finite components, got {velocity!r}")
+    return {channel: rest(float(value)) for channel, value in zip(CHANNELS, vector, strict=True)}
+
+
+def gusts(step: float, velocities: ArrayLike) -> dict[str, Motion]:
+    """Wind that varies linearly between values on a uniform grid; after the last it stays.
+
+    The solver restarts at every knot, so no accuracy is lost there.
+
+    Parameters
+    ----------
+    step : float
+        Time between two values [s].
+    velocities : array_like, shape (p, 3)
+        [m/s]
+
+    Raises
+    ------
+    ValueError
+        If the step is not positive, or there are not two or more rows of three finite values.
+    """
+    rows = np.asarray(velocities, dtype=float)
+    if not 0.0 < step < np.inf:
+        raise ValueError(f"step: wanted a positive time, got {step!r}")
+    if rows.ndim != 2 or rows.shape[1] != 3 or len(rows) < 2 or not np.all(np.isfinite(rows)):
+        raise ValueError(f"velocities: wanted two or more rows of 3 finite components, got shape {rows.shape}")
+    times = np.arange(len(rows), dtype=np.float64) * step
+    slopes = np.diff(rows, axis=0) / step
+    return {
+        channel: Motion(times, np.stack([rows[:-1, k], slopes[:, k]], axis=1)) for k, channel in enumerate(CHANNELS)
+    }
