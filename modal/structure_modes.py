@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -263,6 +263,7 @@ def _properties(member: Member, ends: Floats) -> tuple[Floats, Floats, Floats, F
     )
 
 
+@cache
 def _gauss() -> tuple[Floats, Floats]:
     """Gauss-Legendre points and weights on (0, 1), enough for products of two shapes."""
     points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 SUBJECTS: dict[str, tuple[str, Subject]] = {
     "roots": ("characteristic roots against finite elements", lambda repeats, quick: roots(repeats)),
-    "structure": ("dynamic stiffness of a stepped tower", lambda repeats, quick: stepped_tower(repeats)),
-    "map": ("frequency map of the plane crane", lambda repeats, quick: crane_map(repeats)),
+    "tower": ("tower of three segments against finite elements", lambda repeats, quick: stepped_tower(repeats)),
+    "map": ("frequency map against finite elements", lambda repeats, quick: crane_map(repeats)),
     "radial-rhs": ("right-hand side of the radial crane", lambda repeats, quick: right_hand_side(repeats)),
     "radial": ("radial crane", lambda repeats, quick: work_precision(radial_scene(), repeats, quick=quick)),
     "radial-modes": ("modes left out", lambda repeats, quick: modes_left_out(repeats)),

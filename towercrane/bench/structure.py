@@ -53,7 +53,7 @@ def stepped_tower(repeats: int) -> dict[str, Any]:
     values, timings = interleaved(contestants, repeats)
     reference, note = _transfer_matrices(values["exact"])
     return _compared(
-        "structure",
+        "tower",
         "Eight frequencies of a tower of three shear-flexible segments with a body: relative error of the worst",
         values, timings, reference, [note],
     )  # fmt: skip
