@@ -136,7 +136,7 @@ class Plan:
         return motions[0] if len(motions) == 1 else sequence(*motions), tuple(found)
 
 
-def shaped_motions(plans: Mapping[str, Plan], frequencies: FrequenciesAt) -> dict[str, Motion]:
+def shaped_motions(plans: Mapping[str, Plan], frequencies: FrequenciesAt | None = None) -> dict[str, Motion]:
     """Motions of all drives, each ramp shaped for where trolley and hook are as it ends.
 
     Shaping moves the ramps and so changes the places: this is repeated until the ends of the ramps have settled.
@@ -145,7 +145,7 @@ def shaped_motions(plans: Mapping[str, Plan], frequencies: FrequenciesAt) -> dic
     ----------
     plans : dict of str to Plan
         By channel; "trolley" and "rope" among them.
-    frequencies : callable
+    frequencies : callable, optional
         What a drive excites [Hz], from its channel, the trolley's position and the rope's length [m]; such as
         :class:`towercrane.cranes.sway_frequencies.SwayFrequencies`.
 
@@ -153,12 +153,16 @@ def shaped_motions(plans: Mapping[str, Plan], frequencies: FrequenciesAt) -> dic
     ------
     NotSettled
         If they do not.
+    ValueError
+        If frequencies or the motions that they depend on are needed and missing.
     """
     motions = {channel: plan.commanded for channel, plan in plans.items()}
     ramp_ends = {channel: plan.ramp_ends for channel, plan in plans.items()}
     for _ in range(MOST_ROUNDS):
 
         def excited(channel: str, time: float, motions: dict[str, Motion] = motions) -> Sequence[float]:
+            if frequencies is None or not {"trolley", "rope"} <= set(motions):
+                raise ValueError(f"shaped_motions: {channel} wants frequencies of a crane, its trolley and its rope")
             return frequencies(channel, float(motions["trolley"](time)), float(motions["rope"](time)))
 
         found = {name: plan.shaped(partial(excited, name), ramp_ends[name]) for name, plan in plans.items()}

@@ -55,10 +55,11 @@ def integral(rate: Motion, start: float) -> Motion:
 
 def rate(motion: Motion) -> Motion:
     """Derivative of a motion over time, as a motion that ends where the motion's last piece does."""
-    return Motion(motion.switch_times, np.polynomial.polynomial.polyder(motion.coefficients, axis=1))
+    pieces = np.asarray(np.polynomial.polynomial.polyder(motion.coefficients, axis=1), dtype=float)
+    return Motion(motion.switch_times, pieces)
 
 
 def switches(moments: Floats) -> Floats:
     """Ascending times without those that lie within `SAME_INSTANT` of the one before [s]."""
     ordered = np.unique(moments)
-    return ordered[np.concatenate([[True], np.diff(ordered) > SAME_INSTANT])]
+    return np.asarray(ordered[np.concatenate([[True], np.diff(ordered) > SAME_INSTANT])])

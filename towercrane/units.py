@@ -73,6 +73,7 @@ KINDS = {
     "rad/s^3": ("a rotary jerk", "0.05 rad/s^3"),
     "kg m": ("a mass moment", "90 kg m"),
     "kg m^2": ("a moment of inertia", "6 kg m^2"),
+    "Hz": ("a frequency", "0.12 Hz"),
     "N m": ("a torque", "22 N m"),
     "N/m": ("a stiffness", "60 kN/m"),
     "N m/rad": ("a rotary stiffness", "40 kN m/rad"),
