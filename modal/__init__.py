@@ -1,4 +1,4 @@
-"""Natural frequencies and mode shapes of beams, lattice columns and plane frames of two beams."""
+"""Natural frequencies and mode shapes of beams, shafts, lattice columns and plane frames of two beams."""
 
 from __future__ import annotations
 
@@ -12,16 +12,20 @@ if TYPE_CHECKING:
     from modal.lattice import LacedColumn
     from modal.roots import characteristic_roots
     from modal.shapes import Modes, cantilever_modes
+    from modal.torsion import Shaft, TorsionModes, torsion_modes
 
 __all__ = [
     "Beam",
     "EndBody",
     "LacedColumn",
     "Modes",
+    "Shaft",
+    "TorsionModes",
     "cantilever_modes",
     "characteristic_roots",
     "finite_element_frequencies",
     "frame_frequencies",
+    "torsion_modes",
 ]
 
 _HOME = {
@@ -33,6 +37,9 @@ _HOME = {
     "characteristic_roots": "roots",
     "finite_element_frequencies": "elements",
     "frame_frequencies": "frame",
+    "Shaft": "torsion",
+    "TorsionModes": "torsion",
+    "torsion_modes": "torsion",
 }
 
 

@@ -117,7 +117,7 @@ def torsion_modes(shaft: Shaft, count: int, end_inertia: float = 0.0) -> Torsion
 
     Notes
     -----
-    With a = end_inertia / (shaft's inertia) the roots solve cos y = a y sin y, one in each ((i - 1) pi, (i - 1/2) pi].
+    With a = end_inertia / (shaft's inertia) the roots solve cos y = a y sin y, one from each i pi to (i + 1/2) pi.
     """
     from scipy.optimize import brentq
 

@@ -8,7 +8,7 @@ import qtz5613
 from modal.beam import Beam
 from modal.torsion import Shaft
 from towercrane.cranes.flexible import FlexibleModel
-from towercrane.cranes.flexible_crane import Modes, flexible_crane
+from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
 from towercrane.motion import rest, sequence, speed_trapezoid, trapezoid
 from towercrane.payload import Load
 
@@ -20,7 +20,7 @@ CRANE = dataclasses.replace(
 
 
 def model(tower=2, torsion=1, lateral=3, vertical=3, load=1500.0, areas=None, planes=2, crane=CRANE, **options):
-    modes = Modes(tower, torsion, lateral, vertical)
+    modes = ModeCounts(tower, torsion, lateral, vertical)
     hung = load if isinstance(load, Load) else Load(load)
     return FlexibleModel(flexible_crane(crane, modes, areas, planes), hung, **options)
 

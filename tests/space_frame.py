@@ -10,7 +10,7 @@ STIFF = 1e12
 """Axial stiffness E A [N]: what the crane's equations take as rigid."""
 
 SLIM = 1e-4
-"""Moment of inertia about a jib element's axis per length [kg m], and its torsional stiffness far above: no torsion."""
+"""Moment of inertia about a jib element's axis per length [kg m], its torsional stiffness far above: no torsion."""
 
 
 def bending(length, mass, stiffness):
@@ -58,17 +58,23 @@ def frequencies(crane, heading, trolley, load, count, tower_elements=16, jib_ele
     out = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
     # A node of the jib stands where the trolley does.
     inner = max(1, min(jib_elements - 1, round(jib_elements * trolley / crane.jib.length)))
-    stations = np.r_[np.linspace(0, trolley, inner + 1), np.linspace(trolley, crane.jib.length, jib_elements - inner + 1)[1:]]
+    stations = np.r_[
+        np.linspace(0, trolley, inner + 1), np.linspace(trolley, crane.jib.length, jib_elements - inner + 1)[1:]
+    ]
     tower = crane.tower
     spans = [(tower.length / tower_elements, i, i + 1, True) for i in range(tower_elements)]
     spans += [(h, tower_elements + i, tower_elements + i + 1, False) for i, h in enumerate(np.diff(stations))]
     for h, a, b, upright in spans:
         if upright:
             shaft, stiff = crane.shaft, tower.bending_stiffness
-            parts = element(h, tower.mass_per_length, stiff, stiff, shaft.torsional_stiffness, shaft.inertia_per_length)
+            parts = element(
+                h, tower.mass_per_length, stiff, stiff, shaft.torsional_stiffness, shaft.inertia_per_length
+            )
         else:
             jib = crane.jib
-            parts = element(h, jib.mass_per_length, crane.jib_lateral.bending_stiffness, jib.bending_stiffness, 1e9, SLIM)
+            parts = element(
+                h, jib.mass_per_length, crane.jib_lateral.bending_stiffness, jib.bending_stiffness, 1e9, SLIM
+            )
         dofs = [*range(6 * a, 6 * a + 6), *range(6 * b, 6 * b + 6)]
         for whole, part in zip((m, k), parts, strict=True):
             whole[np.ix_(dofs, dofs)] += turned(part, up if upright else out)

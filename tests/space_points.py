@@ -31,7 +31,9 @@ class Points:
     def felt(self, gravity):
         """Acceleration plus gravity, shape (p, 3)."""
         rows = [np.broadcast_to(2.0 * jet.c[2], self.mass.shape) for jet in self.place]
-        return np.stack(rows, axis=1) + [0.0, 0.0, gravity if self.heavy else 0.0]
+        felt = np.stack(rows, axis=1)
+        felt[:, 2] += gravity if self.heavy else 0.0
+        return felt
 
     def derivative(self, order=1):
         return np.stack([np.broadcast_to(jet.c[order], self.mass.shape) for jet in self.place], axis=1)
@@ -97,19 +99,23 @@ class CraneCloud:
         one = np.ones(1)
         clouds = {
             "tower": Points(
-                [shaped(self.bends, part["tower_x"]), shaped(self.bends[: len(part["tower_y"])], part["tower_y"]), nothing],
+                [shaped(self.bends, part["tower_x"]), shaped(self.bends[: len(part["tower_y"])], part["tower_y"]),
+                 nothing],
                 crane.tower.mass_per_length * self.tower_weights, own,
             ),
             "jib": Points(bent, crane.jib.mass_per_length * self.jib_weights, own),
             "counter-jib": Points(
-                head(Jet(self.counter), nothing, nothing), crane.counter_jib_mass_per_length * self.counter_weights, own
+                head(Jet(self.counter), nothing, nothing),
+                crane.counter_jib_mass_per_length * self.counter_weights, own,
             ),
             "counterweight": Points(
                 head(Jet(-crane.counter_jib_length), nothing, nothing), crane.counterweight * one, own
             ),
             "head": Points(head(*(Jet(arm * column) for column in spokes.T)), roll, False),
             "trolley": Points(hung, crane.trolley_mass * one, True),
-            "load": Points([a + length * n for a, n in zip(hung, rope, strict=True)], self.model.load.mass * one, True),
+            "load": Points(
+                [a + length * n for a, n in zip(hung, rope, strict=True)], self.model.load.mass * one, True
+            ),
         }  # fmt: skip
         return clouds, rope, axes, (ux, uy)
 
@@ -158,7 +164,7 @@ class CraneCloud:
         return np.array(sums), np.array(sizes)
 
     def _own(self, i, q, rate, acceleration):
-        """Elasticity, damping, the torsion's and the drive's inertia, and the weight's softening of one coordinate."""
+        """Elasticity, damping, inertia of torsion and drive, and the weight's softening of one coordinate."""
         model, flexible = self.model, self.model.crane
         kind = next(k for k, part in model.parts.items() if part.start <= i < part.stop)
         first = model.parts[kind].start

@@ -130,7 +130,7 @@ def test_accelerations_follow_from_positions(name):
     for instant in instants(name):
         expected, mass = instant.expected()
         size = np.sqrt(np.diag(mass))
-        assert np.max(abs(instant.found - expected) * size) < 1e-10 * np.max(abs(expected) * size)
+        assert np.max(abs(instant.found - expected) * size) < 1e-12 * np.max(abs(expected) * size)
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -37,7 +37,7 @@ def test_frequencies_against_beam_elements_in_space(state):
     many = structural(space.model(3, 2, 6, 6), heading, trolley)[:8] / reference - 1
     assert np.max(abs(few)) < 6e-3
     assert np.max(abs(few[:4])) < 2e-4
-    assert np.max(abs(many)) < 5e-4
+    assert np.max(abs(many)) < 2e-4
     # A Ritz model is too stiff, never too soft.
     assert min(few.min(), many.min()) > -1e-6
 

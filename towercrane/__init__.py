@@ -1,6 +1,7 @@
 """How a tower crane vibrates and how its load swings.
 
-``load_case`` reads a case file and ``run_case`` simulates it. ``TowerCrane``, ``Load`` and ``RadialModel`` with
+``load_case`` reads a case file and ``run_case`` simulates it. ``TowerCrane``, ``Load`` and ``RadialModel``
+(or ``FlexibleModel`` of a ``flexible_crane`` in space) with
 :func:`towercrane.simulate.simulate` and the motions of :mod:`towercrane.motion` do the same without files.
 """
 
@@ -11,19 +12,33 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from towercrane.case import load_case
+    from towercrane.cranes.flexible import FlexibleModel
+    from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
     from towercrane.cranes.radial import RadialModel
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.payload import Load
     from towercrane.simulate import run_case
 
-__all__ = ["Load", "RadialModel", "TowerCrane", "load_case", "run_case"]
+__all__ = [
+    "FlexibleModel",
+    "Load",
+    "ModeCounts",
+    "RadialModel",
+    "TowerCrane",
+    "flexible_crane",
+    "load_case",
+    "run_case",
+]
 
 __version__ = "0.1.0"
 
 _HOME = {
+    "FlexibleModel": "cranes.flexible",
     "Load": "payload",
+    "ModeCounts": "cranes.flexible_crane",
     "RadialModel": "cranes.radial",
     "TowerCrane": "cranes.tower_crane",
+    "flexible_crane": "cranes.flexible_crane",
     "load_case": "case",
     "run_case": "simulate",
 }

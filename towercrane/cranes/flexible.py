@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from towercrane.cranes import flexible_kernel, flexible_rhs
 from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes import flexible_rhs
 from towercrane.cranes.corner import Corner
+from towercrane.cranes.flexible_constants import geometric_stiffness, matrices, numbers, scale, vectors
 from towercrane.cranes.shape_table import shape_table
 from towercrane.cranes.wind import CHANNELS
 from towercrane.equilibrium import Unstable, stable_equilibrium
@@ -31,9 +32,6 @@ SLACK_ROPE = "slack rope"
 TROLLEY_OFF_JIB = "trolley off the jib"
 TOWER_BUCKLED = "tower buckled"
 
-TILT_LIMIT = 0.5
-"""Tilt of the tower top at which a run ends as buckled [rad]: far beyond what a beam theory of small slopes holds."""
-
 ROUNDING = 1e-9
 """Way beyond an end of the jib that counts as parked on it [m]."""
 
@@ -46,12 +44,22 @@ class ModalDamping:
     ----------
     tower, torsion, lateral, vertical : float
         Zero or more.
+
+    Raises
+    ------
+    ValueError
+        If one is negative or not finite.
     """
 
     tower: float = 0.0
     torsion: float = 0.0
     lateral: float = 0.0
     vertical: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(f"ModalDamping.{name}: wanted zero or more, got {getattr(self, name)!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +91,8 @@ class FlexibleModel:
     Raises
     ------
     ValueError
-        If a crane that leaves the plane is asked to stay in it, or the drive's friction is set-valued.
+        If a crane that leaves the plane is asked to stay in it, the slewing is of no known kind, the drive's friction
+        is set-valued, or there is inertia of a drive without a drive.
     """
 
     crane: FlexibleCrane
@@ -102,6 +111,10 @@ class FlexibleModel:
         leaves = crane.planes > 1 or crane.torsion.count or crane.lateral.count or self.slewing != "fixed"
         if self.axes == 2 and leaves:
             raise ValueError("FlexibleModel.axes: wanted 3 for a crane that moves out of its plane, got 2")
+        if isinstance(self.slewing, str) and self.slewing not in ("prescribed", "fixed"):
+            raise ValueError(f"FlexibleModel.slewing: wanted 'prescribed', 'fixed' or a Drive, got {self.slewing!r}")
+        if self.drive is None and self.drive_inertia:
+            raise ValueError(f"FlexibleModel.drive_inertia: wanted 0 without a drive, got {self.drive_inertia!r}")
         if self.drive is not None and self.drive.friction == "stick-slip":
             raise ValueError("FlexibleModel.slewing: wanted friction 'none' or 'tanh', got 'stick-slip'")
         if not 0.0 <= self.drive_inertia < np.inf:
@@ -114,7 +127,7 @@ class FlexibleModel:
 
     @cached_property
     def channels(self) -> tuple[str, ...]:
-        """Motions: trolley and rope [m], slewing angle or the drive's shaft [rad], wind [m/s], as the scene has them."""
+        """Motions: trolley and rope [m], slewing angle or shaft of its drive [rad], wind [m/s], as there are."""
         turning: tuple[str, ...] = ("shaft",) if self.drive is not None else ("slewing",)
         if self.slewing == "fixed":
             turning = ()
@@ -167,22 +180,10 @@ class FlexibleModel:
         return 2 * (self.coordinates + self.axes) + 1
 
     @cached_property
-    def geometric_stiffness(self) -> Floats:
-        """Stiffness that the weight takes from the tower modes, int N phi' phi' (tower, tower) [1/s^2].
-
-        N(s) = (m_r + m_c + m_p + m_t (l_t - s)) g at the height s.
-        """
-        crane = self.crane
-        own = 1.0 if self.self_weight else 0.0
-        above = own * crane.slewing.mass + crane.trolley_mass + self.load.mass
-        along = own * crane.tower_mass_per_length * crane.tower.weighted_slope_matrix()
-        return np.asarray(crane.gravity * (above * crane.tower.slope_matrix() + along))
-
-    @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
         n, drive = self.coordinates, self.drive
-        floors = np.full(8, -np.inf)
+        floors = np.full(layout.GUARDS, -np.inf)
         floors[layout.TENSION] = -np.inf if self.rope_as_rod else 0.0
         floors[[layout.INNER_END, layout.OUTER_END]] = -ROUNDING
         floors[layout.TILT] = 0.0
@@ -193,78 +194,15 @@ class FlexibleModel:
             size=self.size,
             guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded),
             floors=floors,
-            scale=self._scale(),
-            numbers=self._numbers(),
-            vectors=self._vectors(),
-            matrices=self._matrices(),
+            scale=scale(self),
+            numbers=numbers(self),
+            vectors=vectors(self),
+            matrices=matrices(self),
             tables=shape_table((self.crane.lateral, self.crane.vertical), self.crane.jib_length),
-            work_shape=(rows + layout.ROWS, max(columns, layout.WIDTH)),
+            work_shape=(rows + layout.ROWS, columns),
             restore=lambda state: restore(state, n, self.axes),
             switch=Corner(layout.INSIDE, layout.OUTSIDE, drive.soft != drive.stiff) if drive else None,
         )
-
-    def _numbers(self) -> Floats:
-        crane, load, drive, slewing = self.crane, self.load, self.drive, self.crane.slewing
-        numbers = np.zeros(layout.NUMBERS)
-        numbers[: len(self.counts)] = list(self.counts.values())
-        numbers[layout.TROLLEY_MASS] = crane.trolley_mass
-        numbers[layout.GRAVITY] = crane.gravity
-        numbers[layout.SELF_GRAVITY] = crane.gravity if self.self_weight else 0.0
-        numbers[layout.SLEWING_MASS], numbers[layout.STATIC_MOMENT] = slewing.mass, slewing.moment
-        numbers[layout.ROLL], numbers[layout.PITCH], numbers[layout.YAW] = slewing.roll, slewing.pitch, slewing.yaw
-        numbers[layout.JIB_LENGTH] = crane.jib_length
-        numbers[layout.TILT_LIMIT] = TILT_LIMIT
-        numbers[layout.LOAD_MASS] = load.mass
-        numbers[layout.DRAG] = load.drag
-        numbers[layout.HINGE_DAMPING] = load.rope_damping
-        numbers[layout.SLEWING_CHANNEL] = -1 if self.slewing == "fixed" else 2
-        numbers[layout.WIND_CHANNEL] = len(self.channels) - 3 if self.wind else -1
-        numbers[layout.FRICTION_RATE] = 1.0
-        if drive is not None:
-            numbers[layout.SOFT], numbers[layout.STIFF] = drive.soft, drive.stiff
-            numbers[layout.CORNER], numbers[layout.DRIVE_DAMPING] = drive.corner, drive.damping
-            if drive.friction == "tanh":
-                numbers[layout.FRICTION_TORQUE] = drive.friction_torque
-                numbers[layout.FRICTION_RATE] = drive.friction_rate
-        if crane.exposure is not None:
-            numbers[layout.HEAD_AREA], numbers[layout.HEAD_AREA_MOMENT] = crane.exposure.mass, crane.exposure.moment
-        return numbers
-
-    def _vectors(self) -> Floats:
-        crane, parts, n = self.crane, self.parts, self.coordinates
-        vectors = np.zeros((layout.VECTORS, n))
-        # One mode list per plane of the tower: both see the same tip, slope and wind.
-        swept = crane.tower_drag / crane.tower_mass_per_length * crane.tower_moments[0]
-        for plane in ("tower_x", "tower_y"):
-            if self.counts[plane]:
-                vectors[layout.TIP, parts[plane]] = crane.tower(crane.tower_height)
-                vectors[layout.SLOPE, parts[plane]] = crane.top_slope
-                vectors[layout.EXPOSURE, parts[plane]] = swept
-        vectors[layout.TWIST, parts["torsion"]] = crane.torsion(crane.tower_height)
-        vectors[layout.TWIST, parts["slewing"]] = 1.0
-        jib = slice(parts["jib_lateral"].start, n)
-        vectors[layout.JIB_MASS, jib] = crane.slewing.first
-        vectors[layout.JIB_MOMENT, jib] = crane.slewing.second
-        if crane.exposure is not None:
-            vectors[layout.EXPOSURE, jib] = crane.exposure.first
-        d = self.damping
-        ratios = np.repeat([d.tower, d.tower, d.torsion, 0.0, d.lateral, d.vertical], list(self.counts.values()))
-        vectors[layout.DAMPING] = 2.0 * ratios * self.angular_frequencies
-        return vectors
-
-    def _matrices(self) -> Floats:
-        crane, parts, n = self.crane, self.parts, self.coordinates
-        own, stiffness = np.zeros((n, n)), np.diag(self.angular_frequencies**2)
-        for plane in ("tower_x", "tower_y"):
-            if self.counts[plane]:
-                own[parts[plane], parts[plane]] = crane.tower.mass_matrix()
-                if self.weight_softening:
-                    stiffness[parts[plane], parts[plane]] -= self.geometric_stiffness
-        own[parts["torsion"], parts["torsion"]] = crane.torsion.mass_matrix()
-        own[parts["slewing"], parts["slewing"]] = self.drive_inertia
-        jib = slice(parts["jib_lateral"].start, n)
-        own[jib, jib] = crane.slewing.products
-        return np.array([own, stiffness])
 
     @cached_property
     def angular_frequencies(self) -> Floats:
@@ -279,18 +217,6 @@ class FlexibleModel:
             crane.lateral.angular_frequencies,
             crane.vertical.angular_frequencies,
         ])  # fmt: skip
-
-    def _scale(self) -> Floats:
-        """Tolerances are metres where a mode moves most, radians of twist and swing; the work steers nothing."""
-        # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
-        crane = self.crane
-        height, reach = (np.linspace(0.0, length, 201) for length in (crane.tower_height, crane.jib_length))
-        bends, sides, rises = crane.tower(height), crane.lateral(reach), crane.vertical(reach)
-        shapes = [bends, bends[: self.counts["tower_y"]], crane.torsion(height)]
-        shapes += [np.ones((self.counts["slewing"], 1)), sides, rises]
-        largest = np.concatenate([abs(shape).max(axis=1) for shape in shapes])
-        scale = np.concatenate([1.0 / largest, np.ones(self.axes)])
-        return np.concatenate([scale, scale, [np.inf]])
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at rest at the start.
@@ -318,7 +244,7 @@ class FlexibleModel:
         if state not in ("equilibrium", "zero"):
             raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
         n, y = self.coordinates, np.zeros(self.size)
-        heading = 0.0 if self.slewing == "fixed" else float(inputs[2, 0])
+        heading = 0.0 if self.slewing == "fixed" else float(inputs[layout.SLEWING, 0])
         if self.drive is not None:
             y[self.parts["slewing"]] = heading
         if state == "equilibrium":
@@ -342,7 +268,7 @@ class FlexibleModel:
         """
         origin = np.zeros(self.coordinates)
         if self.drive is not None:
-            origin[self.parts["slewing"]] = inputs[2, 0]
+            origin[self.parts["slewing"]] = inputs[layout.SLEWING, 0]
 
         def residual(departure: Floats) -> Floats:
             return self.static_force(origin + departure, inputs)
@@ -362,7 +288,7 @@ class FlexibleModel:
         """How far the tower is from buckling."""
         if not self.crane.tower.count:
             return "the tower is rigid"
-        geometric = np.linalg.eigvals(self.geometric_stiffness / self.crane.tower.angular_frequencies**2)
+        geometric = np.linalg.eigvals(geometric_stiffness(self) / self.crane.tower.angular_frequencies**2)
         return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
 
     def at_rest(self, q: Floats, inputs: Floats) -> Floats:
@@ -374,7 +300,7 @@ class FlexibleModel:
         if self.wind:
             fixed[-3:] = 0.0
         work, constants = np.zeros(self.system.work_shape), self.system.constants
-        flexible_rhs.structure(self.axes, 0.0, y, fixed, *constants, work)
+        flexible_kernel.structure(self.axes, 0.0, y, fixed, *constants, work)
         if self.drive is not None:
             flexible_rhs.drive(0.0, y, fixed, constants[0], work)
         return work

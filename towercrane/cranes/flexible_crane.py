@@ -43,7 +43,7 @@ class TorsionBasis(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Modes:
+class ModeCounts:
     """Numbers of modes of each kind, zero for what is rigid.
 
     Parameters
@@ -69,7 +69,7 @@ class Modes:
     def __post_init__(self) -> None:
         for name in self.__slots__:
             if getattr(self, name) < 0:
-                raise ValueError(f"Modes.{name}: wanted zero or more, got {getattr(self, name)!r}")
+                raise ValueError(f"ModeCounts.{name}: wanted zero or more, got {getattr(self, name)!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +100,11 @@ class FlexibleCrane:
         Of the tower, per squared speed and length [kg/m^2].
     gravity : float
         [m/s^2]
+
+    Raises
+    ------
+    ValueError
+        If there are other planes than these.
     """
 
     name: str
@@ -118,6 +123,10 @@ class FlexibleCrane:
     counter_exposure: MassSums | None = None
     tower_drag: float = 0.0
     gravity: float = 9.81
+
+    def __post_init__(self) -> None:
+        if self.planes not in (1, 2):
+            raise ValueError(f"FlexibleCrane.planes: wanted 1 or 2, got {self.planes!r}")
 
     @cached_property
     def slewing(self) -> MassSums:
@@ -154,14 +163,14 @@ class FlexibleCrane:
 
 
 def flexible_crane(
-    crane: TowerCrane, modes: Modes, areas: wind.WindAreas | None = None, planes: int = 2
+    crane: TowerCrane, modes: ModeCounts, areas: wind.WindAreas | None = None, planes: int = 2
 ) -> FlexibleCrane:
     """Crane of uniform members in so many of their modes, the tower's with the head on their end.
 
     Parameters
     ----------
     crane : TowerCrane
-    modes : Modes
+    modes : ModeCounts
     areas : WindAreas, optional
     planes : {1, 2}
         Directions in which the tower bends.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from towercrane.cranes.head_kernel import SIZE
-
 (TOWER_X, TOWER_Y, TORSION, DRIVEN, LATERAL, VERTICAL, TROLLEY_MASS, GRAVITY, SELF_GRAVITY, SLEWING_MASS,
  STATIC_MOMENT, ROLL, PITCH, YAW, JIB_LENGTH, TILT_LIMIT, LOAD_MASS, DRAG, HINGE_DAMPING,
  SLEWING_CHANNEL, WIND_CHANNEL, SOFT, STIFF, CORNER, DRIVE_DAMPING, FRICTION_TORQUE, FRICTION_RATE,
@@ -23,24 +21,11 @@ with vertical too; stiffness."""
 TROLLEY, ROPE, SLEWING = range(3)
 """Rows of ``inputs``; a slewing motion is there unless the head is fixed, the wind's three come last."""
 
-TENSION, INNER_END, OUTER_END, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, TROLLEY_FORCE = range(8)
-"""Guards: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad], way to the corner of the
-drive's coupling from inside and from outside [rad]. Outputs beside them: torque of the slewing drive [N m] and force
-of the trolley's [N]."""
+TENSION, INNER_END, OUTER_END, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, TROLLEY_FORCE, GUARDS = range(9)
+"""Guards, and how many: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad], way to the
+corner of the drive's coupling from inside and from outside [rad]. Outputs beside them: torque of the slewing drive
+[N m] and force of the trolley's [N]."""
 
-HEAD, BODY, SHAPE, ACROSS, ROWS = range(5)
-"""Rows of scratch after the mass matrix, and how many: the head as :func:`towercrane.cranes.head_kernel.move_head`
-leaves it, and more; what turns, as below; jib modes at the trolley; N q of each jib mode with the other direction."""
-
-TILT_ANGLE, POWER, TROLLEY_RATE, PATH, TURN_COLUMN, TURN_ROW, TURN_FORCE = (
-    SIZE, SIZE + 1, SIZE + 2, SIZE + 3, SIZE + 6, SIZE + 9, SIZE + 14,
-)  # fmt: skip
-"""More of the head's row: tilt, power of losses and wind, rate of the trolley and its path in fixed axes (3); how the
-rope's upper end moves with the slewing (3), row of the mass matrix (5) and force that belong to the slewing."""
-
-WEIGHED, STATIC, INERTIA, PUSH, TORQUE, PULL, PLACE = 0, 1, 4, 10, 13, 16, 19
-"""In the body's row, all in the head's axes: mass of what turns, with trolley; first moments (3); moments of inertia
-(xx, xy, xz, yy, yz, zz); force and moment (3 each); force on the trolley alone (3), and its place (3)."""
-
-WIDTH = SIZE + 15
-"""Columns of the scratch array, at least."""
+SHAPE, ACROSS, ROWS = range(3)
+"""Rows of scratch after the mass matrix, and how many: jib modes at the trolley; N q of each jib mode with the other
+direction."""

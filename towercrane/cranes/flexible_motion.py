@@ -146,10 +146,12 @@ class FlexibleMotion:
         return self.model.crane.jib_shapes(self.trolley[0], derivative)
 
     def deflection(self, shapes: Floats, values: Floats) -> Floats:
-        """Sums of the jib's shapes (jib modes, p or 1) with coordinates or rates, to the left and up; shape (p, 2)."""
+        """Sums of the jib's shapes (jib modes, p or 1) with coordinates or rates, left and up; shape (p, 2)."""
         first, middle = self.model.parts["jib_lateral"].start, self.model.parts["jib_vertical"].start
         products = shapes.T * values[:, first:]
-        return np.stack([products[:, : middle - first].sum(axis=1), products[:, middle - first :].sum(axis=1)], axis=1)
+        return np.stack(
+            [products[:, : middle - first].sum(axis=1), products[:, middle - first :].sum(axis=1)], axis=1
+        )
 
     @cached_property
     def suspension(self) -> tuple[Floats, Floats]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numba import types
@@ -15,15 +15,24 @@ from towercrane.payload import ACCELERATION, DIRECTION, FORCE, HINGE, MASS, hang
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
 
+if TYPE_CHECKING:
+    from towercrane.cranes.projection_kernel import SlewingRow
+
 _one, _two = types.float64[::1], types.float64[:, ::1]
 
 
-@kernel(types.float64(types.float64, _one, _two, _one, _two))
-def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> float:
-    """Add the drive's torque to the slewing coordinate's force, and its power; returns the coupling's torque."""
+@kernel(types.UniTuple(types.float64, 3)(types.float64, _one, _two, _one, _two))
+def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> tuple[float, float, float]:
+    """Add the drive's torque to the slewing coordinate's force.
+
+    Returns
+    -------
+    tuple of float
+        Torque of the coupling with its damper [N m], power of shaft, damper and friction [W], and way beyond the
+        coupling's corner [rad].
+    """
     rates = (y.size - 1) // 2
     turned = int(numbers[at.TOWER_X] + numbers[at.TOWER_Y] + numbers[at.TORSION])
-    n = turned + 1 + int(numbers[at.LATERAL] + numbers[at.VERTICAL])
     shaft, shaft_rate, _ = polynomial(inputs, at.SLEWING, t)
     angle, rate = y[turned], y[rates + turned]
     slip = rate - shaft_rate
@@ -33,35 +42,33 @@ def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> float:
     work[FORCE, turned] += torque + friction
     # What the shaft puts in is stored in the coupling, turns the head or is lost between them.
     power = torque * shaft_rate - numbers[at.DRIVE_DAMPING] * slip * slip + friction * rate
-    work[MASS + n + at.HEAD, at.POWER] += power
-    return torque
+    return torque, power, abs(angle - shaft) - numbers[at.CORNER]
 
 
-@kernel()
-def holding_torque(d: int, tension: float, dy: Any, numbers: Any, vectors: Any, work: Any) -> float:
+@kernel(inline=True)
+def holding_torque(
+    d: int, tension: float, x: float, slewing: SlewingRow, dy: Any, numbers: Any, vectors: Any, work: Any
+) -> float:
     """Torque that the prescribed slewing takes: the equation of the coordinate that is not free."""
     n = vectors.shape[1]
     rates = n + d
     to_y = int(numbers[at.TOWER_X])
     to_turn = to_y + int(numbers[at.TOWER_Y])
     to_jib = to_turn + int(numbers[at.TORSION]) + int(numbers[at.DRIVEN])
-    head, body, shapes = MASS + n + at.HEAD, MASS + n + at.BODY, MASS + n + at.SHAPE
-    torque = -work[head, at.TURN_FORCE]
+    column_x, column_y, column_z, with_x, with_y, with_tilt_x, with_tilt_y, own, moment = slewing
+    torque = -moment
     for i in range(to_y):
-        row = work[head, at.TURN_ROW] * vectors[at.TIP, i] + work[head, at.TURN_ROW + 3] * vectors[at.SLOPE, i]
-        torque += row * dy[rates + i]
+        torque += (with_x * vectors[at.TIP, i] + with_tilt_y * vectors[at.SLOPE, i]) * dy[rates + i]
     for i in range(to_y, to_turn):
-        row = work[head, at.TURN_ROW + 1] * vectors[at.TIP, i] - work[head, at.TURN_ROW + 2] * vectors[at.SLOPE, i]
-        torque += row * dy[rates + i]
+        torque += (with_y * vectors[at.TIP, i] - with_tilt_x * vectors[at.SLOPE, i]) * dy[rates + i]
     for i in range(to_turn, to_jib):
-        torque += work[head, at.TURN_ROW + 4] * vectors[at.TWIST, i] * dy[rates + i]
-    hung = numbers[at.TROLLEY_MASS] * work[body, at.PLACE]
+        torque += own * vectors[at.TWIST, i] * dy[rates + i]
+    hung = numbers[at.TROLLEY_MASS] * x
     for i in range(to_jib, to_jib + int(numbers[at.LATERAL])):
-        torque += (vectors[at.JIB_MOMENT, i] + hung * work[shapes, i]) * dy[rates + i]
-    for k in range(d):
-        axis = k if k < d - 1 else 2
-        torque -= work[head, at.TURN_COLUMN + axis] * (tension * work[DIRECTION, k] - work[HINGE, k])
-    return torque
+        torque += (vectors[at.JIB_MOMENT, i] + hung * work[MASS + n + at.SHAPE, i]) * dy[rates + i]
+    torque -= column_x * (tension * work[DIRECTION, 0] - work[HINGE, 0])
+    torque -= column_y * (tension * work[DIRECTION, 1] - work[HINGE, 1])
+    return torque - column_z * (tension * work[DIRECTION, d - 1] - work[HINGE, d - 1])
 
 
 @kernel(rhs_signature())
@@ -80,40 +87,35 @@ def rhs(
     """Right-hand side of the flexible crane."""
     n = vectors.shape[1]
     d = (y.size - 1) // 2 - n
-    head, body = MASS + n + at.HEAD, MASS + n + at.BODY
-    structure(d, t, y, inputs, numbers, vectors, matrices, tables, work)
-    driven = numbers[at.DRIVEN] > 0.0
+    structured = structure(d, t, y, inputs, numbers, vectors, matrices, tables, work)
+    x, xd, tilt, power, path_x, path_y, path_z = structured[:7]
     torque, beyond = 0.0, 0.0
-    if driven:
-        torque = drive(t, y, inputs, numbers, work)
+    if numbers[at.DRIVEN] > 0.0:
+        torque, drive_power, beyond = drive(t, y, inputs, numbers, work)
+        power += drive_power
     length, rate, acceleration = polynomial(inputs, at.ROPE, t)
     gravity, trolley = numbers[at.GRAVITY], numbers[at.TROLLEY_MASS]
     tension = hang_load(
         y, dy, n, d, length, rate, acceleration,
         numbers[at.LOAD_MASS], gravity, numbers[at.DRAG], numbers[at.HINGE_DAMPING], 0.0, 0.0, work,
     )  # fmt: skip
-    power = work[head, at.POWER]
-    if driven:
-        shaft, _, _ = polynomial(inputs, at.SLEWING, t)
-        turned = int(numbers[at.TOWER_X] + numbers[at.TOWER_Y] + numbers[at.TORSION])
-        beyond = abs(y[turned] - shaft) - numbers[at.CORNER]
-    elif d == 3:
-        torque = holding_torque(d, tension, dy, numbers, vectors, work)
+    if numbers[at.DRIVEN] == 0.0 and d == 3:
+        torque = holding_torque(d, tension, x, structured[7:], dy, numbers, vectors, work)
         if numbers[at.SLEWING_CHANNEL] >= 0.0:
             _, turning, _ = polynomial(inputs, at.SLEWING, t)
             power += torque * turning
     # The trolley's drive acts along the deflected jib.
-    force = work[head, at.PATH + 2] * trolley * gravity
-    for k in range(d):
-        axis = k if k < d - 1 else 2
-        pull = trolley * work[ACCELERATION, k] - tension * work[DIRECTION, k] + work[HINGE, k]
-        force += work[head, at.PATH + axis] * pull
-    dy[y.size - 1] += power + force * work[head, at.TROLLEY_RATE]
+    force = path_x * (trolley * work[ACCELERATION, 0] - tension * work[DIRECTION, 0] + work[HINGE, 0])
+    if d == 3:
+        force += path_y * (trolley * work[ACCELERATION, 1] - tension * work[DIRECTION, 1] + work[HINGE, 1])
+    up = d - 1
+    force += path_z * (trolley * (work[ACCELERATION, up] + gravity) - tension * work[DIRECTION, up] + work[HINGE, up])
+    dy[y.size - 1] += power + force * xd
 
     guards[at.TENSION] = tension
-    guards[at.INNER_END] = work[body, at.PLACE]
-    guards[at.OUTER_END] = numbers[at.JIB_LENGTH] - work[body, at.PLACE]
-    guards[at.TILT] = numbers[at.TILT_LIMIT] - work[head, at.TILT_ANGLE]
+    guards[at.INNER_END] = x
+    guards[at.OUTER_END] = numbers[at.JIB_LENGTH] - x
+    guards[at.TILT] = numbers[at.TILT_LIMIT] - tilt
     guards[at.INSIDE] = -beyond
     guards[at.OUTSIDE] = beyond
     guards[at.SLEWING_TORQUE] = torque

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import lumped_kernel as kernel
+from towercrane.cranes.corner import Corner
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,9 +22,8 @@ if TYPE_CHECKING:
 class Transitions:
     """Restarts at corners and the states of set-valued friction.
 
-    A corner only restarts the step control: which line of the coupling holds is read off the twist at every
-    evaluation, so that a crossing that is missed or merely touched cannot leave the wrong one in force. Friction
-    sticks while less than its limit is needed to hold the coordinate, and slips against the motion otherwise.
+    A corner only restarts the step control, see :class:`towercrane.cranes.corner.Corner`. Friction sticks while less
+    than its limit is needed to hold the coordinate, and slips against the motion otherwise.
 
     Parameters
     ----------
@@ -47,15 +47,15 @@ class Transitions:
                 self._settle(numbers, floors, guards_at)
             else:
                 self._slip(float(np.sign(rate)), numbers, floors)
-        self._watch_corner(bool(guards_at()[kernel.INSIDE] >= 0.0), numbers, floors)
+        self._corner(numbers).begin(state, numbers, floors, guards_at)
 
     def cross(
         self, guard: int, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]
     ) -> bool:
         """Set what holds after a guard; a slack rope ends the run."""
-        if guard in (kernel.INSIDE, kernel.OUTSIDE):
-            self._watch_corner(guard == kernel.OUTSIDE, numbers, floors)
-        elif guard == kernel.SLIDING:
+        if self._corner(numbers).cross(guard, state, numbers, floors, guards_at):
+            return True
+        if guard == kernel.SLIDING:
             state[self.rates + self.driven] = 0.0
             self._settle(numbers, floors, guards_at)
         elif guard == kernel.HOLDING:
@@ -64,10 +64,9 @@ class Transitions:
             return False
         return True
 
-    def _watch_corner(self, inside: bool, numbers: Floats, floors: Floats) -> None:
-        bends = numbers[kernel.SOFT] != numbers[kernel.STIFF]
-        floors[kernel.INSIDE] = 0.0 if bends and inside else -np.inf
-        floors[kernel.OUTSIDE] = 0.0 if bends and not inside else -np.inf
+    @staticmethod
+    def _corner(numbers: Floats) -> Corner:
+        return Corner(kernel.INSIDE, kernel.OUTSIDE, bool(numbers[kernel.SOFT] != numbers[kernel.STIFF]))
 
     def _settle(self, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
         """At rest: stick if friction can hold, else give way to the side that pushes."""

@@ -15,18 +15,20 @@ from numba import types
 
 from modal.compiled import kernel
 
-ROTATION, TURN_X, TURN_Y, SPIN, SPIN_BIAS, TOP_VELOCITY = 0, 9, 12, 15, 18, 21
-"""Where in the head's row: R (9, row by row); what a rate of th_x and of th_y turns (3 each, in the head's axes, as
-everything that follows); angular velocity; angular acceleration while all rates are constant; velocity of the top."""
+Vector = tuple[float, float, float]
 
-SIZE = 24
-"""Entries that :func:`move_head` writes."""
+Head = tuple[tuple[float, ...], Vector, Vector, Vector, Vector, Vector]
+"""R (9, row by row), then in the head's axes what a rate of th_x and of th_y turns, the angular velocity, the angular
+acceleration while all rates are constant, and the velocity of the tower's top."""
+
+ROTATION, TURN_X, TURN_Y, SPIN, SPIN_BIAS, TOP_VELOCITY, SIZE = 0, 9, 12, 15, 18, 21, 24
+"""Where these begin in a row of :func:`move_heads`, and how many numbers they are."""
 
 NEARLY_UPRIGHT = 0.0225
 """Squared tilt [rad^2] below which the functions of the tilt are summed as series."""
 
 
-@kernel()
+@kernel(inline=True)
 def tilt_functions(square: float) -> tuple[float, float, float, float, float]:
     """sin f / f, (1 - cos f) / f^2, (f - sin f) / f^3 and, of the last two, the derivatives by f over f.
 
@@ -53,7 +55,7 @@ def tilt_functions(square: float) -> tuple[float, float, float, float, float]:
     return s / f, c1, c2, (s / f - 2.0 * c1) / square, (c1 - 3.0 * c2) / square
 
 
-@kernel()
+@kernel(inline=True)
 def move_head(
     tx: float,
     ty: float,
@@ -64,10 +66,8 @@ def move_head(
     acceleration: float,
     ud_x: float,
     ud_y: float,
-    work: Any,
-    row: int,
-) -> None:
-    """Write orientation and motion of the head into a row of ``work``.
+) -> Head:
+    """Orientation and motion of the head.
 
     Parameters
     ----------
@@ -77,49 +77,40 @@ def move_head(
         Psi, its rate, and the part of its second derivative that is prescribed.
     ud_x, ud_y : float
         Velocity of the tower's top [m/s].
-    work : ndarray
-    row : int
     """
     c0, c1, c2, d1, d2 = tilt_functions(tx * tx + ty * ty)
     c, s = np.cos(turn), np.sin(turn)
     kappa = tx * tyd - ty * txd
     xx, xy, yy = 1.0 - c1 * ty * ty, c1 * tx * ty, 1.0 - c1 * tx * tx
-    work[row, ROTATION] = xx * c + xy * s
-    work[row, ROTATION + 1] = xy * c - xx * s
-    work[row, ROTATION + 2] = c0 * ty
-    work[row, ROTATION + 3] = xy * c + yy * s
-    work[row, ROTATION + 4] = yy * c - xy * s
-    work[row, ROTATION + 5] = -c0 * tx
-    work[row, ROTATION + 6] = c0 * (tx * s - ty * c)
-    work[row, ROTATION + 7] = c0 * (tx * c + ty * s)
-    work[row, ROTATION + 8] = 1.0 - c1 * (tx * tx + ty * ty)
-
+    r00, r01, r02 = xx * c + xy * s, xy * c - xx * s, c0 * ty
+    r10, r11, r12 = xy * c + yy * s, yy * c - xy * s, -c0 * tx
+    r20, r21, r22 = c0 * (tx * s - ty * c), c0 * (tx * c + ty * s), 1.0 - c1 * (tx * tx + ty * ty)
     xx, xy, yy = 1.0 - c2 * ty * ty, c2 * tx * ty, 1.0 - c2 * tx * tx
-    work[row, TURN_X] = xx * c + xy * s
-    work[row, TURN_X + 1] = xy * c - xx * s
-    work[row, TURN_X + 2] = c1 * ty
-    work[row, TURN_Y] = xy * c + yy * s
-    work[row, TURN_Y + 1] = yy * c - xy * s
-    work[row, TURN_Y + 2] = -c1 * tx
-    w_x, w_y = txd + c2 * kappa * ty, tyd - c2 * kappa * tx
-    work[row, SPIN] = w_x * c + w_y * s
-    work[row, SPIN + 1] = w_y * c - w_x * s
-    work[row, SPIN + 2] = turning - c1 * kappa
+    turn_x = (xx * c + xy * s, xy * c - xx * s, c1 * ty)
+    turn_y = (xy * c + yy * s, yy * c - xy * s, -c1 * tx)
+    x, y = txd + c2 * kappa * ty, tyd - c2 * kappa * tx
+    spin = (x * c + y * s, y * c - x * s, turning - c1 * kappa)
     along = tx * txd + ty * tyd
-    bias_x = kappa * (d2 * along * ty + c2 * tyd)
-    bias_y = -kappa * (d2 * along * tx + c2 * txd)
-    work[row, SPIN_BIAS] = bias_x * c + bias_y * s + turning * work[row, SPIN + 1]
-    work[row, SPIN_BIAS + 1] = bias_y * c - bias_x * s - turning * work[row, SPIN]
-    work[row, SPIN_BIAS + 2] = acceleration - d1 * along * kappa
-    for k in range(3):
-        work[row, TOP_VELOCITY + k] = work[row, ROTATION + k] * ud_x + work[row, ROTATION + 3 + k] * ud_y
+    x, y = kappa * (d2 * along * ty + c2 * tyd), -kappa * (d2 * along * tx + c2 * txd)
+    bias_x, bias_y = x * c + y * s + turning * spin[1], y * c - x * s - turning * spin[0]
+    top = (r00 * ud_x + r10 * ud_y, r01 * ud_x + r11 * ud_y, r02 * ud_x + r12 * ud_y)
+    rotation = (r00, r01, r02, r10, r11, r12, r20, r21, r22)
+    return rotation, turn_x, turn_y, spin, (bias_x, bias_y, acceleration - d1 * along * kappa), top
 
 
 @kernel(types.void(types.float64[:, ::1], types.float64[:, ::1]))
 def move_heads(motions: Any, heads: Any) -> None:
     """:func:`move_head` over time: a row of nine motions, in its order, for each row of ``heads`` (p, SIZE)."""
     for row in range(motions.shape[0]):
-        move_head(
+        rotation, turn_x, turn_y, spin, bias, top = move_head(
             motions[row, 0], motions[row, 1], motions[row, 2], motions[row, 3], motions[row, 4], motions[row, 5],
-            motions[row, 6], motions[row, 7], motions[row, 8], heads, row,
+            motions[row, 6], motions[row, 7], motions[row, 8],
         )  # fmt: skip
+        for k in range(9):
+            heads[row, ROTATION + k] = rotation[k]
+        for k in range(3):
+            heads[row, TURN_X + k] = turn_x[k]
+            heads[row, TURN_Y + k] = turn_y[k]
+            heads[row, SPIN + k] = spin[k]
+            heads[row, SPIN_BIAS + k] = bias[k]
+            heads[row, TOP_VELOCITY + k] = top[k]

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
-from towercrane.cranes.head_kernel import SPIN, SPIN_BIAS
 from towercrane.payload import FORCE, MASS
 
+if TYPE_CHECKING:
+    from towercrane.cranes.head_kernel import Vector
 
-@kernel()
+
+@kernel(inline=True)
 def bend_jib(
     first: int,
     last: int,
     other: int,
     other_last: int,
     side: float,
+    spin: Vector,
+    turning: Vector,
     weight: float,
-    x: float,
     xd: float,
     xdd: float,
     xi: float,
@@ -41,10 +44,12 @@ def bend_jib(
         Coordinates of the other direction.
     side : float
         -1 for the modes to the left, 1 for those up: their cross products differ by this sign.
+    spin, turning : tuple of 3 floats
+        Angular velocity of the head, and its angular acceleration while all rates are constant.
     weight : float
         Gravity along this direction [m/s^2].
-    x, xd, xdd : float
-        Trolley's position and its derivatives.
+    xd, xdd : float
+        Speed and acceleration of the trolley.
     xi, cell : float, int
         Its place in the table of shapes.
     jib, rates : int
@@ -59,13 +64,12 @@ def bend_jib(
         B = b.q and its rate; q.N q, q'.N q, and the same with the other direction's second q.
     """
     n = vectors.shape[1]
-    head, shapes, across = MASS + n + at.HEAD, MASS + n + at.SHAPE, MASS + n + at.ACROSS
-    wx, wy, wz = work[head, SPIN], work[head, SPIN + 1], work[head, SPIN + 2]
-    spin = wx * wx + wy * wy + wz * wz
-    roll = work[head, SPIN_BIAS]
-    own_spin, other_spin, turn = wy, wz, work[head, SPIN_BIAS + 2]
+    shapes, across = MASS + n + at.SHAPE, MASS + n + at.ACROSS
+    wx, own_spin, other_spin = spin
+    roll, pitch, turn = turning
     if side > 0.0:
-        own_spin, other_spin, turn = wz, wy, -work[head, SPIN_BIAS + 1]
+        own_spin, other_spin, turn = other_spin, own_spin, -pitch
+    square_spin = wx * wx + own_spin * own_spin + other_spin * other_spin
     deflection, rate, bias, slope = 0.0, 0.0, 0.0, 0.0
     mass, mass_rate, moment, moment_rate = 0.0, 0.0, 0.0, 0.0
     square, square_rate, mixed, mixed_rate = 0.0, 0.0, 0.0, 0.0
@@ -95,7 +99,9 @@ def bend_jib(
         mixed += crossed * q
         mixed_rate += crossed * qd
         along = wx * b + own_spin * carried + other_spin * crossed
-        inertia = turn * b + own_spin * along - spin * carried + side * (roll * crossed + 2.0 * wx * crossed_rate)
+        inertia = (
+            turn * b + own_spin * along - square_spin * carried + side * (roll * crossed + 2.0 * wx * crossed_rate)
+        )
         work[FORCE, i] = -inertia - a * weight
         work[shapes, i] = shape
         work[across, i] = crossed

@@ -11,30 +11,34 @@ from typing import Any
 
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
-from towercrane.cranes.head_kernel import ROTATION, TURN_X, TURN_Y
+from towercrane.cranes.head_kernel import Head, Vector
 from towercrane.payload import FORCE, JACOBIAN, MASS
 
+Body = tuple[float, Vector, tuple[float, ...], Vector, Vector]
+"""What turns, in the head's axes: mass, first moments, moments of inertia (xx, xy, xz, yy, yz, zz), force, moment."""
 
-@kernel()
-def project_head(d: int, numbers: Any, vectors: Any, matrices: Any, work: Any) -> None:
-    """Add forces, and write mass matrix and Jacobian of the rope's upper end, for tower and slewing."""
-    n = vectors.shape[1]
-    up, head, body = d - 1, MASS + n + at.HEAD, MASS + n + at.BODY
+SlewingRow = tuple[float, float, float, float, float, float, float, float, float]
+"""What belongs to the slewing: motion of the rope's upper end with it, in fixed axes (3); its row of the mass matrix
+with u_x, u_y, th_x, th_y and itself (5); its moment."""
+
+
+@kernel(inline=True)
+def project_head(
+    d: int, head: Head, body: Body, place: Vector, numbers: Any, vectors: Any, matrices: Any, work: Any
+) -> SlewingRow:
+    """Add forces, and write mass matrix and Jacobian of the rope's upper end, for tower and slewing.
+
+    ``place`` is where the rope's upper end is in the head's axes.
+    """
+    up = d - 1
     to_y = int(numbers[at.TOWER_X])
     to_turn = to_y + int(numbers[at.TOWER_Y])
     to_jib = to_turn + int(numbers[at.TORSION]) + int(numbers[at.DRIVEN])
-    r00, r01, r02 = work[head, ROTATION], work[head, ROTATION + 1], work[head, ROTATION + 2]
-    r10, r11, r12 = work[head, ROTATION + 3], work[head, ROTATION + 4], work[head, ROTATION + 5]
-    r20, r21, r22 = work[head, ROTATION + 6], work[head, ROTATION + 7], work[head, ROTATION + 8]
-    j1x, j1y, j1z = work[head, TURN_X], work[head, TURN_X + 1], work[head, TURN_X + 2]
-    j2x, j2y, j2z = work[head, TURN_Y], work[head, TURN_Y + 1], work[head, TURN_Y + 2]
-    mass = work[body, at.WEIGHED]
-    sx, sy, sz = work[body, at.STATIC], work[body, at.STATIC + 1], work[body, at.STATIC + 2]
-    ixx, ixy, ixz = work[body, at.INERTIA], work[body, at.INERTIA + 1], work[body, at.INERTIA + 2]
-    iyy, iyz, izz = work[body, at.INERTIA + 3], work[body, at.INERTIA + 4], work[body, at.INERTIA + 5]
-    fx, fy, fz = work[body, at.PUSH], work[body, at.PUSH + 1], work[body, at.PUSH + 2]
-    mx, my, mz = work[body, at.TORQUE], work[body, at.TORQUE + 1], work[body, at.TORQUE + 2]
-    x, dy, dz = work[body, at.PLACE], work[body, at.PLACE + 1], work[body, at.PLACE + 2]
+    r00, r01, r02, r10, r11, r12, r20, r21, r22 = head[0]
+    j1x, j1y, j1z = head[1]
+    j2x, j2y, j2z = head[2]
+    mass, (sx, sy, sz), (ixx, ixy, ixz, iyy, iyz, izz), (fx, fy, fz), (mx, my, mz) = body
+    x, dy, dz = place
 
     # S x (R^T e_x) and S x (R^T e_y); inertia times what th_x and th_y turn.
     c1x, c1y, c1z = sy * r02 - sz * r01, sz * r00 - sx * r02, sx * r01 - sy * r00
@@ -90,37 +94,42 @@ def project_head(d: int, numbers: Any, vectors: Any, matrices: Any, work: Any) -
             work[MASS + i, m] = ti * (c2z * vectors[at.TIP, m] - l1z * vectors[at.SLOPE, m])
         for m in range(to_turn, i + 1):
             work[MASS + i, m] = matrices[at.OWN, i, m] + ti * izz * vectors[at.TWIST, m]
-    work[head, at.TURN_COLUMN], work[head, at.TURN_COLUMN + 1], work[head, at.TURN_COLUMN + 2] = k3x, k3y, k3z
-    work[head, at.TURN_ROW], work[head, at.TURN_ROW + 1] = c1z, c2z
-    work[head, at.TURN_ROW + 2], work[head, at.TURN_ROW + 3], work[head, at.TURN_ROW + 4] = l1z, l2z, izz
-    work[head, at.TURN_FORCE] = mz
+    return k3x, k3y, k3z, c1z, c2z, l1z, l2z, izz, mz
 
 
-@kernel()
-def project_jib(d: int, numbers: Any, vectors: Any, matrices: Any, work: Any) -> None:
-    """Add the trolley's force, and write mass matrix and Jacobian of the rope's upper end, for the jib's modes."""
+@kernel(inline=True)
+def project_jib(
+    d: int, head: Head, pull: Vector, place: Vector, numbers: Any, vectors: Any, matrices: Any, work: Any
+) -> None:
+    """Add the trolley's force, and write mass matrix and Jacobian of the rope's upper end, for the jib's modes.
+
+    ``pull`` is the force on the trolley and ``place`` where it is, in the head's axes.
+    """
     n = vectors.shape[1]
-    up, head, body = d - 1, MASS + n + at.HEAD, MASS + n + at.BODY
+    up, rotation, turn_x, turn_y = d - 1, head[0], head[1], head[2]
     shapes, across = MASS + n + at.SHAPE, MASS + n + at.ACROSS
     to_y = int(numbers[at.TOWER_X])
     to_turn = to_y + int(numbers[at.TOWER_Y])
     to_jib = to_turn + int(numbers[at.TORSION]) + int(numbers[at.DRIVEN])
     to_vertical = to_jib + int(numbers[at.LATERAL])
-    trolley, x = numbers[at.TROLLEY_MASS], work[body, at.PLACE]
+    trolley, x = numbers[at.TROLLEY_MASS], place[0]
     for i in range(to_jib, n):
         shape = work[shapes, i]
         a, b = vectors[at.JIB_MASS, i] + trolley * shape, vectors[at.JIB_MOMENT, i] + trolley * shape * x
-        # To the left: along e2, turning about b e3 - c e1; up: along e3, turning about c e1 - b e2.
-        axis, lever, side, first, twist = 1, 2, -1.0, to_jib, b
-        if i >= to_vertical:
-            axis, lever, side, first, twist = 2, 1, 1.0, to_vertical, 0.0
+        if i < to_vertical:
+            # Along e2, turning about b e3 - c e1.
+            first, twist, ex, ey, ez = to_jib, b, rotation[1], rotation[4], rotation[7]
+            crossed = work[across, i] + trolley * shape * place[2]
+            lean_x, lean_y = b * turn_x[2] - crossed * turn_x[0], b * turn_y[2] - crossed * turn_y[0]
+            work[FORCE, i] += shape * pull[1]
+        else:
+            # Along e3, turning about c e1 - b e2.
+            first, twist, ex, ey, ez = to_vertical, 0.0, rotation[2], rotation[5], rotation[8]
+            crossed = work[across, i] + trolley * shape * place[1]
+            lean_x, lean_y = crossed * turn_x[0] - b * turn_x[1], crossed * turn_y[0] - b * turn_y[1]
+            work[FORCE, i] += shape * pull[2]
             for m in range(to_jib, to_vertical):
                 work[MASS + i, m] = 0.0
-        crossed = work[across, i] + trolley * shape * work[body, at.PLACE + lever]
-        ex, ey, ez = work[head, ROTATION + axis], work[head, ROTATION + 3 + axis], work[head, ROTATION + 6 + axis]
-        lean_x = side * (crossed * work[head, TURN_X] - b * work[head, TURN_X + lever])
-        lean_y = side * (crossed * work[head, TURN_Y] - b * work[head, TURN_Y + lever])
-        work[FORCE, i] += shape * work[body, at.PULL + axis]
         work[JACOBIAN, i] = shape * ex
         work[JACOBIAN + 1, i] = shape * ey
         work[JACOBIAN + up, i] = shape * ez

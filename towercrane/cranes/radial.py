@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from towercrane.cranes.flexible import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB, FlexibleModel, ModalDamping
-from towercrane.cranes.flexible_crane import Modes, flexible_crane
+from towercrane.cranes.flexible_constants import geometric_stiffness
+from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
 from towercrane.cranes.small_motions import linear_matrices, reciprocal_modes
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ class RadialModel:
     @cached_property
     def scene(self) -> FlexibleModel:
         """The flexible crane that this is."""
-        modes = Modes(tower=self.tower_modes, torsion=0, lateral=0, vertical=self.jib_modes)
+        modes = ModeCounts(tower=self.tower_modes, torsion=0, lateral=0, vertical=self.jib_modes)
         return FlexibleModel(
             flexible_crane(self.crane, modes, planes=1),
             self.load,
@@ -119,6 +120,11 @@ class RadialModel:
     def jib(self) -> Basis:
         """Modes of the jib, clamped at the tower top and free at its end."""
         return self.scene.crane.vertical
+
+    @property
+    def geometric_stiffness(self) -> Floats:
+        """Stiffness that the weight takes from the tower modes [1/s^2], shape (tower_modes, tower_modes)."""
+        return geometric_stiffness(self.scene)
 
     @property
     def system(self) -> System:
