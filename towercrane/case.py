@@ -94,6 +94,13 @@ class Case:
         return motions_of(self)
 
     @property
+    def rests_on(self) -> list[tuple[str, str, str]]:
+        """Key, value and reason of the assumed values that motions rest on."""
+        # The lattice's members enter the tower's check only; a run rests on the equivalent beam.
+        moving = [a for a in self.assumed if not a.key.startswith("crane.tower.lattice.")]
+        return [(a.key, str(a.value), a.why) for a in moving]
+
+    @property
     def model(self) -> schema_cases.Model:
         """What the model includes; for a crane in radial motion."""
         return self._radial.model

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.studies import linearise, sensitivity
+from towercrane.studies import linearise, sensitivity, shape
 from towercrane.terminal import (
     ENDED_EARLY,
     INTERRUPTED,
@@ -278,6 +278,7 @@ def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Datase
 
 app.command()(linearise)
 app.command()(sensitivity)
+app.command()(shape)
 
 
 if __name__ == "__main__":
