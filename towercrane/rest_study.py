@@ -114,7 +114,7 @@ class RestStudy:
 
     @property
     def recommended(self) -> Row:
-        """The shortest that leaves the load at rest on every crane, else what leaves least; never beyond a drive's limits."""
+        """Of those within the drives' limits: the shortest that leaves every load at rest, else what leaves least."""
         able = [row for row in self.rows if row.candidate.within_limits]
         calm = [row for row in able if row.worst <= self.allowed]
         if not calm:
@@ -215,10 +215,10 @@ def report(done: RestStudy) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``frequencies_hz`` (by drive: at_start, at_end), ``candidates`` (a list with name, title, duration_s, within_limits,
-        residual_m, worst_residual_m, rope_residual_m and torsion_residual_m by relative rope length and stiffness,
-        peak_slewing_torque_Nm, peak_trolley_force_N, outcome), ``recommended``, ``reason``, ``allowed_m``,
-        ``watched_s``, ``damping_ratio``.
+        ``frequencies_hz`` (by drive: at_start, at_end), ``candidates`` (a list with name, title, duration_s,
+        within_limits, residual_m, worst_residual_m, rope_residual_m and torsion_residual_m by relative rope length
+        and stiffness, peak_slewing_torque_Nm, peak_trolley_force_N, outcome), ``recommended``, ``reason``,
+        ``allowed_m``, ``watched_s``, ``damping_ratio``.
     """
     return {
         "frequencies_hz": {

@@ -189,10 +189,15 @@ def _motion(
         got = f"a first length of {float(motion(0.0)):g} m"
         return None, [Fault("", key, f"a table that begins with rope.length, {begin:g} m", got)]
     fastest, limit = max(abs(rate) for rate in motion.range(1)), FASTEST_TURN if way.turns else FASTEST
-    if described.shape == "table" and fastest > limit:
-        got = f"a table that reaches {fastest:.3g} {way.unit}/s"
-        hint = "times in seconds? the curve through the points is smooth"
-        hint = f"angles in radians? {hint}" if way.turns else hint
+    # Other motions state their speed, which has a range of its own.
+    hints = {
+        "table": "times in seconds? the curve through the points is smooth",
+        "minimum-jerk": "a longer duration?",
+    }
+    if described.shape in hints and fastest > limit:
+        table, hint = described.shape == "table", hints[described.shape]
+        got = f"a {'table' if table else 'motion'} that reaches {fastest:.3g} {way.unit}/s"
+        hint = f"angles in radians? {hint}" if way.turns and table else hint
         return None, [Fault("", key, f"speeds up to {limit:g} {way.unit}/s", got, hint)]
     low, high = motion.range()
     if not (way.keeps(low) and way.keeps(high)):

@@ -88,7 +88,7 @@ def _look(i: int, study: RestStudy, row: Row) -> dict[str, Any]:
     chosen = row is study.recommended
     label = f"{row.candidate.title}, {row.candidate.duration:.1f} s" + (" (recommended)" if chosen else "")
     colour = COLOURS[(i - 1) % 6] if i else "0.2"
-    return {"color": colour, "ls": DASHES[i % 4], "lw": 2.0 if chosen else 1.1, "label": label}
+    return {"color": colour, "ls": "-" if chosen else DASHES[i % 4], "lw": 2.0 if chosen else 1.1, "label": label}
 
 
 def _titled(figure: Figure, named: Axes, title: str, notes: Notes) -> Figure:
