@@ -70,6 +70,18 @@ def test_runs_that_end_early_are_named_and_never_recommended():
     assert (fallen.residual, fallen.outcome) == (None, "trolley off the jib")
 
 
+def test_interrupted_run_ends_the_study(monkeypatch):
+    motions = space.standing(20.0, 10.0) | {"trolley": trapezoid(20.0, 22.0, 2.0, 0.5)}
+    real = rest_study.simulate
+
+    def interrupted(*arguments, **options):
+        return real(*arguments, **options).assign_attrs(outcome="interrupted")
+
+    monkeypatch.setattr(rest_study, "simulate", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        attempt(space.model(0, 0, 0, 0), motions)
+
+
 def test_hoists_keep_their_own_shaping_and_shaped_cases_are_tried_too():
     hoist = 'motion.hoist={shape="zv", end=12, speed=0.4, acceleration=0.2, frequencies=0.5}'
     case = load_case(CASE, [hoist, "motion.trolley.shape=ei"])

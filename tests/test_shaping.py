@@ -47,6 +47,13 @@ def test_zero_vibration_leaves_nothing_with_damping_too(f, damping):
     assert_allclose(residual(zv([f], damping)(RUN), 1.1 * f, damping), expected, atol=1e-12)
 
 
+def test_residual_with_damping_counts_the_averages_too():
+    shaper = zv([0.11], 0.05).then(boxes([0.2]))
+    for f in (0.08, 0.15):
+        expected = shaper.residual(f, 0.05) * residual(RUN, f, 0.05)
+        assert_allclose(residual(shaper(RUN), f, 0.05), expected, atol=1e-14)
+
+
 def test_derivative_is_zero_for_zvd_alone():
     h = 1e-4
     assert zvd([0.1]).residual(0.1 * (1 + h)) < 1.01 * (np.pi * h / 2) ** 2

@@ -67,7 +67,7 @@ def shape_ramps(motion: Motion, shapers: Sequence[Shaper]) -> tuple[Motion, list
 
     That asks for one delay of all ramps' centres, so that ramps move by the difference of the shapers' mean delays;
     it is the least with which none begins before the first did. With a start and a stop, speed and acceleration stay
-    within those of the motion.
+    within those of the motion. Where the two overlap and differ, the motion may turn back a little at its ends.
 
     Parameters
     ----------
