@@ -98,6 +98,21 @@ def test_moves_follow_each_other_when_the_one_before_has_ended():
     assert_allclose(plan.commanded.duration, 2.0 + there.duration + back.duration)
 
 
+def test_later_moves_are_shaped_for_when_they_happen():
+    # The second move happens at the short rope, whose frequency is known.
+    there, back = trapezoid(10.0, 20.0, 0.8, 0.2), trapezoid(20.0, 10.0, 0.8, 0.2)
+    moves = (Move(there, Shaping(zv)), Move(rest(20.0, 30.0)), Move(back, Shaping(zv)))
+    plan = Plan(moves)
+    assert_allclose(plan.ramp_ends[0], [4.0, 16.5])
+    assert_allclose(plan.ramp_ends[2], [46.5 + 4.0, 46.5 + 16.5])
+    sway = PendulumFrequencies(9.81)
+    motion = shaped_motions({"trolley": plan, **planned(rope=ROPE)}, sway)["trolley"]
+    assert motion.duration < 80.0
+    last = sequence(rest(20.0, 1.0), zv(sway("", 0.0, 12.0))(back))
+    ends = np.linspace(0.0, 12.5 + zv(sway("", 0.0, 12.0)).duration, 50)
+    assert_allclose(motion(motion.duration - ends), last(last.duration - ends), atol=1e-9)
+
+
 def test_ramps_that_never_settle_are_named():
     calls = []
 

@@ -1,6 +1,7 @@
 """The study of motions that leave the load at rest, and its command."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -38,6 +39,10 @@ def test_study_of_a_trolley_recommends_by_rule():
     assert list(found) == ["commanded", "zv-pendulum", "zv", "zvd", "ei", "boxes", "minimum-jerk"]
     assert_allclose([found["zv"].candidate.duration, found["zvd"].candidate.duration], [57.257, 61.514], atol=2e-3)
     assert found["commanded"].nominal.residual > 0.1
+    damped = qtz5613.model(1, 1, tower_damping_ratio=0.01, jib_damping_ratio=0.01).scene
+    motions = found["commanded"].candidate.motions
+    assert_allclose(found["commanded"].nominal.residual, attempt(damped, motions).residual, rtol=1e-12)
+    assert abs(attempt(qtz5613.model(1, 1).scene, motions).residual / found["commanded"].nominal.residual - 1) > 1e-6
     assert found["zvd"].worst < 5e-3 < found["zv"].worst
     # Least jerk in the same time goes beyond the commanded speed.
     assert [row.candidate.name for row in done.rows if not row.candidate.within_limits] == ["minimum-jerk"]
@@ -63,6 +68,9 @@ def test_runs_that_end_early_are_named_and_never_recommended():
     done = RestStudy(rows, 0.1, {})
     assert done.recommended is rows[1]
     assert report(done)["candidates"][0]["worst_residual_m"] is None
+    fast = Row(replace(second, within_limits=False), {1.0: replace(calm, residual=0.001)}, {})
+    assert RestStudy([fast, *rows], 0.1, {}).recommended is rows[1]
+    assert RestStudy([fast, *rows], 1e-4, {}).recommended is rows[1]
     assert RestStudy(rows[:1], 0.1, {}).reason == "no motion keeps its load to the end with rope +-20 %"
     fallen = attempt(
         space.model(1, 1, 1, 1), space.standing(20.0, 10.0) | {"trolley": trapezoid(20.0, 60.0, 2.0, 0.5)}
