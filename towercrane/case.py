@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.motion import Motion
     from towercrane.payload import Load
+    from towercrane.plans import Plan
 
 __all__ = ["Assumption", "Case", "CaseError", "Fault", "case_folder", "list_cases", "load_case"]
 
@@ -40,9 +42,9 @@ class Case:
         One line for people.
     checked : towercrane.schema_cases.AnyCase
         All tables; the properties below are its parts.
-    motions : dict of str to Motion
-        What drives the crane: "rope" (its length) and, in radial motion, "trolley" (its position) [m]; for a
-        slewing crane "shaft", for a jib crane "slew", "luff" and "fold" [rad].
+    plans : dict of str to Plan
+        What the drives are told, by channel: "rope" (its length) and, in radial motion, "trolley" (its position)
+        [m]; for a slewing crane "shaft", for a jib crane "slew", "luff" and "fold" [rad].
     assumed : tuple of Assumption
         Values that no source gives, the crane's first.
     as_written : dict
@@ -55,7 +57,7 @@ class Case:
     path: Path
     title: str
     checked: schema_cases.AnyCase
-    motions: dict[str, Motion]
+    plans: dict[str, Plan]
     assumed: tuple[Assumption, ...]
     as_written: dict[str, Any]
     changes: tuple[str, ...] = ()
@@ -79,6 +81,19 @@ class Case:
     def rope(self) -> schema.Rope:
         """Rope at the start."""
         return self.checked.rope
+
+    @cached_property
+    def motions(self) -> dict[str, Motion]:
+        """What drives the crane, by channel; where a ramp is shaped for the model's frequencies, the model is asked.
+
+        Raises
+        ------
+        CaseError
+            If the model has no such frequencies, because it buckles.
+        """
+        from towercrane.models import motions_of
+
+        return motions_of(self)
 
     @property
     def model(self) -> schema_cases.Model:
@@ -111,7 +126,7 @@ class Case:
         modes = self._radial.modes
         if modes.trolley_positions:
             return modes
-        ends = tuple(dict.fromkeys(self.trolley_motion().range()))
+        ends = tuple(dict.fromkeys(self.plans["trolley"].commanded.range()))
         return modes.model_copy(update={"trolley_positions": ends})
 
     @property
@@ -240,7 +255,7 @@ class Case:
 
     def trolley_motion(self) -> Motion:
         """Position of the trolley along the jib [m]."""
-        if "trolley" not in self.motions:
+        if "trolley" not in self.plans:
             raise self._other_kind("radial")
         return self.motions["trolley"]
 
@@ -290,12 +305,12 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     allowed = [k for k in allowed if isinstance(k, str)] if isinstance(allowed, list) else []
     faults += [*implausible(tree, allowed, kind), *check_values(tree)]
     faults += check_tower(tree) if kind == "radial" else []
-    motion_faults, motions = check_motions(tree, found.parent, kind)
+    motion_faults, plans = check_motions(tree, found.parent, kind)
     located = [text.located(f) for f in dict.fromkeys([*text.faults, *faults, *motion_faults])]
-    if located or checked is None or set(motions) != set(channels(kind)):
+    if located or checked is None or set(plans) != set(channels(kind)):
         raise CaseError(located)
     name = case_name(found)
-    return Case(name, found, checked.title or name, checked, motions, tuple(assumed), text.tree, tuple(overrides))
+    return Case(name, found, checked.title or name, checked, plans, tuple(assumed), text.tree, tuple(overrides))
 
 
 def _flat(crane: Any) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import typer
 
 from towercrane.lattice_command import lattice
 from towercrane.map_command import frequency_map
-from towercrane.studies import bench, linearise, sensitivity
+from towercrane.studies import bench, linearise, sensitivity, shape
 from towercrane.terminal import (
     ENDED_EARLY,
     INTERRUPTED,
@@ -275,6 +275,7 @@ app.command()(linearise)
 app.command("map")(frequency_map)
 app.command()(sensitivity)
 app.command()(bench)
+app.command()(shape)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from towercrane.case import Case
+    from towercrane.cranes.flexible import FlexibleModel
     from towercrane.cranes.lumped import LumpedModel
     from towercrane.cranes.radial import RadialModel
+    from towercrane.motion import Motion
     from towercrane.system import Model
 
 SLEWING = ("multi-mass", "enhanced", "basic")
@@ -25,6 +27,39 @@ def model_of(case: Case) -> Model:
 
         return PlannedJibCrane(JibCrane(**case.jib_parameters()), case.load(), rope_as_rod=case.rope.slack == "rod")
     return radial_model(case)
+
+
+def motions_of(case: Case) -> dict[str, Motion]:
+    """Motions of a case's drives, shaped where the case says so.
+
+    Raises
+    ------
+    CaseError
+        If a ramp is to be shaped for frequencies that the model does not have.
+    """
+    from towercrane.cranes.sway_frequencies import SwayFrequencies
+    from towercrane.faults import CaseError, Fault
+    from towercrane.plans import NotSettled, shaped_motions
+    from towercrane.system import NoEquilibrium
+
+    modelled = [channel for channel, plan in case.plans.items() if plan.needs_model]
+    try:
+        return shaped_motions(case.plans, SwayFrequencies(flexible_model(case)) if modelled else None)
+    except (NoEquilibrium, NotSettled) as failure:
+        key = f"motion.{'hoist' if modelled[0] == 'rope' else modelled[0]}"
+        wanted, hint = "frequencies that the model has, or a list of them", "towercrane modes shows what it has"
+        raise CaseError([Fault(str(case.path), f"{key}.frequencies", wanted, str(failure), hint)]) from failure
+
+
+def flexible_model(case: Case) -> FlexibleModel | RadialModel:
+    """Model of a case of a flexible crane."""
+    from towercrane.cranes.flexible import FlexibleModel
+    from towercrane.cranes.radial import RadialModel
+
+    model = model_of(case)
+    if not isinstance(model, FlexibleModel | RadialModel):
+        raise ValueError(f"flexible_model: wanted a case of a flexible crane, got kind {case.kind!r}")
+    return model
 
 
 def radial_model(case: Case, **changes: Any) -> RadialModel:

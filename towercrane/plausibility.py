@@ -141,6 +141,7 @@ RANGES = (
     ),
     Range("motion.*.ramp", "s", 1e-3, 1e5, ("ms", "min")),
     Range("motion.*.hold", "s", 1e-3, 1e5, ("ms", "min")),
+    Range("motion.*.frequencies*", "Hz", 1e-3, 20, ("mHz",)),
     Range("motion.*.delay", "s", 1e-3, 1e5, ("ms", "min")),
     Range("motion.*.duration", "s", 1e-3, 1e5, ("ms", "min")),
     Range("model.*_damping_ratio", "1", 1e-6, 0.3, ("%",)),

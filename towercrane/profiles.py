@@ -6,20 +6,31 @@ import math
 from typing import TYPE_CHECKING
 
 from towercrane.faults import CaseError, Fault, shown
-from towercrane.schema_motions import Points, Rest, SCurve, Sequence, SmoothRamps, SpeedTrapezoid, Trapezoid
+from towercrane.schema import MODEL
+from towercrane.schema_motions import (
+    MinimumJerk,
+    Points,
+    Rest,
+    SCurve,
+    Sequence,
+    Shaped,
+    SmoothRamps,
+    SpeedTrapezoid,
+    Trapezoid,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from towercrane.motion import Motion
+    from towercrane.plans import Move, Plan
     from towercrane.schema_motions import AnyMotion
 
 SHOWN_FAULTS = 5
 """At most so many faulty lines of one CSV file are reported."""
 
 
-def profile(described: AnyMotion, start: float, folder: Path, unit: str = "m") -> Motion:
-    """The motion that a case describes.
+def plan(described: AnyMotion, start: float, folder: Path, unit: str = "m") -> Plan:
+    """What a case tells a drive to do.
 
     Parameters
     ----------
@@ -36,32 +47,48 @@ def profile(described: AnyMotion, start: float, folder: Path, unit: str = "m") -
     CaseError
         If a CSV table cannot be used.
     """
-    from towercrane.motion import rest, s_curve, sequence, smooth_ramps, speed_trapezoid, table, trapezoid
+    from towercrane.motion import rest, s_curve, smooth_ramps, speed_trapezoid, table, trapezoid
+    from towercrane.plans import Move, Shaping
+    from towercrane.shaping import DESIGNS, minimum_jerk
 
-    moves: list[Motion] = []
+    shaping = None
     match described:
         case Points():
-            moves = [table(*read_points(folder / described.file, unit))]
-            start = float(moves[0](0.0))
-        case Rest():
-            moves = [rest(start, described.duration)]
-        case Trapezoid():
-            moves = [trapezoid(start, described.end, described.speed, described.acceleration)]
-        case SCurve():
-            d = described
-            moves = [s_curve(start, d.end, d.speed, d.acceleration, d.jerk)]
-        case SpeedTrapezoid():
-            moves = [speed_trapezoid(start, described.speed, described.ramp, described.hold)]
-        case SmoothRamps():
-            moves = [smooth_ramps(start, described.speed, described.ramp, described.hold)]
+            motion = table(*read_points(folder / described.file, unit))
+            start = float(motion(0.0))
         case Sequence():
+            steps: list[Move] = []
             now = start
             for step in described.steps:
-                moves.append(profile(step, now, folder, unit))
-                now = moves[-1].end
-    if described.delay:
-        moves.insert(0, rest(start, described.delay))
-    return moves[0] if len(moves) == 1 else sequence(*moves)
+                steps += plan(step, now, folder, unit).moves
+                now = steps[-1].commanded.end
+            return _delayed(steps, start, described.delay)
+        case Rest():
+            motion = rest(start, described.duration)
+        case Shaped():
+            motion = trapezoid(start, described.end, described.speed, described.acceleration)
+            known = described.frequencies
+            shaping = Shaping(DESIGNS[described.shape], None if known == MODEL else tuple(map(float, known)))
+        case MinimumJerk():
+            motion = minimum_jerk(start, described.end, described.duration)
+        case Trapezoid():
+            motion = trapezoid(start, described.end, described.speed, described.acceleration)
+        case SCurve():
+            d = described
+            motion = s_curve(start, d.end, d.speed, d.acceleration, d.jerk)
+        case SpeedTrapezoid():
+            motion = speed_trapezoid(start, described.speed, described.ramp, described.hold)
+        case SmoothRamps():
+            motion = smooth_ramps(start, described.speed, described.ramp, described.hold)
+    return _delayed([Move(motion, shaping)], start, described.delay)
+
+
+def _delayed(moves: list[Move], start: float, delay: float) -> Plan:
+    """Moves after a wait."""
+    from towercrane.motion import rest
+    from towercrane.plans import Move, Plan
+
+    return Plan((Move(rest(start, delay)), *moves) if delay else tuple(moves))
 
 
 def read_points(path: Path, unit: str = "m") -> tuple[list[float], list[float]]:

@@ -60,10 +60,37 @@ class Quantity:
         return core_schema.no_info_plain_validator_function(self.read)
 
 
+@dataclass(frozen=True)
+class FrequencyList:
+    """Annotation of a field that is "model", a frequency, or a list of frequencies."""
+
+    wanted: str = '"model" or a list of frequencies, such as ["0.106 Hz", "0.155 Hz"]'
+
+    def read(self, value: object) -> str | tuple[float, ...]:
+        """The word, or frequencies [Hz]."""
+        if value == MODEL:
+            return MODEL
+        items = value if isinstance(value, list | tuple) else [value]
+        if not items:
+            raise _refusal(self.wanted, "an empty list", "")
+        try:
+            return tuple(Quantity("Hz", above=0).read(item) for item in items)
+        except PydanticCustomError as refusal:
+            context = refusal.context or {}
+            raise _refusal(self.wanted, context["got"], context["hint"]) from None
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+
 def _refusal(wanted: str, got: str, hint: str) -> PydanticCustomError:
     return PydanticCustomError("quantity", "{wanted}", {"wanted": wanted, "got": got, "hint": hint})
 
 
+MODEL = "model"
+"""Stands for frequencies that the case's own model has."""
+
+Frequencies = Annotated[str | tuple[float, ...], FrequencyList()]
 Length = Annotated[float, Quantity("m", above=0)]
 Reach = Annotated[float, Quantity("m", least=0)]
 Position = Annotated[float, Quantity("m")]

@@ -7,12 +7,14 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from towercrane.schema import (
+    MODEL,
     Acceleration,
     Angle,
     AngularAcceleration,
     AngularJerk,
     EitherSpeed,
     EitherTurning,
+    Frequencies,
     Jerk,
     Position,
     Speed,
@@ -79,7 +81,27 @@ class SmoothRamps(Delayed):
     hold: Wait
 
 
-Step = Annotated[Trapezoid | SCurve | SpeedTrapezoid | SmoothRamps | Rest, Field(discriminator="shape")]
+class Shaped(Delayed):
+    """Trapezoid whose ramps are spread so that they cancel the load's sway."""
+
+    shape: Literal["zv", "zvd", "ei", "boxes"]
+    end: Position
+    speed: Speed
+    acceleration: Acceleration
+    frequencies: Frequencies = MODEL
+
+
+class MinimumJerk(Delayed):
+    """Smoothest motion within a time."""
+
+    shape: Literal["minimum-jerk"]
+    end: Position
+    duration: Time
+
+
+Step = Annotated[
+    Trapezoid | SCurve | SpeedTrapezoid | SmoothRamps | Shaped | MinimumJerk | Rest, Field(discriminator="shape")
+]
 
 
 class Sequence(Delayed):
@@ -114,6 +136,14 @@ class TrolleySpeedTrapezoid(Begin, SpeedTrapezoid):
 
 class TrolleySmoothRamps(Begin, SmoothRamps):
     """Trolley on smooth ramps."""
+
+
+class TrolleyShaped(Begin, Shaped):
+    """Trolley on a shaped trapezoid."""
+
+
+class TrolleyMinimumJerk(Begin, MinimumJerk):
+    """Trolley on the smoothest motion."""
 
 
 class TrolleySequence(Begin, Sequence):
@@ -155,7 +185,24 @@ class TurnSmoothRamps(SmoothRamps):
     speed: EitherTurning
 
 
-TurnStep = Annotated[Turn | TurnSCurve | TurnSpeedTrapezoid | TurnSmoothRamps | Rest, Field(discriminator="shape")]
+class TurnShaped(Shaped):
+    """Turn on a shaped trapezoid."""
+
+    end: Angle
+    speed: Turning
+    acceleration: AngularAcceleration
+
+
+class TurnMinimumJerk(MinimumJerk):
+    """Turn on the smoothest motion."""
+
+    end: Angle
+
+
+TurnStep = Annotated[
+    Turn | TurnSCurve | TurnSpeedTrapezoid | TurnSmoothRamps | TurnShaped | TurnMinimumJerk | Rest,
+    Field(discriminator="shape"),
+]
 
 
 class JointRest(Turned, Rest):
@@ -178,13 +225,21 @@ class JointSmoothRamps(Turned, TurnSmoothRamps):
     """Joint on smooth ramps."""
 
 
+class JointShaped(Turned, TurnShaped):
+    """Joint on a shaped trapezoid."""
+
+
+class JointMinimumJerk(Turned, TurnMinimumJerk):
+    """Joint on the smoothest motion."""
+
+
 class JointSequence(Turned, Sequence):
     """Joint in steps."""
 
     steps: Annotated[tuple[TurnStep, ...], Field(min_length=1)]
 
 
-AnyMotion = Rest | Trapezoid | SCurve | SpeedTrapezoid | SmoothRamps | Sequence | Points
+AnyMotion = Rest | Trapezoid | SCurve | SpeedTrapezoid | SmoothRamps | Shaped | MinimumJerk | Sequence | Points
 HoistMotion = Annotated[AnyMotion, Field(discriminator="shape")]
 TrolleyMotion = Annotated[
     TrolleyRest
@@ -192,12 +247,22 @@ TrolleyMotion = Annotated[
     | TrolleySCurve
     | TrolleySpeedTrapezoid
     | TrolleySmoothRamps
+    | TrolleyShaped
+    | TrolleyMinimumJerk
     | TrolleySequence
     | Points,
     Field(discriminator="shape"),
 ]
 JointMotion = Annotated[
-    JointRest | JointTrapezoid | JointSCurve | JointSpeedTrapezoid | JointSmoothRamps | JointSequence | Points,
+    JointRest
+    | JointTrapezoid
+    | JointSCurve
+    | JointSpeedTrapezoid
+    | JointSmoothRamps
+    | JointShaped
+    | JointMinimumJerk
+    | JointSequence
+    | Points,
     Field(discriminator="shape"),
 ]
 

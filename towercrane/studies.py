@@ -1,9 +1,10 @@
-"""Commands that study a case or the program itself instead of running a case: linearise, sensitivity, bench."""
+"""Commands that study a case or the program itself: linearise, sensitivity, shape, bench."""
 
 from __future__ import annotations
 
 import json
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -26,6 +27,8 @@ from towercrane.terminal import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from towercrane.case import Case
 
 
@@ -135,10 +138,83 @@ def linearise(
         )
 
 
-def _study(case: Case, names: list[str], step: float, tolerance: float) -> Any:
-    """Run a sensitivity study with a progress bar if somebody is looking."""
-    from functools import partial
+def shape(
+    case: CaseName,
+    within: Annotated[
+        float, typer.Option("--within", metavar="METRES", help="Distance from its rest at which the load is at rest.")
+    ] = 0.1,
+    step: Annotated[
+        float, typer.Option("--step", metavar="SECONDS", help="Time between two rows of a drive's table.")
+    ] = 0.05,
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+) -> None:
+    """Motions that leave the load at rest: how still, how surely, how fast; tables for the drives."""
+    loaded = load(case, changes)
+    folder = out if out is not None else Path("results") / f"{loaded.name}-shape"
+    folder_for_results(folder)
+    if not 0.0 < within < float("inf"):
+        fail(f"--within {within:g}: wanted a positive distance")
+    if not 1e-3 <= step <= 10.0:
+        fail(f"--step {step:g}: wanted seconds from 0.001 to 10")
+    from towercrane.candidates import driven
+    from towercrane.ways import MODELLED
 
+    if loaded.kind not in MODELLED:
+        fail(f"{case}: wanted a crane of kind {' or '.join(MODELLED)}, whose modes are known; got {loaded.kind}")
+    if not driven(loaded.plans):
+        fail(f"{case}: wanted a trolley or a slewing drive that moves, got none")
+    announce_compilation(loaded.kind, "towercrane.stepper")
+    from towercrane.drive_table import drive_table
+    from towercrane.models import flexible_model
+    from towercrane.rest_study import report, study
+    from towercrane.system import NoEquilibrium
+
+    try:
+        run = partial(study, flexible_model(loaded), loaded.plans, allowed=within)
+        done = _with_bar(f"motions of {loaded.name}", run)
+    except NoEquilibrium as failure:
+        say(f"{failure.outcome}: {failure}")
+        raise typer.Exit(ENDED_EARLY) from None
+    notes = [(a.key, str(a.value), a.why) for a in loaded.rests_on]
+    assumed = [{"key": key, "value": value, "why": why} for key, value, why in notes]
+    summary = {"case": loaded.name, "crane": loaded.crane.name, **report(done), "assumed": assumed}
+    chosen = done.recommended.candidate
+    files: dict[str, Any] = {"shape.json": json.dumps(summary, indent=2, allow_nan=False) + "\n"}
+    for channel in driven(loaded.plans):
+        unit = "m" if channel == "trolley" else "rad"
+        about = {"crane": loaded.crane.name, "case": loaded.name, "drive": channel, "motion": chosen.title}
+        files[f"drive-{channel}.csv"] = drive_table(chosen.motions[channel], step, unit, about)
+    if pictures:
+        from towercrane.plots import shaping as pictured
+
+        files["residuals.png"] = pictured.residuals(done, loaded.crane.name, notes)
+        files["profiles.png"] = pictured.profiles(done, loaded.crane.name, notes)
+    write(folder, files)
+    if as_json:
+        typer.echo(json.dumps(summary, indent=2, allow_nan=False))
+        return
+    from towercrane.tables import shape_tables
+
+    shape_tables(summary)
+    typer.echo(f"written to {folder}: {', '.join(files)}")
+    suggest("run", case, *options_of(changes), *_reshaped(loaded, chosen.name, driven(loaded.plans)))
+
+
+def _reshaped(case: Case, name: str, channels: list[str]) -> list[str]:
+    """Options that give every planned drive of a case another shape; none where its motion has other keys."""
+    from towercrane.shaping import DESIGNS
+
+    shapes = [getattr(getattr(case.checked.motion, channel), "shape", "") for channel in channels]
+    if name not in DESIGNS or not {*shapes} <= {"trapezoid", *DESIGNS}:
+        return []
+    return [part for channel in channels for part in ("--set", f"motion.{channel}.shape={name}")]
+
+
+def _study(case: Case, names: list[str], step: float, tolerance: float) -> Any:
+    """Run a sensitivity study."""
     from towercrane.models import slewing_builder
     from towercrane.sensitivity import study
 
@@ -147,13 +223,18 @@ def _study(case: Case, names: list[str], step: float, tolerance: float) -> Any:
         study, case.lumped_parameters(), slewing_builder(case), case.motions, case.run.duration,
         vary=names, percent=percent, tolerance=tolerance,
     )  # fmt: skip
+    return _with_bar(f"{len(names)} parameters, {len(percent)} values each", run)
+
+
+def _with_bar(title: str, run: Callable[..., Any]) -> Any:
+    """Run a study with a progress bar if somebody is looking."""
     if not sys.stderr.isatty():
         return run()
     from rich.console import Console
     from rich.progress import Progress
 
     with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(f"{len(names)} parameters, {len(percent)} values each", total=1.0)
+        task = bar.add_task(title, total=1.0)
         return run(progress=lambda done: bar.update(task, completed=done))
 
 

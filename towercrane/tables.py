@@ -302,6 +302,46 @@ def map_tables(report: dict[str, Any]) -> None:
     _assumed(console, report["assumed"])
 
 
+def shape_tables(report: dict[str, Any]) -> None:
+    """Motions beside each other, as :func:`towercrane.rest_study.report` gives them."""
+    console = _console()
+    drives = list(report["frequencies_hz"])
+    first = report["candidates"][0]
+    ropes, torsions = (
+        [f"{100 * float(f):.0f} %" for f in first[key]] for key in ("rope_residual_m", "torsion_residual_m")
+    )
+    slews = any(drive != "trolley" for drive in drives)
+    columns = ["motion", "time [s]", "left [m]", *(f"rope {percent}" for percent in ropes if percent != "100 %")]
+    columns += [f"GJ {percent}" for percent in torsions]
+    columns += ["torque [kN m]"] if slews else []
+    columns += ["force [kN]"] if "trolley" in drives else []
+    title = (
+        f"{report['crane']}: largest distance of the load from its rest in {report['watched_s']:g} s after the last "
+        f"motion, {report['damping_ratio']:.0%} modal damping; peaks of torque and trolley force"
+    )
+    table = _table(title, *columns)
+    for row in report["candidates"]:
+        ropes = [value for factor, value in row["rope_residual_m"].items() if factor != "1"]
+        left = [row["residual_m"], *ropes, *row["torsion_residual_m"].values()]
+        cells = [
+            row["title"],
+            f"{row['duration_s']:.2f}",
+            *("ended early" if v is None else f"{v:.4f}" for v in left),
+        ]
+        cells += [f"{1e-3 * row['peak_slewing_torque_Nm']:.1f}"] if slews else []
+        cells += [f"{1e-3 * row['peak_trolley_force_N']:.2f}"] if "trolley" in drives else []
+        table.add_row(*cells, style="bold" if row["name"] == report["recommended"] else None)
+    console.print(table)
+    for drive, found in report["frequencies_hz"].items():
+        ends = " to ".join(", ".join(f"{f:.4f}" for f in found[end]) for end in ("at_start", "at_end"))
+        console.print(f"{drive} excites {ends} Hz, from where the motion begins to where it ends")
+    console.print("ZV, ZVD, EI and boxes are for these modes where each ramp ends; ZV, sqrt(g/l) for a rigid crane")
+    if not all(row["within_limits"] for row in report["candidates"]):
+        console.print("too fast: faster or with more acceleration than commanded, and so never recommended")
+    console.print(f"recommended: {report['recommended']}, {report['reason']}", style="bold")
+    _assumed(console, report["assumed"])
+
+
 def bench_tables(report: dict[str, Any]) -> None:
     """Speed against error, as :func:`towercrane.bench.measure` gives it."""
     console = _console()

@@ -77,6 +77,7 @@ KINDS = {
     "kg m^2": ("a moment of inertia", "6 kg m^2"),
     "kg m^2/m": ("a rotary inertia per length", "250 kg m"),
     "N": ("a force", "120 MN"),
+    "Hz": ("a frequency", "0.12 Hz"),
     "N m": ("a torque", "22 N m"),
     "N/m": ("a stiffness", "60 kN/m"),
     "N m/rad": ("a rotary stiffness", "40 kN m/rad"),

@@ -10,14 +10,14 @@ from pydantic import TypeAdapter, ValidationError
 from towercrane.casefile import leaves
 from towercrane.faults import CaseError, Fault, shown
 from towercrane.plausibility import FASTEST, FASTEST_TURN, at, si, si_at
-from towercrane.profiles import profile
+from towercrane.profiles import plan
 from towercrane.schema_motions import HoistMotion, JointMotion, TrolleyMotion
 from towercrane.tower_checks import tower_height
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from towercrane.motion import Motion
+    from towercrane.plans import Plan
 
 ROUNDING = 1e-9
 """Relative; a motion that ends at the jib's end may overshoot it by rounding."""
@@ -33,6 +33,10 @@ JOINTS = {
 
 RESTS = ("slew",)
 """Joints that rest at zero where the case does not name them."""
+
+
+MODELLED = ("radial",)
+"""Kinds of crane whose modes are told apart, so that a motion may be shaped for the model's frequencies."""
 
 
 @dataclass(frozen=True)
@@ -75,21 +79,32 @@ class Way:
         return Fault("", key, self.wanted, got, self.hint)
 
 
-def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], dict[str, Motion]]:
-    """Motions by channel, without those that cannot be built, and where they leave the jib or the air.
+def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], dict[str, Plan]]:
+    """Plans by channel, without those that cannot be built, and where they leave the jib or the air.
 
     Parts of the case that are faulty themselves limit nothing, so that all faults show at once.
     """
     faults: list[Fault] = []
-    motions: dict[str, Motion | None] = {}
+    plans: dict[str, Plan | None] = {}
     if kind == "radial":
-        faults, motions["trolley"] = _trolley(tree, folder)
+        faults, plans["trolley"] = _trolley(tree, folder)
     for joint in JOINTS[kind]:
         way = Way(f"motion.{joint}", turns=True)
-        motions[joint], more = _motion(tree, way, TypeAdapter(JointMotion), folder, 0.0 if joint in RESTS else None)
+        plans[joint], more = _motion(tree, way, TypeAdapter(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
-    more, motions["rope"] = _rope(tree, folder, kind)
-    return [*faults, *more], {name: motion for name, motion in motions.items() if motion is not None}
+    more, plans["rope"] = _rope(tree, folder, kind)
+    faults += more
+    found = {name: plan for name, plan in plans.items() if plan is not None}
+    if kind not in MODELLED:
+        faults += [_without_model(name, kind) for name, plan in found.items() if plan.needs_model]
+    return faults, found
+
+
+def _without_model(channel: str, kind: str) -> Fault:
+    """Fault of a motion that asks for frequencies which this kind of crane does not give."""
+    key = f"motion.{'hoist' if channel == 'rope' else channel}.frequencies"
+    hint = "towercrane linearise shows the frequencies of any crane"
+    return Fault("", key, f'a list of frequencies for a crane of kind "{kind}", such as ["0.12 Hz"]', '"model"', hint)
 
 
 def channels(kind: str) -> tuple[str, ...]:
@@ -97,7 +112,7 @@ def channels(kind: str) -> tuple[str, ...]:
     return (*(("trolley",) if kind == "radial" else JOINTS[kind]), "rope")
 
 
-def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Motion | None]:
+def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Plan | None]:
     jib = si_at(tree, "crane.jib.length", "m")
     known = f"from 0 to {jib:g} m (the length of the jib)" if jib else "from 0 on"
     on_jib = Way("motion.trolley", jib, False, f"positions on the jib, {known}", "the trolley leaves the jib")
@@ -112,7 +127,7 @@ def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Motion | 
     return faults, trolley
 
 
-def _rope(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], Motion | None]:
+def _rope(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], Plan | None]:
     high, what = _height(tree, kind)
     known = f"above 0 and up to {high:g} m ({what})" if high else "above 0"
     hint = "the load would be in the ground or the rope wound up"
@@ -151,7 +166,7 @@ def _out_of_way(tree: dict[str, Any], way: Way, names: tuple[str, ...]) -> list[
 
 def _motion(
     tree: dict[str, Any], way: Way, adapter: TypeAdapter[Any], folder: Path, start: float | None
-) -> tuple[Motion | None, list[Fault]]:
+) -> tuple[Plan | None, list[Fault]]:
     """The motion at ``way.key`` and what is wrong with it as a whole; without one a known start is kept."""
     written = at(tree, way.key)
     if written is None and start is not None and (start > 0.0 or way.turns):
@@ -165,23 +180,29 @@ def _motion(
         return None, []
     begin = start if hoists and start is not None else getattr(described, "start", 0.0)
     try:
-        motion = profile(described, begin, folder, way.unit)
+        found = plan(described, begin, folder, way.unit)
     except CaseError as error:
         named = f"named by {way.key}.file of the case"
         return None, [replace(f, hint=f"{f.hint}; {named}" if f.hint else named) for f in error.faults]
     except (ArithmeticError, ValueError) as error:
         return None, [Fault("", way.key, "a motion that can be computed", str(error))]
+    motion = found.commanded
     key = f"{way.key}.file" if described.shape == "table" else way.key
     if hoists and abs(float(motion(0.0)) - begin) > 1e-6:
         got = f"a first length of {float(motion(0.0)):g} m"
         return None, [Fault("", key, f"a table that begins with rope.length, {begin:g} m", got)]
     fastest, limit = max(abs(rate) for rate in motion.range(1)), FASTEST_TURN if way.turns else FASTEST
-    if described.shape == "table" and fastest > limit:
-        got = f"a table that reaches {fastest:.3g} {way.unit}/s"
-        hint = "times in seconds? the curve through the points is smooth"
-        hint = f"angles in radians? {hint}" if way.turns else hint
+    # Other motions state their speed, which has a range of its own.
+    hints = {
+        "table": "times in seconds? the curve through the points is smooth",
+        "minimum-jerk": "a longer duration?",
+    }
+    if described.shape in hints and fastest > limit:
+        table, hint = described.shape == "table", hints[described.shape]
+        got = f"a {'table' if table else 'motion'} that reaches {fastest:.3g} {way.unit}/s"
+        hint = f"angles in radians? {hint}" if way.turns and table else hint
         return None, [Fault("", key, f"speeds up to {limit:g} {way.unit}/s", got, hint)]
     low, high = motion.range()
     if not (way.keeps(low) and way.keeps(high)):
         return None, [way.fault(key, f"a motion from {low:g} to {high:g} m")]
-    return motion, []
+    return found, []
