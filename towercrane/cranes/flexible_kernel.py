@@ -44,10 +44,10 @@ from towercrane.system import rhs_signature
 """Entries of ``numbers``, and how many they are. The first six count coordinates. SELF_GRAVITY is zero where the structure's own weight is
 left out; a channel is -1 where there is none."""
 
-TIP, SLOPE, TWIST, JIB_MASS, JIB_MOMENT, DAMPING, EXPOSURE = range(7)
+TIP, SLOPE, TWIST, JIB_MASS, JIB_MOMENT, DAMPING, EXPOSURE, CAP = range(8)
 """Rows of ``vectors``, zero where they do not apply: tower modes at the top, their slopes, twist of the head (1 for
 the slewing angle), int m phi and int m x phi of the jib modes, viscous damping, int c phi of tower and jib modes with
-the drag c per squared speed."""
+the drag c per squared speed, mass added to the coordinate itself where its frequency is capped."""
 
 OWN, STIFFNESS = range(2)
 """Entries of ``matrices``: mass of the tower alone, of the drive, and int m phi_i phi_j of all jib modes, lateral with
@@ -369,6 +369,7 @@ def structure(
             work[MASS + i, m] = matrices[OWN, i, m] + trolley * shape * work[shapes, m]
 
     for i in range(n):
+        work[MASS + i, i] += vectors[CAP, i]
         loss = vectors[DAMPING, i] * y[rates + i]
         power -= loss * y[rates + i]
         elastic = loss
