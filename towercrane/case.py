@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.motion import Motion
     from towercrane.payload import Load
+    from towercrane.schema_accuracy import Accuracy
 
 __all__ = ["Assumption", "Case", "CaseError", "Fault", "case_folder", "list_cases", "load_case"]
 
@@ -97,6 +98,11 @@ class Case:
     def solver(self) -> schema.Solver:
         """Time integration."""
         return self.checked.solver
+
+    @property
+    def accuracy(self) -> Accuracy:
+        """Error that is asked for; for a crane in radial motion."""
+        return self._radial.accuracy
 
     @property
     def modes(self) -> schema_cases.ModesRequest:

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, StrictBool, StrictInt
 
 from towercrane.schema import Angle, ModeCount, Payload, Position, Ratio, Rope, Run, Solver, Table
+from towercrane.schema_accuracy import Accuracy
 from towercrane.schema_cranes import (  # noqa: TC001 - pydantic reads annotations when the class is made
     BasicCrane,
     Crane,
@@ -55,6 +56,7 @@ class RadialCase(Table):
     start: Start = Start()
     run: Run
     solver: Solver = Solver()
+    accuracy: Accuracy = Accuracy()
     modes: ModesRequest = ModesRequest()
     allow_implausible: tuple[str, ...] = ()
 

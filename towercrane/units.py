@@ -66,6 +66,7 @@ KINDS = {
     "m/s": ("a speed", "0.8 m/s"),
     "m/s^2": ("an acceleration", "0.1 m/s^2"),
     "m/s^3": ("a jerk", "0.05 m/s^3"),
+    "N": ("a force", "500 N"),
     "Pa": ("a stress or modulus", "206 GPa"),
     "rad": ("an angle", "5 deg"),
     "rad/s": ("a rotary speed", "7 rpm"),
