@@ -67,7 +67,7 @@ def test_a_target_that_makes_no_sense(text, words):
 def test_outputs_without_a_target():
     with pytest.raises(CaseError, match="none for swing_angle"):
         load_case(STATED, ['accuracy.target="1 mm"', 'accuracy.outputs=["swing_angle"]'])
-    with pytest.raises(CaseError, match=r"accuracy\.outputs"):
+    with pytest.raises(CaseError, match=r'(?s)accuracy\.outputs.*got:    "swing".*did you mean "swing_angle"'):
         load_case(STATED, ["accuracy.target=1e-3", 'accuracy.outputs=["swing"]'])
 
 
@@ -113,7 +113,7 @@ def test_a_run_that_ends_early_promises_nothing():
 
 
 def test_a_tower_that_buckles_is_named():
-    result = run_case(load_case(OPEN, ["crane.tower.second_moment_of_area=0.00001 m^4", "run.duration=1 s"]))
+    result = run_case(load_case(OPEN, ["crane.tower.second_moment_of_area=0.00005 m^4", "run.duration=1 s"]))
     assert result.attrs["outcome"] == "tower buckled"
 
 

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy import Choice, Estimate, Indicators, choose, limits
+from towercrane.accuracy import SMALLEST_PEAK, Choice, Estimate, Indicators, choose, limits
 from towercrane.integrate import FINISHED
 from towercrane.nodes import OUTPUTS, RICHEST
 from towercrane.scene import Setting, provenance, scene_of, setting_of
+from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -104,17 +105,20 @@ def left_out(case: Case, setting: Setting) -> list[str]:
         found.append(f"vibration above {setting.cap:.3g} Hz: faster modes are slowed to it and keep their stiffness")
     found.append("motion out of the jib's plane: nothing drives the load out of it")
     if not setting.weight_softening:
-        shares = softening_shares(scene_of(case))
-        effects = ", ".join(f"{name.replace('_', ' ')} {share:.1%}" for name, share in shares.items())
-        found.append(f"the weight's softening of the tower, stated so: it would change {effects} of the peak")
+        found.append(f"the weight's softening of the tower, as the case states: {_softening(scene_of(case))}")
     return found
 
 
-def softening_shares(scene: RadialScene) -> dict[str, float]:
-    """What the weight's softening changes in every output, over its expected peak."""
+def _softening(scene: RadialScene) -> str:
+    """What the weight's softening would do, in words."""
     indicators = Indicators(scene)
-    shares = indicators.softening() / np.maximum(indicators.rich(True).peaks, 1e-12)
-    return dict(zip(OUTPUTS, np.minimum(shares, 2.0).tolist(), strict=True))
+    try:
+        changes = indicators.softening() / np.maximum(indicators.rich(True).peaks, SMALLEST_PEAK)
+    except NoEquilibrium:
+        return "with it the tower buckles"
+    # Two models that have lost each other's phase differ by twice the peak at most.
+    shares = zip(OUTPUTS, np.minimum(changes, 2.0), strict=True)
+    return "it would change " + ", ".join(f"{n.replace('_', ' ')} by {s:.1%}" for n, s in shares) + " of the peak"
 
 
 def finer(setting: Setting) -> Setting:

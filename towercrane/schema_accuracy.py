@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import GetCoreSchemaHandler, model_validator
 from pydantic_core import CoreSchema, core_schema
@@ -33,6 +33,24 @@ class TargetField:
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(read)
+
+
+class OutputsField:
+    """Annotation of the field that takes names of outputs."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(names)
+
+
+def names(value: object) -> tuple[str, ...]:
+    """Names of outputs."""
+    wanted = f"a list of some of {', '.join(OUTPUTS)}"
+    if not isinstance(value, list | tuple) or not value:
+        raise refusal(wanted, shown(value), "")
+    for name in value:
+        if name not in OUTPUTS:
+            raise refusal(wanted, shown(name), did_you_mean(str(name), OUTPUTS))
+    return tuple(value)
 
 
 def read(value: object) -> Targets:
@@ -85,7 +103,7 @@ class Accuracy(Table):
     """Error that is asked for, and of what; without outputs, of all that have a target."""
 
     target: Annotated[Targets, TargetField()] | None = None
-    outputs: tuple[Literal["tower_tip_displacement", "jib_tip_deflection", "swing_angle", "rope_tension"], ...] = ()
+    outputs: Annotated[tuple[str, ...], OutputsField()] = ()
 
     @model_validator(mode="after")
     def _every_output_has_a_target(self) -> Accuracy:
