@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -132,7 +133,14 @@ def _exponential_integral(
 def _quadrature(phase: float, weight: Weight) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Gauss-Legendre points and weights on (0, 1), in panels short for waves of that phase over (0, 1)."""
     panels = max(1, int(np.ceil(phase / _PANEL_PHASE)))
-    points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    points, weights = _gauss_rule()
     z = ((np.arange(panels)[:, None] + 0.5 * (points + 1.0)) / panels).ravel()
     scale = {"one": np.ones_like(z), "from_root": z, "from_end": 1.0 - z}[weight]
     return z, np.tile(0.5 * weights / panels, panels) * scale
+
+
+@cache
+def _gauss_rule() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Gauss-Legendre points and weights on (-1, 1)."""
+    points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    return points, weights

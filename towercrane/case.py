@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from towercrane.motion import Motion
     from towercrane.payload import Load
     from towercrane.plans import Plan
+    from towercrane.schema_accuracy import Accuracy
 
 __all__ = ["Assumption", "Case", "CaseError", "Fault", "case_folder", "list_cases", "load_case"]
 
@@ -139,8 +140,8 @@ class Case:
         return asked.model_copy(update={"trolley_positions": positions, "payload_masses": masses})
 
     @property
-    def accuracy(self) -> schema_cases.Accuracy:
-        """Accuracy that is asked of a radial case's results."""
+    def accuracy(self) -> Accuracy:
+        """Errors that are asked for; for a crane in radial motion."""
         return self._radial.accuracy
 
     @property

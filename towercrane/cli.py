@@ -165,9 +165,14 @@ def run(
     as_json: AsJson = False,
     pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
     csv: Annotated[bool, typer.Option("--csv", help="Write result.csv as well.")] = False,
+    verify: Annotated[
+        bool, typer.Option("--verify", help="Run a richer model with a tighter tolerance as well and compare.")
+    ] = False,
 ) -> None:
     """Simulate a case; write result.nc, summary.json and pictures."""
     loaded = load(case, changes)
+    if verify and loaded.kind != "radial":
+        fail(f"--verify: wanted a crane of kind 'radial', got {loaded.kind!r}")
     folder = out if out is not None else Path("results") / loaded.name
     folder_for_results(folder)
     announce_compilation(loaded.kind, "towercrane.stepper")
@@ -177,6 +182,10 @@ def run(
 
     result = _with_progress(loaded, run_case)
     summary = summarise(loaded, result)
+    if verify and summary["outcome"] == "finished":
+        from towercrane.promise import verification
+
+        summary["verification"] = verification(loaded, result)
     text = json.dumps(summary, indent=2, allow_nan=False)
     files: dict[str, Any] = {"result.nc": result, "summary.json": text + "\n"}
     if csv:
@@ -188,9 +197,11 @@ def run(
     if as_json:
         typer.echo(text)
     else:
-        from towercrane.tables import run_tables
+        from towercrane.tables import run_tables, verification_tables
 
         run_tables(summary)
+        if "verification" in summary:
+            verification_tables(summary["verification"])
         typer.echo(f"written to {folder}: {', '.join(files)}")
         if stale:
             typer.echo(f"removed, of an earlier run: {', '.join(stale)}")

@@ -47,13 +47,13 @@ class Quantity:
         try:
             number = to_si(value, self.unit)
         except UnitError as error:
-            raise _refusal(error.wanted, error.got, error.hint) from None
+            raise refusal(error.wanted, error.got, error.hint) from None
         if (
             (self.above is not None and not number > self.above)
             or (self.least is not None and number < self.least)
             or (self.most is not None and number > self.most)
         ):
-            raise _refusal(self.wanted, shown(value), "")
+            raise refusal(self.wanted, shown(value), "")
         return number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -72,18 +72,19 @@ class FrequencyList:
             return MODEL
         items = value if isinstance(value, list | tuple) else [value]
         if not items:
-            raise _refusal(self.wanted, "an empty list", "")
+            raise refusal(self.wanted, "an empty list", "")
         try:
             return tuple(Quantity("Hz", above=0).read(item) for item in items)
-        except PydanticCustomError as refusal:
-            context = refusal.context or {}
-            raise _refusal(self.wanted, context["got"], context["hint"]) from None
+        except PydanticCustomError as fault:
+            context = fault.context or {}
+            raise refusal(self.wanted, context["got"], context["hint"]) from None
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.read)
 
 
-def _refusal(wanted: str, got: str, hint: str) -> PydanticCustomError:
+def refusal(wanted: str, got: str, hint: str) -> PydanticCustomError:
+    """Error of a field that says what belongs there, what came and the likely cause."""
     return PydanticCustomError("quantity", "{wanted}", {"wanted": wanted, "got": got, "hint": hint})
 
 

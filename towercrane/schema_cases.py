@@ -18,8 +18,8 @@ from towercrane.schema import (
     Run,
     Solver,
     Table,
-    ToleranceIfAny,
 )
+from towercrane.schema_accuracy import Accuracy
 from towercrane.schema_cranes import (  # noqa: TC001 - pydantic reads annotations when the class is made
     BasicCrane,
     Crane,
@@ -66,12 +66,6 @@ class MapRequest(Table):
     position_count: Annotated[StrictInt, Field(ge=2, le=2000)] = 50
     trolley_positions: tuple[Position, ...] = ()
     payload_masses: tuple[Mass, ...] = ()
-
-
-class Accuracy(Table):
-    """Accuracy that is asked of results; None where any is good enough."""
-
-    frequency: ToleranceIfAny = None
 
 
 class RadialCase(Table):

@@ -58,7 +58,8 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         units) among the rows of the result, ``spectrum_peaks_hz`` of the structure (of its free vibration where that
         is long enough), ``swing_period_s`` after the drives have stopped (None without a regular swing),
         ``natural_frequencies_hz`` where the run ended, ``energy_balance``, ``expected``, ``notices``,
-        ``assumed``, ``solver``, ``wall_seconds``.
+        ``assumed``, ``solver``, ``wall_seconds``; ``accuracy`` where the case asks for an error, see
+        :func:`towercrane.promise.promise`.
     """
     attributes = result.attrs
     times = result["time"].values
@@ -95,7 +96,14 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         },
         "versions": json.loads(attributes["versions"]),
         "wall_seconds": attributes["wall_seconds"],
+        **({"accuracy": promised} if (promised := accuracy(result)) else {}),
     }  # fmt: skip
+
+
+def accuracy(result: xr.Dataset) -> dict[str, Any] | None:
+    """What a run promises of its errors; None where none was asked for."""
+    found: dict[str, Any] | None = json.loads(result.attrs.get("accuracy", "null"))
+    return found
 
 
 def assumed(result: xr.Dataset) -> list[tuple[str, str, str]]:
@@ -161,6 +169,8 @@ def notices(case: Case, result: xr.Dataset, frequencies: list[float], swing: int
     if result.attrs["outcome"] != FINISHED:
         reason = f": {result.attrs['message']}" if result.attrs["message"] else ""
         found.append(f"ended at {result.attrs['end_time']:.6g} s: {result.attrs['outcome']}{reason}")
+    if (promised := accuracy(result)) and promised["reasons"]:
+        found.append(f"the error asked for is {promised['outcome']}: {'; '.join(promised['reasons'])}")
     tension = result["rope_tension"].values
     if case.rope.slack == "rod" and tension.min() < 0.0:
         first = float(result["time"][int(np.argmax(tension < 0.0))])
@@ -211,7 +221,9 @@ def _natural(case: Case, result: xr.Dataset) -> tuple[list[float], int | None]:
         if case.kind != "radial":
             return _linearised(case), None
         position, length = float(result["trolley_position"][-1]), float(result["rope_length"][-1])
-        frequencies, swing = radial_model(case).natural_modes(position, length)
+        picked = (accuracy(result) or {"setting": {}})["setting"]
+        chosen = {key: picked[key] for key in ("tower_modes", "jib_modes", "weight_softening") if key in picked}
+        frequencies, swing = radial_model(case, **chosen).natural_modes(position, length)
     except NoEquilibrium:
         return [], None
     return (frequencies / (2 * np.pi)).tolist(), swing

@@ -215,9 +215,68 @@ def run_tables(summary: dict[str, Any]) -> None:
     if expected := summary["expected"]:
         for miss in expected["misses"] or ["met"]:
             console.print(f"expected by the case  {miss}", style="bold" if expected["misses"] else None)
+    if "accuracy" in summary:
+        _accuracy(console, summary["accuracy"])
     for notice in summary["notices"]:
         console.print(f"note     {notice}", style="bold")
     _assumed(console, summary["assumed"])
+
+
+def _accuracy(console: Console, promised: dict[str, Any]) -> None:
+    """What was asked for, chosen and is expected, as :func:`towercrane.promise.promise` gives it."""
+    title = f"Error asked for: {promised['outcome']}"
+    table = _table(title, "output", "allowed", "expected", "peak", "expected / peak", "unit")
+    for name, found in promised["outputs"].items():
+        expected = found["estimated"]
+        table.add_row(
+            name.replace("_", " "),
+            f"{found['allowed']:.2g}",
+            "unknown" if expected is None else f"{expected:.2g}",
+            f"{found['peak']:.4g}",
+            "" if expected is None or not found["peak"] else f"{expected / found['peak']:.1e}",
+            found["units"],
+        )
+    console.print(table)
+    console.print(f"chosen                {setting_words(promised['setting'])}")
+    if promised["stated"]:
+        console.print(f"stated by the case    {', '.join(promised['stated']).replace('_', ' ')}")
+    for reason in promised["left_out"]:
+        console.print(f"left out              {reason}")
+    console.print(
+        f"choice                {promised['tried']} settings looked at, {1e3 * promised['choice_cpu_seconds']:.0f} ms"
+    )
+
+
+def setting_words(setting: dict[str, Any]) -> str:
+    """Model and solver of a run in words, as :func:`towercrane.scene.provenance` gives them."""
+    cap = f" capped at {setting['cap']:.3g} Hz" if setting["cap"] else ""
+    softening = "with" if setting["weight_softening"] else "without"
+    return (
+        f"{setting['tower_modes']} tower and {setting['jib_modes']} jib modes{cap}, {softening} the weight's "
+        f"softening, {setting['method']} at rtol {setting['rtol']:.1e}, atol {setting['atol']:.1e}"
+    )
+
+
+def verification_tables(report: dict[str, Any]) -> None:
+    """Expected beside actual errors, as :func:`towercrane.promise.verification` gives them."""
+    console = _console()
+    columns = ("output", "expected error", "difference", "difference / peak", "unit")
+    table = _table("Run beside a richer model", *columns)
+    for name, found in report["outputs"].items():
+        expected, peak = found["estimated"], found["peak"]
+        table.add_row(
+            name.replace("_", " "),
+            "unknown" if expected is None else f"{expected:.2g}",
+            f"{found['actual']:.2g}" + (" (!)" if expected is not None and found["actual"] > expected else ""),
+            f"{found['actual'] / peak:.1e}" if peak else "",
+            found["units"],
+        )
+    console.print(table)
+    console.print(f"run                   {setting_words(report['setting'])}")
+    ended = "" if report["outcome"] == "finished" else f"; it ended early: {report['outcome']}"
+    console.print(f"richer                {setting_words(report['finer'])}{ended}")
+    for doubt in report["doubts"]:
+        console.print(f"note     the expected error may not hold: {doubt}", style="bold")
 
 
 def sensitivity_tables(summary: dict[str, Any]) -> None:

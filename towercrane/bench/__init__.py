@@ -6,6 +6,7 @@ import os
 import platform
 from typing import TYPE_CHECKING, Any
 
+from towercrane.bench.accuracy import error_controlled
 from towercrane.bench.growth import growth
 from towercrane.bench.radial import modes_left_out, right_hand_side
 from towercrane.bench.roots import roots
@@ -32,6 +33,7 @@ SUBJECTS: dict[str, tuple[str, Subject]] = {
     "enhanced": ("slewing crane, enhanced", lambda repeats, quick: _lumped("enhanced", repeats, quick)),
     "basic": ("slewing crane, basic", lambda repeats, quick: _lumped("basic", repeats, quick)),
     "jib": ("jib crane", lambda repeats, quick: work_precision(jib_scene(), repeats, quick=quick)),
+    "accuracy": ("error-controlled runs of drawn scenes", lambda repeats, quick: error_controlled(repeats)),
     "growth": ("growth of the cost", lambda repeats, quick: growth(repeats)),
 }
 """What is measured, by name; each takes the number of repeats and whether to be quick, and gives a table."""
@@ -43,7 +45,7 @@ def measure(*, quick: bool = False, subject: str = "", say: Callable[[str], None
     Parameters
     ----------
     quick : bool
-        Fewer repeats, one tolerance for each rival.
+        Fewer repeats and scenes, one tolerance for each rival.
     subject : str
         Name of a single subject; empty: all.
     say : callable

@@ -36,6 +36,10 @@ ROUNDING = 1e-9
 """Way beyond an end of the jib that counts as parked on it [m]."""
 
 
+FREE_MODES = 2
+"""Modes of each member that a cap never slows: they vibrate."""
+
+
 @dataclass(frozen=True, slots=True)
 class ModalDamping:
     """Damping of the modes of each kind as a fraction of critical.
@@ -87,12 +91,16 @@ class FlexibleModel:
         Whether a wind blows, prescribed by motions of its three components.
     axes : {2, 3}
         2 for a load that swings in the plane of a jib at rest, 3 in space.
+    cap : float
+        Highest frequency [Hz] of a mode by itself: every mode after a member's second that is faster keeps its
+        stiffness and is made so slow by mass added to its own coordinate (selective mass scaling). The static
+        flexibility stays exact and energy is conserved; what vibrates near the cap or beyond it is not.
 
     Raises
     ------
     ValueError
-        If a crane that leaves the plane is asked to stay in it, the slewing is of no known kind, the drive's friction
-        is set-valued, or there is inertia of a drive without a drive.
+        If the cap is not positive, a crane that leaves the plane is asked to stay in it, the slewing is of no known
+        kind, the drive's friction is set-valued, or there is inertia of a drive without a drive.
     """
 
     crane: FlexibleCrane
@@ -105,8 +113,11 @@ class FlexibleModel:
     rope_as_rod: bool = False
     wind: bool = False
     axes: Literal[2, 3] = 3
+    cap: float = np.inf
 
     def __post_init__(self) -> None:
+        if not self.cap > 0.0:
+            raise ValueError(f"FlexibleModel.cap: wanted a positive frequency [Hz], got {self.cap!r}")
         crane = self.crane
         leaves = crane.planes > 1 or crane.torsion.count or crane.lateral.count or self.slewing != "fixed"
         if self.axes == 2 and leaves:
@@ -218,6 +229,12 @@ class FlexibleModel:
             crane.vertical.angular_frequencies,
         ])  # fmt: skip
 
+    @cached_property
+    def added_mass(self) -> Floats:
+        """Mass that the cap adds to each coordinate, whose own is 1; shape (coordinates,)."""
+        order = np.concatenate([np.arange(count) for count in self.counts.values()])
+        return added_mass(self.angular_frequencies, order, self.cap)
+
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at rest at the start.
 
@@ -319,6 +336,23 @@ class FlexibleModel:
         return {
             "crane": self.crane.name,
             **modes,
+            "frequency_cap": self.cap if np.isfinite(self.cap) else 0.0,
             "payload_mass": self.load.mass,
             "gravity": self.crane.gravity,
         }
+
+
+def added_mass(angular_frequencies: Floats, order: NDArray[np.int64], cap: float) -> Floats:
+    """Mass that slows modes of unit mass to a frequency [Hz], shape (n,).
+
+    Parameters
+    ----------
+    angular_frequencies : ndarray, shape (n,)
+        Of each mode by itself [rad/s].
+    order : ndarray of int, shape (n,)
+        Number of each mode in its member, from 0; the first `FREE_MODES` are left as they are.
+    cap : float
+        [Hz]
+    """
+    ratio = angular_frequencies / (2.0 * np.pi * cap)
+    return np.asarray(np.where((order >= FREE_MODES) & (ratio > 1.0), ratio**2 - 1.0, 0.0))

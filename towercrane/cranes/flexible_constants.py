@@ -80,6 +80,7 @@ def vectors(model: FlexibleModel) -> Floats:
     d = model.damping
     ratios = np.repeat([d.tower, d.tower, d.torsion, 0.0, d.lateral, d.vertical], list(model.counts.values()))
     values[layout.DAMPING] = 2.0 * ratios * model.angular_frequencies
+    values[layout.CAP] = model.added_mass
     return values
 
 

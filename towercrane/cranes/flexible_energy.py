@@ -27,6 +27,7 @@ def kinetic_energy(motion: FlexibleMotion) -> Floats:
     sums, own, rates = model.crane.slewing, model.system.matrices[layout.OWN], motion.rates
     jib = model.parts["jib_lateral"].start
     energy = 0.5 * np.einsum("ti,ij,tj->t", rates[:, :jib], own[:jib, :jib], rates[:, :jib])
+    energy += 0.5 * rates**2 @ model.added_mass
     velocity, spin = np.zeros((len(rates), 3)), motion.spin
     velocity[:, :2] = motion.top(rates)[0]
     velocity = motion.to_head(velocity)

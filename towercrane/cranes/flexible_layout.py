@@ -9,10 +9,10 @@ from __future__ import annotations
 """Entries of ``numbers``, and how many they are. The first six count coordinates. SELF_GRAVITY is zero where the
 structure's own weight is left out; a channel is -1 where there is none."""
 
-TIP, SLOPE, TWIST, JIB_MASS, JIB_MOMENT, DAMPING, EXPOSURE, VECTORS = range(8)
+TIP, SLOPE, TWIST, JIB_MASS, JIB_MOMENT, DAMPING, EXPOSURE, CAP, VECTORS = range(9)
 """Rows of ``vectors``, and how many, zero where they do not apply: tower modes at the top, their slopes, twist of the
 head (1 for the slewing angle), int m phi and int m x phi of the jib modes, viscous damping, int c phi of tower and
-jib modes with the drag c per squared speed."""
+jib modes with the drag c per squared speed, mass added to a coordinate itself where its frequency is capped."""
 
 OWN, STIFFNESS = range(2)
 """Entries of ``matrices``: mass of the tower alone, of the drive, and int m phi_i phi_j of all jib modes, lateral

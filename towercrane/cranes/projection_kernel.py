@@ -70,6 +70,7 @@ def project_head(
         lean, tip = ui * h_x2 + gi * h_22, ui * mass + gi * h_x2
         for m in range(i + 1):
             work[MASS + i, m] = matrices[at.OWN, i, m] + tip * vectors[at.TIP, m] + lean * vectors[at.SLOPE, m]
+        work[MASS + i, i] += vectors[at.CAP, i]
     for i in range(to_y, to_turn):
         ui, gi = vectors[at.TIP, i], -vectors[at.SLOPE, i]
         work[FORCE, i] += ui * force_y + gi * moment_1
@@ -82,6 +83,7 @@ def project_head(
         lean, tip = ui * h_y1 + gi * h_11, ui * mass + gi * h_y1
         for m in range(to_y, i + 1):
             work[MASS + i, m] = matrices[at.OWN, i, m] + tip * vectors[at.TIP, m] - lean * vectors[at.SLOPE, m]
+        work[MASS + i, i] += vectors[at.CAP, i]
     for i in range(to_turn, to_jib):
         ti = vectors[at.TWIST, i]
         work[FORCE, i] += ti * mz
@@ -94,6 +96,7 @@ def project_head(
             work[MASS + i, m] = ti * (c2z * vectors[at.TIP, m] - l1z * vectors[at.SLOPE, m])
         for m in range(to_turn, i + 1):
             work[MASS + i, m] = matrices[at.OWN, i, m] + ti * izz * vectors[at.TWIST, m]
+        work[MASS + i, i] += vectors[at.CAP, i]
     return k3x, k3y, k3z, c1z, c2z, l1z, l2z, izz, mz
 
 
@@ -141,3 +144,4 @@ def project_jib(
             work[MASS + i, m] = twist * vectors[at.TWIST, m]
         for m in range(first, i + 1):
             work[MASS + i, m] = matrices[at.OWN, i, m] + trolley * shape * work[shapes, m]
+        work[MASS + i, i] += vectors[at.CAP, i]

@@ -54,6 +54,8 @@ class RadialModel:
         Let the rope push, as most published models do. Without it a slack rope ends the run.
     axes : int
         2 for motion in the plane of the jib, 3 for a load that may swing out of it.
+    cap : float
+        Highest frequency of a mode [Hz], see :class:`towercrane.cranes.flexible.FlexibleModel`.
     """
 
     crane: TowerCrane
@@ -66,6 +68,7 @@ class RadialModel:
     self_weight: bool = True
     rope_as_rod: bool = False
     axes: Literal[2, 3] = 2
+    cap: float = np.inf
 
     def __post_init__(self) -> None:
         for name in ("tower_modes", "jib_modes"):
@@ -85,6 +88,7 @@ class RadialModel:
             self_weight=self.self_weight,
             rope_as_rod=self.rope_as_rod,
             axes=self.axes,
+            cap=self.cap,
         )
 
     @property
@@ -155,6 +159,7 @@ class RadialModel:
             "crane": self.crane.name,
             "tower_modes": self.tower_modes,
             "jib_modes": self.jib_modes,
+            "frequency_cap": self.cap if np.isfinite(self.cap) else 0.0,
             "payload_mass": self.load.mass,
             "gravity": self.crane.gravity,
         }

@@ -1,0 +1,146 @@
+"""Cases that ask for an error: what the table takes, what a run says, the command line."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from towercrane import load_case
+from towercrane.accuracy import Tolerance
+from towercrane.cli import app
+from towercrane.faults import CaseError
+from towercrane.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, stated, verification
+from towercrane.scene import Setting
+from towercrane.simulate import run_case
+from towercrane.summary import summarise
+from towercrane.tables import run_tables, verification_tables
+
+OPEN, STATED = "qtz5613/within-1e-3", "qtz5613/condition-3"
+SHORT = ["run.duration=60 s"]
+
+
+def promised(name, *changes):
+    case = load_case(name, [*SHORT, *changes])
+    result = run_case(case)
+    return case, result, json.loads(result.attrs["accuracy"])
+
+
+def test_a_target_takes_ratios_lengths_and_a_table():
+    def targets(text):
+        return load_case(STATED, [f"accuracy.target={text}"]).accuracy.targets
+
+    assert set(targets("1e-3").values()) == {Tolerance(1e-3, relative=True)}
+    assert len(targets('"0.1 %"')) == 4
+    assert targets('"0.1 mm"') == {
+        name: Tolerance(pytest.approx(1e-4), relative=False)
+        for name in ("tower_tip_displacement", "jib_tip_deflection")
+    }
+    mixed = targets('{ swing_angle = "0.01 deg", rope_tension = "50 N" }')
+    assert mixed["swing_angle"].value == pytest.approx(np.radians(0.01))
+    assert mixed["rope_tension"] == Tolerance(50.0, relative=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("5", ("above 0 to 0.5", "got:    5", "50 % of the peak at most")),
+        ("0", ("above 0 to 0.5", "got:    0")),
+        ("-1e-3", ("got:    -0.001",)),
+        ('"fast"', ('got:    "fast"', "a quantity begins with its number")),
+        ('"3 kg"', ('such as "0.1 mm"', '"3 kg"')),
+        ("{ swing = 1e-3 }", ('unknown output "swing"', 'did you mean "swing_angle"?')),
+        ('{ swing_angle = "1 mm" }', ("an error of swing_angle in rad", '"1 mm"')),
+        ("{}", ("an empty table",)),
+    ],
+)
+def test_a_target_that_makes_no_sense(text, words):
+    with pytest.raises(CaseError) as caught:
+        load_case(STATED, [f"accuracy.target={text}"])
+    assert "accuracy.target" in str(caught.value)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_outputs_without_a_target():
+    with pytest.raises(CaseError, match="none for swing_angle"):
+        load_case(STATED, ['accuracy.target="1 mm"', 'accuracy.outputs=["swing_angle"]'])
+    with pytest.raises(CaseError, match=r'(?s)accuracy\.outputs.*got:    "swing".*did you mean "swing_angle"'):
+        load_case(STATED, ["accuracy.target=1e-3", 'accuracy.outputs=["swing"]'])
+
+
+def test_without_a_target_nothing_changes():
+    result = run_case(load_case(STATED, SHORT))
+    assert "accuracy" not in result.attrs
+    assert (result.attrs["tower_modes"], result.attrs["jib_modes"], result.attrs["rtol"]) == (2, 3, 1e-8)
+    assert result.attrs["frequency_cap"] == 0.0
+
+
+def test_a_run_says_what_it_chose_and_promises(capsys):
+    case, result, found = promised(OPEN)
+    assert found["outcome"] == KEPT
+    assert found["stated"] == []
+    assert set(found["outputs"]) == {"tower_tip_displacement", "jib_tip_deflection", "swing_angle"}
+    for output in found["outputs"].values():
+        assert 0.0 < output["estimated"] <= output["allowed"] == pytest.approx(1e-3 * output["peak"])
+    assert result.attrs["jib_modes"] == found["setting"]["jib_modes"]
+    summary = summarise(case, result)
+    assert summary["accuracy"] == found
+    run_tables(summary)
+    shown = capsys.readouterr().out
+    for words in ("Error asked for: promised", "chosen ", "left out ", "jib tip deflection"):
+        assert words in shown
+
+
+def test_what_the_case_states_is_checked():
+    case, result, found = promised(STATED, "accuracy.target=1e-4", "model.weight_softening=false")
+    assert found["outcome"] == OUT_OF_REACH
+    assert found["stated"] == ["atol", "jib_modes", "method", "rtol", "tower_modes", "weight_softening"]
+    assert stated(case)["jib_modes"] == 3
+    assert result.attrs["rtol"] == 1e-8
+    assert any("jib tip deflection" in reason and "wanted" in reason for reason in found["reasons"])
+    assert any("softening" in part and "%" in part for part in found["left_out"])
+    assert any("out of reach" in notice for notice in summarise(case, result)["notices"])
+
+
+def test_a_run_that_ends_early_promises_nothing():
+    _, result, found = promised("qtz5613/condition-4-zero", "accuracy.target=1e-2", "rope.slack=stop")
+    assert result.attrs["outcome"] == "slack rope"
+    assert found["outcome"] == CANNOT_BE_PROMISED
+    assert any("ended early: slack rope" in reason for reason in found["reasons"])
+
+
+def test_a_tower_that_buckles_is_named():
+    result = run_case(load_case(OPEN, ["crane.tower.second_moment_of_area=0.00005 m^4", "run.duration=1 s"]))
+    assert result.attrs["outcome"] == "tower buckled"
+
+
+def test_verification_compares_with_a_richer_model(capsys):
+    case, result, _ = promised(OPEN)
+    report = verification(case, result)
+    assert report["finer"]["jib_modes"] == report["setting"]["jib_modes"] + 4
+    assert report["finer"]["rtol"] == pytest.approx(1e-2 * report["setting"]["rtol"])
+    for name in ("tower_tip_displacement", "jib_tip_deflection"):
+        output = report["outputs"][name]
+        assert 0.02 * output["estimated"] < output["actual"] < output["estimated"]
+    verification_tables(report)
+    assert "Run beside a richer model" in capsys.readouterr().out
+    assert finer(Setting(5, 12)).jib_modes == 14
+
+
+def test_verify_on_the_command_line(tmp_path):
+    arguments = ["run", STATED, "--verify", "--json", "--no-pictures", "--out", str(tmp_path), "--set", *SHORT]
+    done = CliRunner().invoke(app, arguments)
+    assert done.exit_code == 0
+    report = json.loads(done.stdout)["verification"]
+    for name in ("tower_tip_displacement", "jib_tip_deflection"):
+        assert 0.0 < report["outputs"][name]["actual"] < report["outputs"][name]["estimated"]
+    assert json.loads((tmp_path / "summary.json").read_text())["verification"] == report
+
+
+def test_verify_knows_radial_cranes_only(tmp_path, capsys):
+    done = CliRunner().invoke(app, ["run", "jib-crane/plan", "--verify", "--out", str(tmp_path)])
+    assert done.exit_code == 2
+    assert "--verify: wanted a crane of kind 'radial', got 'jib'" in done.stderr

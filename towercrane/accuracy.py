@@ -1,0 +1,303 @@
+"""Ask for an error, get the cheapest run that keeps it: the choice of modes, cap and tolerance for a scene."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from towercrane.indicators import drift, vibration
+from towercrane.nodes import OUTPUTS, RICHEST, SWING, TENSION, nodes_of
+from towercrane.scene import Setting
+from towercrane.system import NoEquilibrium
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from towercrane.indicators import Vibration
+    from towercrane.scene import RadialScene
+
+    Floats = NDArray[np.float64]
+
+SAFETY = np.array([3.2, 3.2, 3.2, 3.2])
+"""Factor on what the indicators expect of vibration, per output: what the drawn scenes of the benchmark needed."""
+
+STATIC_SAFETY = 1.1
+"""Factor on the static part, which is all but exact."""
+
+STEPPING = 5.0
+"""Largest error of dop853 over rtol and over the output's peak, for outputs that are positions; commonly a tenth."""
+
+SHARES = (0.3, 0.01)
+"""Parts of the target that the solver may use up: as a rule, and where it would damp what rings fastest."""
+
+STEPS_PER_CYCLE = 3.0
+"""Steps of dop853 in a cycle of the fastest mode."""
+
+FASTEST = 0.3
+"""Modes above this part of the highest frequency lose up to rtol of their amplitude in every step."""
+
+LOOSEST, TIGHTEST = 2e-3, 1e-9
+"""Range of rtol."""
+
+SMALLEST_PEAK = 1e-4
+"""Peaks below this [m, rad or N] count as this."""
+
+WIDE = 0.5
+"""Swing beyond which small motions say little [rad]."""
+
+GROWTH = 0.3
+"""Exponent of a parametric resonance's growth over a run, beyond which nothing is promised."""
+
+MODES = ((0, 0), (1, 0), (0, 1), (1, 1), (1, 2), (2, 2), (2, 3), (2, 4), (3, 4), (3, 6), (4, 8), (5, 11))
+"""Numbers of tower and jib modes that are tried."""
+
+CAPS = (1.0, 2.0, 5.0, 12.0)
+"""Caps that are tried, over the fastest of the modes that are never capped, besides none."""
+
+
+class Tolerance(NamedTuple):
+    """Error that is wanted of an output: over its peak, or in its unit."""
+
+    value: float
+    relative: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """Expected largest error of every output of a run, all arrays of shape (outputs,).
+
+    Parameters
+    ----------
+    truncation : ndarray
+        By what the model leaves out and the solver damps, in the output's unit.
+    stepping : ndarray
+        By the solver's steps, over the output's peak; infinite for methods that were not measured.
+    """
+
+    truncation: Floats
+    stepping: Floats
+
+    def errors(self, peaks: Floats) -> Floats:
+        """Errors in the outputs' units, given their peaks."""
+        return np.asarray(self.truncation + self.stepping * np.maximum(peaks, SMALLEST_PEAK))
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """A setting and what is expected of it.
+
+    Parameters
+    ----------
+    setting : Setting
+    estimate : Estimate
+    peaks : ndarray, shape (outputs,)
+        Expected.
+    kept : bool
+        Whether the estimate keeps the targets.
+    doubts : tuple of str
+        Why no error can be promised in this scene; empty where it can.
+    tried : int
+        Settings that were looked at.
+    cpu_seconds : float
+        What the choice took.
+    """
+
+    setting: Setting
+    estimate: Estimate
+    peaks: Floats
+    kept: bool
+    doubts: tuple[str, ...]
+    tried: int
+    cpu_seconds: float
+
+
+class Indicators:
+    """Estimates for settings of one scene."""
+
+    def __init__(self, scene: RadialScene) -> None:
+        self.scene, self.nodes = scene, nodes_of(scene)
+        self._rich: dict[bool, Vibration] = {}
+        self._last: tuple[tuple[object, ...], Vibration] | None = None
+
+    def rich(self, weight_softening: bool) -> Vibration:
+        """The richest model, with or without the weight's softening.
+
+        Raises
+        ------
+        NoEquilibrium
+            If the weight leaves the tower no stiffness.
+        """
+        if weight_softening not in self._rich:
+            try:
+                found = vibration(self.nodes, replace(RICHEST, weight_softening=weight_softening))
+            except np.linalg.LinAlgError:
+                message = self.scene.model(RICHEST).scene.buckling_message()
+                raise NoEquilibrium("tower buckled", message) from None
+            self._rich[weight_softening] = found
+        return self._rich[weight_softening]
+
+    def truncation(self, setting: Setting) -> Floats:
+        """Largest error of every output by what the model leaves out, with its safety; shape (outputs,)."""
+        rich = self.rich(setting.weight_softening)
+        static, ringing = drift(rich, self.of(setting))
+        found = SAFETY * ringing + STATIC_SAFETY * static
+        swing = rich.peaks[SWING]
+        # The rope's force follows the square of the swing.
+        found[TENSION] += 3.0 * self.scene.load.mass * self.scene.crane.gravity * swing * found[SWING]
+        return np.asarray(found)
+
+    def of(self, setting: Setting) -> Vibration:
+        """Modes of a setting's model; the last one asked for is kept."""
+        key = (setting.tower_modes, setting.jib_modes, setting.cap, setting.weight_softening)
+        if self._last is None or self._last[0] != key:
+            self._last = key, vibration(self.nodes, setting)
+        return self._last[1]
+
+    def per_rtol(self, setting: Setting) -> Floats:
+        """Largest error of the solver over its rtol and over the output's peak, shape (outputs,).
+
+        The tension sees accelerations: an error in the position of the fastest mode, as a part of the jib's
+        deflection, times its squared frequency over gravity.
+        """
+        found = np.full(len(OUTPUTS), STEPPING)
+        if setting.method != "dop853":
+            return np.full(len(OUTPUTS), np.inf)
+        fastest = self.of(setting).frequencies.max()
+        deflection = self.rich(setting.weight_softening).peaks[1]
+        found[TENSION] = max(STEPPING, fastest**2 * deflection / self.scene.crane.gravity)
+        return found
+
+    def damped(self, setting: Setting) -> Floats:
+        """What the solver takes from the fastest modes, in the outputs' units; shape (outputs,)."""
+        found = self.of(setting)
+        fast = found.frequencies.max(axis=0)
+        steps = STEPS_PER_CYCLE * self.scene.duration * fast.max() / (2.0 * np.pi)
+        ringing = abs(found.left[:, :, fast > FASTEST * fast.max()]).sum(axis=(2, 3)).max(axis=0)
+        return np.asarray(ringing * min(1.0, steps * setting.rtol))
+
+    def estimate(self, setting: Setting) -> Estimate:
+        """Expected error of a setting."""
+        lost = self.truncation(setting) + self.damped(setting)
+        return Estimate(lost, self.per_rtol(setting) * setting.rtol)
+
+    def softening(self) -> Floats:
+        """What the weight's softening changes, in the outputs' units; shape (outputs,)."""
+        return np.asarray(sum(drift(self.rich(True), self.rich(False))))
+
+    def doubts(self, weight_softening: bool) -> tuple[str, ...]:
+        """Why small motions cannot tell the error of this scene."""
+        rich = self.rich(weight_softening)
+        swing, found = rich.peaks[SWING], []
+        if swing > WIDE:
+            found.append(f"the load swings {swing:.2g} rad: small motions say little about it")
+        weight = self.scene.load.mass * self.scene.crane.gravity
+        pumping = abs(rich.ringing(np.arange(len(self.nodes.times)))[:, TENSION]).sum(axis=2) / weight + swing**2
+        pendulum = abs(rich.shapes[0, -1]).argmax()
+        own = rich.frequencies[:, [pendulum]]
+        # Mathieu's equation: a point that shakes at nearly twice the swing's frequency makes it grow.
+        off = abs(rich.frequencies / (2.0 * own) - 1.0)
+        rate = 0.25 * own * np.maximum(pumping - 4.0 * off, 0.0)
+        rate[:, pendulum] = 0.0
+        growth = np.diff(self.nodes.times) @ np.maximum(rate[1:], rate[:-1])
+        if growth.max() > GROWTH:
+            tuned = rich.frequencies[0, growth.argmax()] / (2.0 * np.pi)
+            found.append(
+                f"the structure at {tuned:.3f} Hz vibrates near twice the swing's {own[0, 0] / (2 * np.pi):.3f} Hz "
+                f"and may pump it: small errors can grow {np.exp(min(growth.max(), 50.0)):.2g} times"
+            )
+        return tuple(found)
+
+
+def choose(scene: RadialScene, targets: Mapping[str, Tolerance], stated: Mapping[str, Any] | None = None) -> Choice:
+    """The cheapest setting that is expected to keep all targets, or where none does the one that comes nearest.
+
+    Parameters
+    ----------
+    scene : RadialScene
+    targets : dict of str to Tolerance
+        By output, some of :data:`towercrane.nodes.OUTPUTS`.
+    stated : dict, optional
+        Fields of :class:`towercrane.scene.Setting` that are not to be chosen.
+
+    Raises
+    ------
+    ValueError
+        If an output is unknown, or none is given.
+    NoEquilibrium
+        If the tower buckles.
+    """
+    if not targets or not set(targets) <= set(OUTPUTS):
+        raise ValueError(f"targets: wanted some of {', '.join(OUTPUTS)}, got {', '.join(targets) or 'none'}")
+    began, stated = time.process_time(), dict(stated or {})
+    indicators = Indicators(scene)
+    softening = stated.get("weight_softening", True)
+    peaks = np.maximum(indicators.rich(softening).peaks, SMALLEST_PEAK)
+    allowed = limits(targets, peaks)
+    wanted = np.isfinite(allowed)
+    best, nearest, tried = None, np.inf, 0
+    for candidate in candidates(indicators, set(targets), {"weight_softening": softening, **stated}):
+        tried += 1
+        for share in SHARES:
+            setting = replace(candidate, **{**_solver(indicators, candidate, allowed, peaks, share), **stated})
+            estimate = indicators.estimate(setting)
+            excess = float(np.max(estimate.errors(peaks)[wanted] / allowed[wanted]))
+            if best is None or excess < nearest:
+                best, nearest = (setting, estimate), excess
+            if excess <= 1.0 or not np.any(indicators.damped(setting) > 0.1 * allowed):
+                break
+        if excess <= 1.0:
+            break
+    assert best is not None
+    doubts = indicators.doubts(softening)
+    return Choice(*best, peaks, nearest <= 1.0, doubts, tried, time.process_time() - began)
+
+
+def limits(targets: Mapping[str, Tolerance], peaks: Floats) -> Floats:
+    """Largest allowed errors in the outputs' units, infinite where none is set; shape (outputs,)."""
+    found = np.full(len(OUTPUTS), np.inf)
+    for name, (value, relative) in targets.items():
+        index = OUTPUTS.index(name)
+        found[index] = value * max(peaks[index], SMALLEST_PEAK) if relative else value
+    return found
+
+
+def _solver(
+    indicators: Indicators, setting: Setting, allowed: Floats, peaks: Floats, share: float
+) -> dict[str, float]:
+    """Tolerances of the solver for a share of the allowed errors."""
+    wanted = np.isfinite(allowed)
+    per_rtol = indicators.per_rtol(replace(setting, method="dop853"))
+    rtol = float(np.clip(np.min(share * allowed / (per_rtol * peaks)), TIGHTEST, LOOSEST))
+    # A centimetre or a centiradian, or the smallest motion that matters, has the relative tolerance.
+    moving = peaks[:TENSION][wanted[:TENSION]]
+    return {"rtol": rtol, "atol": rtol * float(np.clip(moving.min(initial=1e-2), 1e-5, 1e-2))}
+
+
+def candidates(indicators: Indicators, outputs: set[str], stated: dict[str, Any]) -> list[Setting]:
+    """Models to be tried, the cheapest first."""
+    own = indicators.nodes.frequencies / (2.0 * np.pi)
+    tower, jib = own[: RICHEST.tower_modes], own[RICHEST.tower_modes : -1]
+    free = max(tower[1], jib[1])
+    found: dict[Setting, float] = {}
+    for a, b in MODES:
+        for cap in (np.inf, *(free * factor for factor in CAPS)):
+            setting = replace(Setting(a, b, cap=cap), **stated)
+            a, b = setting.tower_modes, setting.jib_modes
+            rigid = (OUTPUTS[0] in outputs and not a) or (OUTPUTS[1] in outputs and not b)
+            highest = np.concatenate([tower[:a], jib[:b]]).max(initial=0.0)
+            if not (rigid and stated.keys().isdisjoint({"tower_modes", "jib_modes"})) and (
+                cap == np.inf or highest > cap
+            ):
+                found[setting] = cost(setting, min(highest, cap))
+    return sorted(found, key=found.__getitem__)
+
+
+def cost(setting: Setting, highest: float) -> float:
+    """Time for a run, up to a factor, with modes up to a frequency [Hz]; steps follow the fastest mode."""
+    n = setting.tower_modes + setting.jib_modes
+    return (highest + 1.0) * (0.45 + 0.09 * n + 0.0035 * n**2)

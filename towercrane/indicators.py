@@ -1,0 +1,189 @@
+"""What a coarser model of a scene gets wrong, from small motions at a few instants; nothing is integrated.
+
+At every node of a scene the crane's modes are found in the coordinates of the richest model and, by Ritz's method,
+in those of any coarser one: with modes left out, slowed by a cap, without the weight's softening. Jumps of the
+drives' accelerations and of their derivatives, and a start away from equilibrium, ring each mode; between the nodes
+amplitudes follow the adiabatic invariant. Two models then differ in their static deflection, in the amplitude of
+every mode and, as time goes on, in its phase.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.nodes import RICHEST, SWING, TENSION
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.nodes import Nodes
+    from towercrane.scene import Setting
+
+    Floats = NDArray[np.float64]
+    Complex = NDArray[np.complex128]
+
+COHERENT = 6.0
+"""Events within this phase of a mode after each other ring it together [rad]; those apart add as if by chance."""
+
+SAMPLES = 600
+"""Instants at which peaks are looked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Vibration:
+    """k modes of a model at every node, and what rings them.
+
+    Parameters
+    ----------
+    nodes : Nodes
+    frequencies, decay : ndarray, shape (N, k)
+        Angular [rad/s], and rate of decay [1/s].
+    shapes : ndarray, shape (P, n, k)
+        Of unit modal mass, in the richest model's coordinates.
+    weights : ndarray, shape (N, outputs, k)
+        Outputs per modal amplitude.
+    static : ndarray, shape (N, outputs)
+        Deflection under all weights and the drives' accelerations.
+    rings : ndarray of complex, shape (E, k)
+        Change of each mode's amplitude at every event.
+    """
+
+    nodes: Nodes
+    frequencies: Floats
+    decay: Floats
+    shapes: Floats
+    weights: Floats
+    static: Floats
+    rings: Complex
+
+    @cached_property
+    def phase(self) -> Floats:
+        """Phase of every mode since the start, shape (N, k) [rad]."""
+        return _integral(self.nodes.times, self.frequencies)
+
+    def ringing(self, at: NDArray[np.int64]) -> Complex:
+        """Outputs at nodes by each event in each mode, as if no phase had passed; shape (nodes, outputs, k, E)."""
+        events, omega = self.nodes.events, self.frequencies
+        lost = _integral(self.nodes.times, self.decay)
+        past = (events <= at[:, None])[:, :, None]
+        fade = np.exp(np.where(past, lost[events] - lost[at, None], -np.inf))
+        amplitude = np.sqrt(omega[events] / omega[at, None]) * fade * self.rings
+        return np.asarray(self.weights[at][..., None] * amplitude.transpose(0, 2, 1)[:, None])
+
+    @cached_property
+    def left(self) -> Complex:
+        """`ringing` at the telling nodes."""
+        return self.ringing(self.nodes.telling)
+
+    @cached_property
+    def peaks(self) -> Floats:
+        """Expected largest magnitude of every output, shape (outputs,)."""
+        known = self.nodes.times
+        times = np.linspace(0.0, known[-1], SAMPLES)
+        node = np.minimum(np.searchsorted(known, times, side="right") - 1, len(known) - 2)
+        times, node = times[self.nodes.steady[node]], node[self.nodes.steady[node]]
+        share = ((times - known[node]) / (known[node + 1] - known[node]))[:, None]
+        start = np.exp(-1j * self.phase[self.nodes.events]).T
+        carried = (self.ringing(np.arange(len(known))) * start).sum(axis=3)
+        turned = np.exp(1j * (self.phase[node] + share * (self.phase[node + 1] - self.phase[node])))
+        rung = (carried[node] @ turned[:, :, None])[:, :, 0].real
+        values = self.static[node] + share * (self.static[node + 1] - self.static[node]) + rung
+        return np.asarray(abs(values).max(axis=0))
+
+
+def vibration(nodes: Nodes, setting: Setting) -> Vibration:
+    """Modes of a model that keeps some of the richest one's coordinates.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If the weight leaves the tower no stiffness.
+    """
+    scene, (places, n) = nodes.scene, nodes.rise.shape
+    jib = RICHEST.tower_modes + np.arange(setting.jib_modes)
+    kept = np.concatenate([np.arange(setting.tower_modes), jib, [n - 1]])
+    stiffness = (nodes.stiffness - nodes.softening * setting.weight_softening)[np.ix_(kept, kept)]
+    stiffness = np.repeat(stiffness[None], places, axis=0)
+    stiffness[:, -1, -1] = nodes.pendulum
+    mass = nodes.mass[:, kept[:, None], kept] + np.diag(_added(nodes, setting)[kept])
+    # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is.
+    inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
+    upper = inverse.transpose(0, 2, 1)
+    reciprocal, vectors = np.linalg.eigh(inverse @ mass @ upper)
+    omega = 1.0 / np.sqrt(reciprocal[:, ::-1])
+    small = upper @ vectors[:, :, ::-1] * omega[:, None]
+    for later in range(1, places):
+        alike = (small[later - 1] * (mass[later] @ small[later])).sum(axis=0)
+        small[later] *= np.where(alike < 0.0, -1.0, 1.0)
+    shapes = np.zeros((places, n, len(kept)))
+    shapes[:, kept] = small
+    weights = nodes.readings @ shapes
+    weights[:, TENSION] *= -(omega**2)
+
+    place, at = nodes.place, nodes.place[nodes.events]
+    force = (nodes.weight[place] + nodes.drive)[:, kept, None]
+    held = upper[place] @ (inverse[place] @ force)
+    static = (nodes.readings[place][:, :, kept] @ held)[:, :, 0]
+    static[:, TENSION] = scene.load.mass * scene.crane.gravity
+    orders = np.arange(nodes.jumps.shape[1])[:, None]
+    rings = -(nodes.jumps @ shapes[at] * (-1j / omega[at, None]) ** orders).sum(axis=1) / omega[at] ** 2
+    first = at[0]
+    rings[0] += nodes.mass[first, -1] @ shapes[first] * np.sin(scene.swing_angle) / nodes.readings[first, SWING, -1]
+    if scene.state == "zero":
+        rings[0] -= nodes.weight[first] @ shapes[first] / omega[first] ** 2
+    decay = 0.5 * nodes.damping[kept] @ small**2
+    return Vibration(nodes, omega[place], decay[place], shapes, weights[place], static, rings)
+
+
+def drift(rich: Vibration, poor: Vibration) -> tuple[Floats, Floats]:
+    """How far the outputs of two models are apart.
+
+    Returns
+    -------
+    static, ringing : ndarray, shape (outputs,)
+        Largest difference of the static parts; largest amplitude of the vibrating difference, expected where the
+        phases of its parts are not known.
+    """
+    nodes = rich.nodes
+    overlap = abs(np.einsum("iak,iab,ibm->km", rich.shapes, nodes.mass, poor.shapes, optimize=True))
+    partner = overlap.argmax(axis=0)
+    mutual = overlap.argmax(axis=1)[partner] == np.arange(len(partner))
+    mine, other = partner[mutual], np.flatnonzero(mutual)
+    at = nodes.telling
+    slip = poor.phase[:, other] - rich.phase[:, mine]
+    turned = np.clip(slip[at, None] - slip[nodes.events], -np.pi, np.pi).transpose(0, 2, 1)[:, None]
+    gap, false = rich.left.copy(), poor.left
+    gap[:, :, mine] -= false[:, :, other] * np.exp(1j * turned)
+    squared = _combined(gap, rich.phase[nodes.events])
+    alone = np.flatnonzero(~mutual)
+    squared += _combined(false[:, :, alone], poor.phase[nodes.events][:, alone])
+    return abs(rich.static - poor.static).max(axis=0), np.sqrt(squared.max(axis=0))
+
+
+def _combined(parts: Complex, phase: Floats) -> Floats:
+    """Sum of squares over modes and groups of events; parts (nodes, outputs, k, E) and phases (E, k)."""
+    rotated = parts * np.exp(-1j * phase.T)
+    far = np.diff(phase, axis=0, prepend=phase[:1]) > COHERENT
+    group = np.cumsum(far, axis=0).T
+    total = np.zeros(parts.shape[:2])
+    for number in range(int(group.max(initial=0)) + 1):
+        total += (abs((rotated * (group == number)).sum(axis=3)) ** 2).sum(axis=2)
+    return total
+
+
+def _added(nodes: Nodes, setting: Setting) -> Floats:
+    """Mass that the setting's cap adds to each coordinate."""
+    from towercrane.cranes.flexible import added_mass
+
+    order = np.concatenate([np.arange(RICHEST.tower_modes), np.arange(RICHEST.jib_modes), [0]])
+    return added_mass(nodes.frequencies, order, setting.cap)
+
+
+def _integral(times: Floats, values: Floats) -> Floats:
+    """Integral over time from the first node to each, trapezoidal."""
+    steps = 0.5 * np.diff(times)[:, None] * (values[1:] + values[:-1])
+    return np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(steps, axis=0)])

@@ -1,0 +1,195 @@
+"""A scene at a few instants: small motions about where the drives are then, and what the drives do to them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.cranes.flexible_constants import geometric_stiffness
+from towercrane.motion import phases
+from towercrane.scene import Setting
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.flexible import FlexibleModel
+    from towercrane.scene import RadialScene
+
+    Floats = NDArray[np.float64]
+
+RICHEST = Setting(6, 14)
+"""What coarser models are compared with."""
+
+OUTPUTS = ("tower_tip_displacement", "jib_tip_deflection", "swing_angle", "rope_tension")
+"""Outputs whose error is estimated, in the order of all arrays here."""
+
+SWING, TENSION = 2, 3
+
+INSIDE = (0.05, 0.25, 0.5, 0.75)
+"""Nodes within a phase in which something moves or vibration decays, as fractions of it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Nodes:
+    """Small motions at N instants, at P different places, in the n coordinates of the richest model.
+
+    The last coordinate is the load's sway from the point it hangs from [m]; the motions are about the undeformed
+    crane, as in a linear frame.
+
+    Parameters
+    ----------
+    scene : RadialScene
+    times : ndarray, shape (N,)
+        [s]
+    place : ndarray of int, shape (N,)
+        Which of the places each node is at.
+    steady : ndarray of bool, shape (N,)
+        Whether the drives' accelerations are constant from the node on.
+    mass, rise : ndarray, shapes (P, n, n) and (P, n)
+        Mass matrix; vertical motion of the point that the load hangs from.
+    stiffness, softening : ndarray, shape (n, n)
+        Without the load's pendulum; what the weight takes from it.
+    pendulum : ndarray, shape (P,)
+        Stiffness of the load's sway [N/m].
+    weight : ndarray, shape (P, n)
+        Generalised force of all weights.
+    drive : ndarray, shape (N, n)
+        Generalised force of the drives' accelerations.
+    readings : ndarray, shape (P, outputs, n)
+        Outputs per coordinate; the tension's per acceleration.
+    events : ndarray of int, shape (E,)
+        Nodes at which the drives' motions switch.
+    jumps : ndarray, shape (E, orders, n)
+        Jumps of the force and of its derivatives there.
+    frequencies, damping : ndarray, shape (n,)
+        Of each coordinate by itself [rad/s]; viscous damping.
+    """
+
+    scene: RadialScene
+    times: Floats
+    place: NDArray[np.int64]
+    steady: NDArray[np.bool_]
+    mass: Floats
+    rise: Floats
+    stiffness: Floats
+    softening: Floats
+    pendulum: Floats
+    weight: Floats
+    drive: Floats
+    readings: Floats
+    events: NDArray[np.int64]
+    jumps: Floats
+    frequencies: Floats
+    damping: Floats
+
+    @property
+    def telling(self) -> NDArray[np.int64]:
+        """Nodes at which two models can be farthest apart: switches and the end, or any where vibration decays."""
+        if self.damping.any():
+            return np.arange(len(self.times))
+        return np.append(self.events, len(self.times) - 1)
+
+
+def nodes_of(scene: RadialScene) -> Nodes:
+    """Nodes at the switch points of a scene's motions and between them."""
+    times, states, events, changes = _instants(scene)
+    visited, place = np.unique(states[:, :, 0].round(12), axis=0, return_inverse=True)
+    trolley, rope = visited.T
+    model = scene.model(RICHEST).scene
+    crane, load = model.crane, scene.load.mass
+    a, n = crane.tower.count, model.coordinates + 1
+    tip, slope, hung = crane.tower(crane.tower_height), crane.top_slope, load + crane.trolley_mass
+
+    rise, steep, reading = np.zeros((len(visited), n)), np.zeros((len(visited), n)), np.zeros((len(visited), 4, n))
+    rise[:, :a], rise[:, a:-1] = -trolley[:, None] * slope, crane.vertical(trolley).T
+    steep[:, :a], steep[:, a:-1] = -slope, crane.vertical(trolley, 1).T
+    out, sway = np.zeros(n), np.zeros(n)
+    out[:a], sway[-1] = tip, 1.0
+    own = _own_mass(model)
+    mass = own + hung * (np.outer(out, out) + rise[:, :, None] * rise[:, None, :])
+    mass += load * (np.outer(out, sway) + np.outer(sway, out) + np.outer(sway, sway))
+    stiffness, softening = np.zeros((n, n)), np.zeros((n, n))
+    stiffness[:a, :a], softening[:a, :a] = crane.tower.stiffness_matrix(), geometric_stiffness(model)
+    stiffness[range(a, n - 1), range(a, n - 1)] = crane.vertical.angular_frequencies**2
+
+    reading[:, 0, :a] = tip
+    reading[:, 1, a:-1] = crane.vertical(crane.jib_length)
+    reading[:, SWING, -1] = 1.0 / rope
+    reading[:, TENSION] = load * rise
+    dead = np.zeros(n)
+    if scene.self_weight:
+        dead[:a], dead[a:-1] = crane.slewing.moment * slope, -crane.slewing.first
+    weight = crane.gravity * (dead - hung * rise)
+
+    # A trolley that is sped up pushes along the jib as it hangs, and takes its weight along.
+    hanging = np.linalg.solve(stiffness[:-1, :-1], weight[place[0], :-1])
+    along = -hung * (out + (steep[:, :-1] @ hanging)[:, None] * rise) - load * sway
+    force = np.stack([along[place], load * rise[place]], axis=1)
+    moved = -crane.gravity * hung * steep[place]
+    jumps = np.einsum("eco,ecn->eon", changes[:, :, 2:], force[events])
+    jumps[:, 2:] += np.einsum("eo,en->eon", changes[:, 0, 2:-2], moved[events])
+    # A load that is let go from a swing pulls less than its weight.
+    jumps[0, 0] += load * crane.gravity * np.sin(scene.swing_angle) ** 2 * rise[place[0]]
+    ratios = np.repeat([scene.tower_damping_ratio, scene.jib_damping_ratio], [a, n - 1 - a])
+    frequencies = np.append(model.angular_frequencies, 0.0)
+    return Nodes(
+        scene,
+        times,
+        place.ravel(),
+        ~np.any(states[:, :, 3:], axis=(1, 2)),
+        mass,
+        rise,
+        stiffness,
+        softening,
+        load * crane.gravity / rope,
+        weight,
+        np.einsum("ic,icn->in", states[:, :, 2], force),
+        reading,
+        events,
+        jumps,
+        frequencies,
+        2.0 * np.append(ratios, 0.0) * frequencies,
+    )
+
+
+def _instants(scene: RadialScene) -> tuple[Floats, Floats, NDArray[np.int64], Floats]:
+    """Times of the nodes, derivatives of the drives there, which nodes are switch points, jumps at these."""
+    cut = phases((scene.motions["trolley"], scene.motions["rope"]), scene.duration)
+    times: list[float] = []
+    states, events, changes = [], [], []
+    before = np.zeros((2, cut.inputs.shape[2] + 2))
+    damped = scene.tower_damping_ratio > 0.0 or scene.jib_damping_ratio > 0.0
+    for begin, end, piece in zip(cut.times[:-1], cut.times[1:], cut.inputs, strict=True):
+        events.append(len(times))
+        changes.append(_derivatives(piece, 0.0) - before)
+        for share in (0.0, *(INSIDE if damped or np.any(piece[:, 1:]) else ())):
+            times.append(float(begin + share * (end - begin)))
+            states.append(_derivatives(piece, share * (end - begin)))
+        before = _derivatives(piece, end - begin)
+    times.append(float(cut.times[-1]))
+    states.append(before)
+    return np.array(times), np.array(states), np.array(events), np.array(changes)
+
+
+def _derivatives(piece: Floats, time: float) -> Floats:
+    """Derivatives of all orders of polynomials and two orders beyond the last; shape (channels, k + 2)."""
+    found = np.zeros((len(piece), piece.shape[1] + 2))
+    powers = time ** np.arange(piece.shape[1])
+    for order in range(piece.shape[1]):
+        found[:, order] = piece @ powers[: piece.shape[1]]
+        piece = piece[:, 1:] * np.arange(1, piece.shape[1])
+    return found
+
+
+def _own_mass(model: FlexibleModel) -> Floats:
+    """Mass matrix without trolley and load."""
+    crane, a, n = model.crane, model.crane.tower.count, model.coordinates + 1
+    tip, slope, sums = crane.tower(crane.tower_height), crane.top_slope, crane.slewing
+    mass = np.zeros((n, n))
+    mass[:a, :a] = crane.tower.mass_matrix() + sums.mass * np.outer(tip, tip) + sums.pitch * np.outer(slope, slope)
+    mass[a:-1, a:-1] = sums.products
+    mass[a:-1, :a] = -np.outer(sums.second, slope)
+    mass[:a, a:-1] = mass[a:-1, :a].T
+    return mass

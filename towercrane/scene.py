@@ -1,0 +1,142 @@
+"""A radial scene: a crane, its load, what drives it and how it starts; all but the choice of the model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from towercrane.case import Case
+    from towercrane.cranes.radial import RadialModel
+    from towercrane.cranes.tower_crane import TowerCrane
+    from towercrane.integrate import Progress
+    from towercrane.motion import Motion
+    from towercrane.payload import Load
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Model and solver of one run.
+
+    Parameters
+    ----------
+    tower_modes, jib_modes : int
+        0 for rigid.
+    cap : float
+        Highest frequency of a mode after the member's second [Hz], see
+        :class:`towercrane.cranes.flexible.FlexibleModel`.
+    weight_softening : bool
+    method : str
+    rtol, atol : float
+        As in :func:`towercrane.integrate.integrate`.
+    """
+
+    tower_modes: int
+    jib_modes: int
+    cap: float = np.inf
+    weight_softening: bool = True
+    method: str = "dop853"
+    rtol: float = 1e-8
+    atol: float = 1e-10
+
+
+@dataclass(frozen=True, eq=False)
+class RadialScene:
+    """What happens to a crane in radial motion.
+
+    Parameters
+    ----------
+    crane : TowerCrane
+    load : Load
+    motions : dict of str to Motion
+        "trolley" and "rope" [m].
+    duration : float
+        [s]
+    output_step : float
+        [s]
+    state : {"equilibrium", "zero"}
+    swing_angle : float
+        At the start [rad].
+    tower_damping_ratio, jib_damping_ratio : float
+    self_weight, rope_as_rod : bool
+        As in :class:`towercrane.cranes.radial.RadialModel`.
+    """
+
+    crane: TowerCrane
+    load: Load
+    motions: dict[str, Motion]
+    duration: float
+    output_step: float = 0.05
+    state: str = "equilibrium"
+    swing_angle: float = 0.0
+    tower_damping_ratio: float = 0.0
+    jib_damping_ratio: float = 0.0
+    self_weight: bool = True
+    rope_as_rod: bool = False
+
+    def model(self, setting: Setting) -> RadialModel:
+        """The crane in the setting's coordinates."""
+        from towercrane.cranes.radial import RadialModel
+
+        return RadialModel(
+            self.crane,
+            self.load,
+            setting.tower_modes,
+            setting.jib_modes,
+            weight_softening=setting.weight_softening,
+            tower_damping_ratio=self.tower_damping_ratio,
+            jib_damping_ratio=self.jib_damping_ratio,
+            self_weight=self.self_weight,
+            rope_as_rod=self.rope_as_rod,
+            cap=setting.cap,
+        )
+
+    def run(self, setting: Setting, *, progress: Progress | None = None) -> xr.Dataset:
+        """Simulate the scene, see :func:`towercrane.simulate.simulate`."""
+        from towercrane.simulate import simulate
+
+        return simulate(
+            self.model(setting),
+            self.motions,
+            self.duration,
+            output_step=self.output_step,
+            state=self.state,
+            swing_angle=self.swing_angle,
+            method=setting.method,
+            rtol=setting.rtol,
+            atol=setting.atol,
+            progress=progress,
+        )
+
+
+def scene_of(case: Case) -> RadialScene:
+    """The scene of a radial case."""
+    return RadialScene(
+        crane=case.radial_crane(),
+        load=case.load(),
+        motions=case.motions,
+        duration=case.run.duration,
+        output_step=case.run.output_step,
+        state="equilibrium" if case.start.state == "equilibrium" else "zero",
+        swing_angle=case.start.swing_angle,
+        tower_damping_ratio=case.model.tower_damping_ratio,
+        jib_damping_ratio=case.model.jib_damping_ratio,
+        self_weight=case.start.state != "zero-no-self-weight",
+        rope_as_rod=case.rope.slack == "rod",
+    )
+
+
+def setting_of(case: Case) -> Setting:
+    """The setting that a radial case states."""
+    model, solver = case.model, case.solver
+    setting = Setting(model.tower_modes, model.jib_modes, weight_softening=model.weight_softening)
+    return replace(setting, method=solver.method, rtol=solver.rtol, atol=solver.atol)
+
+
+def provenance(setting: Setting) -> dict[str, Any]:
+    """A setting for JSON; no cap is null."""
+    return {**vars(setting), "cap": setting.cap if np.isfinite(setting.cap) else None}
