@@ -78,6 +78,7 @@ KINDS = {
     "kg m^2/m": ("a rotary inertia per length", "250 kg m"),
     "N": ("a force", "120 MN"),
     "N m": ("a torque", "22 N m"),
+    "N m^2": ("a torsional stiffness", "170 MN m^2"),
     "N/m": ("a stiffness", "60 kN/m"),
     "N m/rad": ("a rotary stiffness", "40 kN m/rad"),
     "N s/m": ("a damping", "60 N s/m"),
