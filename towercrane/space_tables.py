@@ -43,36 +43,32 @@ def comparison_tables(report: dict[str, Any]) -> None:
     """Models beside each other, as :func:`towercrane.comparison.compare` gives them."""
     console = console_of_reports()
     in_space = report["kind"] == "space"
-    sways = ("along", "across") if in_space else ("swing",)
-    columns = [f"{name} peak / residual [deg]" for name in sways]
+    columns = [f"{name}, peak / left [deg]" for name in (("along", "across") if in_space else ("swing",))]
     columns += ["torque [kN m]"] if in_space else ["tower top [mm]"]
-    title = f"{report['crane']}: {report['title'] or report['case']}"
-    table = report_table(
-        title, "model", "modes", *columns, "hor. / vert. error [m]", "relative", "evaluations", "CPU [s]"
-    )  # fmt: skip
+    columns += ["hor. [m]", "vert. [m]", "relative", "calls", "CPU [s]"]
+    table = report_table(f"{report['crane']}: {report['title'] or report['case']}", "model", "modes", *columns)
     for row in report["rows"]:
         cells = [f"{sway['peak_deg']:.2f} / {_shown(sway['residual_deg'], '.2f')}" for sway in row["sway"].values()]
         torque = row["slewing_torque_nm"]
         cells.append(f"{1e3 * row['tower_tip_m']:.1f}" if torque is None else f"{1e-3 * torque:.0f}")
-        errors = f"{_shown(row['horizontal_error_m'], '.3f')} / {_shown(row['vertical_error_m'], '.3f')}"
-        relative = row["outcome"] if row["relative_error"] is None else f"{row['relative_error']:.1e}"
+        cells += [_shown(row[f"{way}_error_m"], ".3f") for way in ("horizontal", "vertical")]
+        cells.append(row["outcome"] if row["relative_error"] is None else f"{row['relative_error']:.1e}")
+        cells += [str(row["evaluations"]), f"{row['cpu_seconds']:.2f}"]
         modes = "+".join(str(count) for count in row["modes"].values())
-        cost = [str(row["evaluations"]), f"{row['cpu_seconds']:.2f}"]
-        style = "bold" if row["name"] == report["recommended"] else None
-        table.add_row(row["name"], modes, *cells, errors, relative, *cost, style=style)
+        table.add_row(row["name"], modes, *cells, style="bold" if row["name"] == report["recommended"] else None)
     console.print(table)
-    console.print(f"modes: {' + '.join(report['kinds_of_modes'])}; errors against the richest model")
-    console.print(f"relative: to {report['departure_m']:.3g} m, how far the load leaves the place it would hang at")
+    order = " + ".join(report["kinds_of_modes"])
+    console.print(f"modes: {order}; hor., vert.: how far the load is off the richest model's; calls of the equations")
+    console.print(f"left: once all drives stand; relative: to {report['departure_m']:.3g} m, how far the load leaves")
+    console.print("the place where it would hang on a rigid crane at rest")
     for reason in report["reasons"]:
         console.print(f"  {reason}")
     if report["recommended"] is None:
-        console.print(
-            f"no model but the richest is within {report['target']:g}: give the case more modes", style="bold"
-        )
+        conclusion = f"no model but the richest is within {report['target']:g}: give the case more modes"
     else:
         needed = ", ".join(report["needed"]) or "no modes"
-        text = f"for an error of {report['target']:g} it needs {needed}; cheapest: {report['recommended']}"
-        console.print(text, style="bold")
+        conclusion = f"for an error of {report['target']:g} it needs {needed}; cheapest: {report['recommended']}"
+    console.print(conclusion, style="bold")
     assumed_values(console, report["assumed"])
 
 
