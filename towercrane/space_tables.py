@@ -43,12 +43,12 @@ def comparison_tables(report: dict[str, Any]) -> None:
     """Models beside each other, as :func:`towercrane.comparison.compare` gives them."""
     console = console_of_reports()
     in_space = report["kind"] == "space"
-    columns = [f"{name}, peak / left [deg]" for name in (("along", "across") if in_space else ("swing",))]
-    columns += ["torque [kN m]"] if in_space else ["tower top [mm]"]
-    columns += ["hor. [m]", "vert. [m]", "relative", "calls", "CPU [s]"]
+    columns = [f"{name}\n[deg]" for name in (("along", "across") if in_space else ("swing",))]
+    columns += ["torque\n[kN m]"] if in_space else ["tower top\n[mm]"]
+    columns += ["hor.\n[m]", "vert.\n[m]", "relative", "calls", "CPU\n[s]"]
     table = report_table(f"{report['crane']}: {report['title'] or report['case']}", "model", "modes", *columns)
     for row in report["rows"]:
-        cells = [f"{sway['peak_deg']:.2f} / {_shown(sway['residual_deg'], '.2f')}" for sway in row["sway"].values()]
+        cells = [f"{sway['peak_deg']:.2f}, {_shown(sway['residual_deg'], '.2f')}" for sway in row["sway"].values()]
         torque = row["slewing_torque_nm"]
         cells.append(f"{1e3 * row['tower_tip_m']:.1f}" if torque is None else f"{1e-3 * torque:.0f}")
         cells += [_shown(row[f"{way}_error_m"], ".3f") for way in ("horizontal", "vertical")]
@@ -58,9 +58,12 @@ def comparison_tables(report: dict[str, Any]) -> None:
         table.add_row(row["name"], modes, *cells, style="bold" if row["name"] == report["recommended"] else None)
     console.print(table)
     order = " + ".join(report["kinds_of_modes"])
-    console.print(f"modes: {order}; hor., vert.: how far the load is off the richest model's; calls of the equations")
-    console.print(f"left: once all drives stand; relative: to {report['departure_m']:.3g} m, how far the load leaves")
-    console.print("the place where it would hang on a rigid crane at rest")
+    swings = "sway along and across the jib" if in_space else "swing"
+    console.print(f"modes: {order}; {swings}: largest, and largest once all drives stand; calls: of the equations")
+    console.print("hor., vert., relative: how far the load is off the richest model's at most, and that over the")
+    console.print(
+        f"{report['departure_m']:.3g} m by which it leaves the place where it would hang on a rigid crane at rest"
+    )
     for reason in report["reasons"]:
         console.print(f"  {reason}")
     if report["recommended"] is None:

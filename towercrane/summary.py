@@ -76,7 +76,8 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         units) among the rows of the result, ``spectrum_peaks_hz`` of the structure (of its free vibration where that
         is long enough), ``swing_period_s`` after the drives have stopped (None without a regular swing),
         ``natural_frequencies_hz`` where the run ended, in space their ``natural_kinds``, ``energy_balance``,
-        ``expected``, ``notices``, ``assumed``, ``idle`` (what the crane file holds for other cases), ``solver``, ``wall_seconds``.
+        ``expected``, ``notices``, ``assumed``, ``idle`` (what the crane file holds for other cases), ``solver``,
+        ``wall_seconds``.
     """
     attributes = result.attrs
     times = result["time"].values

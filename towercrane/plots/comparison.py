@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from towercrane.comparison import ONE_OF_EACH, OWN, RICHEST, gaps
 from towercrane.plots.style import COLOURS, DASHES, figure_of, footnote
 
@@ -23,7 +21,7 @@ def paths(report: dict[str, Any], results: dict[str, xr.Dataset]) -> Figure:
     in_space = report["kind"] == "space"
     rows, labels = ((0, 1), ("x [m]", "y [m]")) if in_space else ((0, 2), ("outward [m]", "up [m]"))
     figure = figure_of(3.0 * len(names) + 1.0, 7.6)
-    upper, lower = np.ravel(figure.subfigures(2, 1, height_ratios=(1.5, 1.0)))
+    upper, lower = figure.subfigures(2, 1, height_ratios=(1.5, 1.0), squeeze=False)[:, 0]
     panels = upper.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
     best = results[RICHEST]["payload_position"].values
     for i, (axes, name) in enumerate(zip(panels, names, strict=True)):
