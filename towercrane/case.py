@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from towercrane.payload import Load
     from towercrane.plans import Plan
     from towercrane.schema_accuracy import Accuracy
+    from towercrane.schema_tower_cranes import Crane
 
 __all__ = ["Assumption", "Case", "CaseError", "Fault", "case_folder", "list_cases", "load_case"]
 
@@ -44,8 +45,9 @@ class Case:
     checked : towercrane.schema_cases.AnyCase
         All tables; the properties below are its parts.
     plans : dict of str to Plan
-        What the drives are told, by channel: "rope" (its length) and, in radial motion, "trolley" (its position)
-        [m]; for a slewing crane "shaft", for a jib crane "slew", "luff" and "fold" [rad].
+        What the drives are told, by channel: "rope" (its length), for a tower crane "trolley" (its position) [m], in
+        space also "slewing" (the head's angle) or "shaft" (its drive's) [rad] and the wind's components [m/s]; for a
+        slewing crane "shaft", for a jib crane "slew", "luff" and "fold" [rad].
     assumed : tuple of Assumption
         Values that no source gives, the crane's first.
     as_written : dict
@@ -65,12 +67,13 @@ class Case:
 
     @property
     def kind(self) -> str:
-        """Kind of crane: "radial", "multi-mass", "basic", "enhanced" or "jib"."""
+        """Kind of case: "radial", "space", "multi-mass", "basic", "enhanced" or "jib"."""
         return self.checked.crane.kind
 
     @property
     def crane(self) -> Any:
-        """Crane; its tables depend on the kind, see :mod:`towercrane.schema_cranes`."""
+        """Crane; its tables depend on the kind, see :mod:`towercrane.schema_cranes` and
+        :mod:`towercrane.schema_tower_cranes`."""
         return self.checked.crane
 
     @property
@@ -100,6 +103,15 @@ class Case:
     def model(self) -> schema_cases.Model:
         """What the model includes; for a crane in radial motion."""
         return self._radial.model
+
+    @property
+    def space(self) -> schema_cases.SpaceCase:
+        """All tables of a case in space."""
+        from towercrane.schema_cases import SpaceCase
+
+        if not isinstance(self.checked, SpaceCase):
+            raise self._other_kind("space")
+        return self.checked
 
     @property
     def start(self) -> schema_cases.Start | schema_cases.SlewingStart | schema_cases.JibStart:
@@ -149,17 +161,42 @@ class Case:
         """Assumptions that enter the equations of motion, without those of a check beside them."""
         return tuple(a for a in self.assumed if not a.key.startswith(tuple(self._idle_keys())))
 
+    @property
+    def idle(self) -> tuple[str, ...]:
+        """Tables and keys of a tower crane's file that only other cases use."""
+        from towercrane.casefile import leaves
+
+        unused = tuple(self._idle_keys())
+        keys = [key for key, _ in leaves({"crane": self.as_written["crane"]}) if key.startswith(unused)]
+        found = (next(name for name in unused if key.startswith(name)).rstrip(".") for key in keys)
+        return tuple(dict.fromkeys(found))
+
     def _idle_keys(self) -> Iterator[str]:
-        """Keys of a radial crane that do not enter the equations of motion."""
-        if self.kind != "radial":
+        """Beginnings of keys of a tower crane that do not enter the equations of motion."""
+        if self.kind not in ("radial", "space"):
             return
         from towercrane.towers import beam_choice
 
         yield from ("crane.counter_jib.youngs_modulus", "crane.counter_jib.second_moment_of_area")
-        tower = self._radial.crane.tower
+        tower = self._tower_crane.tower
         if not tower.segments:
             stated = beam_choice(tower, tower) == "stated"
             yield "crane.tower.lattice." if stated else "crane.tower.second_moment_of_area"
+        yield from self._idle_in_space()
+
+    def _idle_in_space(self) -> Iterator[str]:
+        """Of what only motion in space needs, that which the case leaves out."""
+        space = self.space if self.kind == "space" else None
+        if space is None or not space.model.torsion_modes:
+            yield "crane.tower.torsional_"
+        if space is None or not space.model.jib_lateral_modes:
+            yield "crane.jib.lateral_second_moment_of_area"
+        if space is None or space.motion.shaft is None:
+            yield from ("crane.drive.", "crane.friction.")
+        if space is None or space.wind is None:
+            yield "crane.wind_areas."
+        if space is None:
+            yield "crane.roll_inertia"
 
     @property
     def _radial(self) -> schema_cases.RadialCase:
@@ -169,12 +206,25 @@ class Case:
             raise self._other_kind("radial")
         return self.checked
 
+    @property
+    def _tower_crane(self) -> Crane:
+        """The crane's tables of a case in the plane or in space."""
+        from towercrane.schema_tower_cranes import Crane
+
+        if not isinstance(self.crane, Crane):
+            raise self._other_kind("radial", "space")
+        return self.crane
+
     def _other_kind(self, *wanted: str) -> CaseError:
         words = " or ".join(f'"{kind}"' for kind in wanted)
         return CaseError([Fault(str(self.path), "crane.kind", f"a crane of kind {words}", f'"{self.kind}"')])
 
     def tower(self) -> Beam | Chain:
         """The tower: a beam where it is uniform and clamped, else a chain; without what the tolerance leaves out."""
+        if self.kind == "space":
+            from towercrane.towers import tower_of
+
+            return tower_of(self._tower_crane)
         from towercrane.effects import kept_tower
 
         return kept_tower(self, self._radial.crane)
@@ -200,7 +250,7 @@ class Case:
         """The jib as a uniform beam."""
         from modal.beam import Beam
 
-        jib = self._radial.crane.jib
+        jib = self._tower_crane.jib
         return Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.second_moment_of_area)
 
     def lattice(self) -> LacedColumn | None:
@@ -220,7 +270,7 @@ class Case:
         """The crane of the radial model on a tower that may differ from the case's."""
         from towercrane.cranes.tower_crane import TowerCrane
 
-        crane = self._radial.crane
+        crane = self._tower_crane
         return TowerCrane(
             name=crane.name,
             tower=tower,
@@ -231,6 +281,20 @@ class Case:
             trolley_mass=crane.trolley.mass,
             gravity=crane.gravity,
         )
+
+    def space_crane(self) -> TowerCrane:
+        """The crane in space: with its torsion, its jib's bending to the sides and its roll inertia where given."""
+        from modal.beam import Beam
+        from modal.torsion import Shaft
+
+        plane, crane = self.crane_on(self.tower()), self._tower_crane
+        tower, jib = crane.tower, crane.jib
+        lateral, shaft = None, None
+        if jib.lateral_second_moment_of_area is not None:
+            lateral = Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.lateral_second_moment_of_area)
+        if tower.torsional_stiffness is not None and tower.torsional_inertia_per_length is not None:
+            shaft = Shaft(plane.tower.length, tower.torsional_inertia_per_length, tower.torsional_stiffness)
+        return replace(plane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
 
     def lumped_parameters(self) -> SlewingParameters:
         """Parameters of a slewing crane, of its kind's class; each is named by its table and its key."""
@@ -257,7 +321,7 @@ class Case:
     def trolley_motion(self) -> Motion:
         """Position of the trolley along the jib [m]."""
         if "trolley" not in self.plans:
-            raise self._other_kind("radial")
+            raise self._other_kind("radial", "space")
         return self.motions["trolley"]
 
     def rope_motion(self) -> Motion:
@@ -283,9 +347,10 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     from pydantic import ValidationError
 
     from towercrane.explain import explain
-    from towercrane.kinds import kind_of
+    from towercrane.kinds import TOWER_CRANES, kind_of
     from towercrane.plausibility import check_values, implausible
     from towercrane.schema_cases import KINDS
+    from towercrane.space_checks import check_space
     from towercrane.tower_checks import check_tower
     from towercrane.ways import channels, check_motions
 
@@ -305,10 +370,11 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     allowed = tree.get("allow_implausible", [])
     allowed = [k for k in allowed if isinstance(k, str)] if isinstance(allowed, list) else []
     faults += [*implausible(tree, allowed, kind), *check_values(tree)]
-    faults += check_tower(tree) if kind == "radial" else []
+    faults += check_tower(tree) if kind in TOWER_CRANES else []
+    faults += check_space(tree) if kind == "space" else []
     motion_faults, plans = check_motions(tree, found.parent, kind)
     located = [text.located(f) for f in dict.fromkeys([*text.faults, *faults, *motion_faults])]
-    if located or checked is None or set(plans) != set(channels(kind)):
+    if located or checked is None or set(plans) != set(channels(tree, kind)):
         raise CaseError(located)
     name = case_name(found)
     return Case(name, found, checked.title or name, checked, plans, tuple(assumed), text.tree, tuple(overrides))

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from towercrane.compare_command import compare
 from towercrane.lattice_command import lattice
 from towercrane.map_command import frequency_map
+from towercrane.space_command import space_modes
 from towercrane.studies import bench, linearise, sensitivity, shape
 from towercrane.terminal import (
     ENDED_EARLY,
@@ -127,7 +129,7 @@ def modes(
     case: CaseName,
     changes: Changes = None,
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="DIR", help="Folder for the picture of the mode shapes.")
+        Path | None, typer.Option("--out", metavar="DIR", help="Folder for pictures of the modes.")
     ] = None,
     actual: Annotated[
         bool, typer.Option("--actual", help="Solve for the effect of shear, weight, ... beside its prediction.")
@@ -136,6 +138,9 @@ def modes(
 ) -> None:
     """Natural frequencies of tower, jib and crane, each checked a second way; what matters for them."""
     loaded = load(case, changes)
+    if loaded.kind == "space":
+        space_modes(loaded, case, changes, out, as_json)
+        return
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
     announce_compilation(loaded.kind, "modal.roots")
@@ -206,11 +211,11 @@ def run(
         if stale:
             typer.echo(f"removed, of an earlier run: {', '.join(stale)}")
         if changes:
-            suggest("modes" if loaded.kind == "radial" else "linearise", case, *options_of(changes))
+            suggest("modes" if loaded.kind in ("radial", "space") else "linearise", case, *options_of(changes))
         elif loaded.kind == "radial":
             suggest("run", case, "--set", "model.jib_modes=5", "--out", f"results/{loaded.name}-5-jib-modes")
         else:
-            suggest("linearise", case)
+            suggest("modes" if loaded.kind == "space" else "linearise", case)
     if summary["outcome"] == "interrupted":
         raise typer.Exit(INTERRUPTED)
     if summary["expected"] and not summary["expected"]["met"]:
@@ -255,6 +260,10 @@ def _pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
         from towercrane.plots import jib
 
         return dict(jib.run_pictures(result))
+    if case.kind == "space":
+        from towercrane.plots import space
+
+        return dict(space.run_pictures(result))
     from towercrane.plots import slewing
 
     return dict(slewing.run_pictures(result))
@@ -284,6 +293,7 @@ def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Datase
 app.command()(lattice)
 app.command()(linearise)
 app.command("map")(frequency_map)
+app.command()(compare)
 app.command()(sensitivity)
 app.command()(bench)
 app.command()(shape)

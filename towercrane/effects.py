@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.case import Case
-    from towercrane.schema_cranes import Crane
+    from towercrane.schema_tower_cranes import Crane
 
     Floats = NDArray[np.float64]
 

@@ -14,26 +14,53 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
 
+TOWER_CRANES = ("radial", "space")
+"""Kinds of case that a tower crane's file serves."""
+
+
 def kind_of(tree: dict[str, Any]) -> tuple[str, list[Fault]]:
     """Kind of a case's crane and what is wrong with its statement.
 
-    Where the statement is missing, unknown or in a file that cannot be read, the kind that knows most of the
-    written keys is taken, so that the rest of the case is still judged by rules that fit it.
+    The crane states it, and a case of a tower crane may, for the same crane serves the plane and space. Where the
+    statement is missing, unknown or in a file that cannot be read, the kind that knows most of the written keys is
+    taken, so that the rest of the case is still judged by rules that fit it.
     """
     crane = tree.get("crane")
     stated = crane.get("kind") if isinstance(crane, dict) else None
+    if "kind" in tree:
+        return _of_case(tree["kind"], stated, tree)
     if isinstance(stated, str) and stated in KINDS:
         return stated, []
     likely = _likely(tree)
-    key, wanted = "crane.kind", "one of " + ", ".join(f'"{kind}"' for kind in KINDS)
+    key, wanted = "crane.kind", _one_of(KINDS)
     if stated is not None:
         near = closest(stated, KINDS) if isinstance(stated, str) else None
         hint = f'did you mean "{near}"?' if near else f'the keys are those of kind "{likely}"'
         return near or likely, [Fault("", key, wanted, shown(stated), hint)]
     if not isinstance(crane, dict) or likely == next(iter(KINDS)):
         return likely, []
+    if likely in TOWER_CRANES:
+        hint = f'put kind = "{likely}" at the top of the case: it has keys of that kind'
+        return likely, [Fault("", "kind", _one_of(TOWER_CRANES), "nothing: the key is missing", hint)]
     hint = f'the keys are those of kind "{likely}"; a crane that states no kind is "{next(iter(KINDS))}"'
     return likely, [Fault("", key, wanted, "nothing: the key is missing", hint)]
+
+
+def _of_case(stated: object, crane: object, tree: dict[str, Any]) -> tuple[str, list[Fault]]:
+    """Kind of a case that states one itself beside what its crane states."""
+    if stated not in TOWER_CRANES:
+        near = closest(stated, TOWER_CRANES) if isinstance(stated, str) else None
+        hint = f'did you mean "{near}"?' if near else "cranes of other kinds state theirs in the crane file"
+        return near or _likely(tree), [Fault("", "kind", _one_of(TOWER_CRANES), shown(stated), hint)]
+    kind = str(stated)
+    if crane is None or crane in TOWER_CRANES:
+        return kind, []
+    got = f"{shown(crane)} beside a case of kind {shown(kind)}"
+    return kind, [Fault("", "crane.kind", _one_of(TOWER_CRANES), got)]
+
+
+def _one_of(kinds: Iterable[str]) -> str:
+    return "one of " + ", ".join(f'"{kind}"' for kind in kinds)
 
 
 def known_keys(table: type[Table] | None = None, prefix: str = "") -> Iterator[str]:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) -> None:
     """The tower's lattice as three beams beside its truss: deflections, frequencies, errors and times."""
     loaded = load(case, changes)
+    if loaded.kind == "space":
+        fail(f"{case}: wanted a case of kind 'radial', got 'space'; try: towercrane modes {case}")
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no lattice; try: towercrane linearise {case}")
     if loaded.lattice() is None:

@@ -60,6 +60,8 @@ def frequency_map(
 ) -> None:
     """Natural frequencies of the plane crane over trolley position and payload; the tower's buckling load."""
     loaded = load(case, changes)
+    if loaded.kind == "space":
+        fail(f"{case}: wanted a case of kind 'radial', got 'space'; try: towercrane modes {case}")
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
     folder = out if out is not None else Path("results") / f"{loaded.name}-map"

@@ -26,7 +26,7 @@ def model_of(case: Case) -> Model:
         from towercrane.cranes.jib_crane import JibCrane, PlannedJibCrane
 
         return PlannedJibCrane(JibCrane(**case.jib_parameters()), case.load(), rope_as_rod=case.rope.slack == "rod")
-    return radial_model(case)
+    return space_model(case) if case.kind == "space" else radial_model(case)
 
 
 def motions_of(case: Case) -> dict[str, Motion]:
@@ -76,6 +76,45 @@ def radial_model(case: Case, **changes: Any) -> RadialModel:
         "self_weight": case.start.state != "zero-no-self-weight",
     }
     return RadialModel(case.radial_crane(), case.load(), **{**chosen, **changes})
+
+
+def space_model(case: Case, **counts: int) -> FlexibleModel:
+    """Model of a case in space; keyword arguments replace its numbers of modes, named as in the case."""
+    from towercrane.cranes.flexible import FlexibleModel, ModalDamping
+    from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
+    from towercrane.cranes.lumped_data import Drive
+    from towercrane.cranes.wind import WindAreas
+
+    space, crane = case.space, case.space.crane
+    chosen = space.model.model_copy(update=counts)
+    modes = ModeCounts(
+        chosen.tower_modes, chosen.torsion_modes, chosen.jib_lateral_modes, chosen.jib_vertical_modes
+    )  # fmt: skip
+    damping = ModalDamping(
+        chosen.tower_damping_ratio,
+        chosen.torsion_damping_ratio,
+        chosen.jib_lateral_damping_ratio,
+        chosen.jib_vertical_damping_ratio,
+    )
+    drive = None
+    if crane.drive is not None and space.motion.shaft is not None:
+        coupling, friction = crane.drive, crane.friction
+        drive = Drive(
+            "slewing", coupling.soft_stiffness, coupling.stiff_stiffness, coupling.corner, coupling.damping,
+            friction.law, friction.torque, friction.rate,
+        )  # fmt: skip
+    areas = WindAreas(**dict(crane.wind_areas)) if space.wind is not None else None
+    return FlexibleModel(
+        flexible_crane(case.space_crane(), modes, areas),
+        case.load(),
+        slewing="prescribed" if drive is None else drive,
+        drive_inertia=crane.drive.inertia if drive is not None and crane.drive is not None else 0.0,
+        damping=damping,
+        weight_softening=chosen.weight_softening,
+        self_weight=space.start.state != "zero-no-self-weight",
+        rope_as_rod=case.rope.slack == "rod",
+        wind=areas is not None,
+    )
 
 
 def _softened(case: Case) -> bool:

@@ -96,6 +96,16 @@ RANGES = (
     Range("crane.tower.bodies*.offset", "m", 1e-3, 50, LENGTHS, signed=True),
     Range("crane.foundation.rotation_stiffness", "N m/rad", 1e4, 1e14, ("MN m/rad", "GN m/rad", "kN m/rad")),
     Range("crane.foundation.translation_stiffness", "N/m", 1e4, 1e13, ("MN/m", "GN/m", "kN/m")),
+    Range("crane.tower.torsional_stiffness", "N m^2", 1e4, 1e13, ("MN m^2", "kN m^2", "GN m^2")),
+    Range("crane.tower.torsional_inertia_per_length", "kg m^2/m", 1e-3, 1e6, ("t m",)),
+    Range("crane.jib.lateral_second_moment_of_area", "m^4", 1e-8, 10, ("cm^4", "mm^4")),
+    Range("crane.roll_inertia", "kg m^2", 1e-2, 1e9, ("t m^2",)),
+    Range("crane.wind_areas.*", "m", 1e-3, 50, ("cm", "mm")),
+    Range("crane.wind_areas.counterweight", "m^2", 1e-3, 1e3, AREAS),
+    Range("crane.drive.inertia", "kg m^2", 1e-2, 1e9, ("t m^2",)),
+    Range("wind.speed", "m/s", 1e-3, 80, ("km/h",)),
+    Range("wind.upward", "m/s", 1e-3, 80, ("km/h",), signed=True),
+    Range("wind.direction", "rad", 1e-9, 100, ANGLES, signed=True),
     Range("crane.counter_jib.counterweight", "kg", 50, 1e6, ("t", "g")),
     Range("crane.trolley.mass", "kg", 5, 50e3, ("t", "g")),
     Range("crane.geometry.*", "m", 0.02, 1000, LENGTHS),
@@ -130,7 +140,7 @@ RANGES = (
     Range("motion.*.jerk", "m/s^3", 1e-5, 1e3, ("cm/s^3", "mm/s^3")),
     *(
         row
-        for joint, most in (("shaft", 100), ("slew", 100), ("luff", 3.2), ("fold", 6.4))
+        for joint, most in (("shaft", 100), ("slewing", 100), ("slew", 100), ("luff", 3.2), ("fold", 6.4))
         for row in (
             Range(f"motion.{joint}.start", "rad", 1e-9, most, ANGLES, signed=True),
             Range(f"motion.{joint}*.end", "rad", 1e-9, most, ANGLES, signed=True),
@@ -144,6 +154,8 @@ RANGES = (
     Range("motion.*.frequencies*", "Hz", 1e-3, 20, ("mHz",)),
     Range("motion.*.delay", "s", 1e-3, 1e5, ("ms", "min")),
     Range("motion.*.duration", "s", 1e-3, 1e5, ("ms", "min")),
+    Range("modes.rope_lengths*", "m", 0.1, 1000, LENGTHS),
+    Range("modes.slewing_angles*", "rad", 1e-9, 100, ANGLES, signed=True),
     Range("model.*_damping_ratio", "1", 1e-6, 0.3, ("%",)),
     Range("start.swing_angle", "rad", 1e-9, 1.6, ANGLES, signed=True),
     Range("run.duration", "s", 0.01, 1e6, ("ms", "min", "h")),

@@ -108,7 +108,7 @@ def read_points(path: Path, unit: str = "m") -> tuple[list[float], list[float]]:
         raise CaseError([Fault(str(path), "", wanted, got, "the path is relative to the case file")]) from None
     rows = [(number, line) for number, line in enumerate(lines, start=1) if line.strip()]
     faults = []
-    if rows and len(_numbers(rows[0][1])) == 2:
+    if rows and len(numbers_of(rows[0][1])) == 2:
         faults.append(Fault(str(path), f"line {rows[0][0]}", "a header line", shown(rows[0][1])))
     times: list[float] = []
     values: list[float] = []
@@ -116,7 +116,7 @@ def read_points(path: Path, unit: str = "m") -> tuple[list[float], list[float]]:
         fault = _row_fault(line, times, "metres" if unit == "m" else "radians")
         if fault:
             faults.append(Fault(str(path), f"line {number}", *fault))
-        pair = _numbers(line)
+        pair = numbers_of(line)
         if len(pair) == 2:
             times.append(pair[0])
             values.append(pair[1])
@@ -127,7 +127,7 @@ def read_points(path: Path, unit: str = "m") -> tuple[list[float], list[float]]:
     return times, values
 
 
-def _numbers(line: str) -> list[float]:
+def numbers_of(line: str) -> list[float]:
     """The finite numbers of a line; those that are not drop out."""
     numbers = []
     for cell in line.split(","):
@@ -146,7 +146,7 @@ def _row_fault(line: str, times: list[float], units: str) -> tuple[str, str, str
     if len(columns) != 2:
         hint = "columns are parted by commas" if ";" in line or "\t" in line else ""
         return "two columns: time, value", f"{len(columns)} in {shown(line)}", hint
-    numbers = _numbers(line)
+    numbers = numbers_of(line)
     if len(numbers) != 2:
         return "two finite numbers", shown(line), f"numbers stand without units: seconds and {units}"
     if not times and numbers[0] != 0.0:

@@ -129,6 +129,7 @@ Ratio = Annotated[float, Quantity("1", least=0)]
 Breadth = Annotated[float, Quantity("1", above=0)]
 InertiaOrNone = Annotated[float, Quantity("kg m^2", least=0)]
 RotaryInertiaPerLength = Annotated[float, Quantity("kg m^2/m", least=0)]
+PressedLength = Annotated[float, Quantity("m", least=0)]
 Root = Annotated[float, Quantity("1", above=0)]
 ModeCount = Annotated[StrictInt, Field(ge=0, le=14)]
 
@@ -136,6 +137,9 @@ LengthIfAny = Annotated[float | None, Quantity("m", above=0)]
 MassPerLengthIfAny = Annotated[float | None, Quantity("kg/m", above=0)]
 ModulusIfAny = Annotated[float | None, Quantity("Pa", above=0)]
 SecondMomentIfAny = Annotated[float | None, Quantity("m^4", above=0)]
+TorsionalStiffnessIfAny = Annotated[float | None, Quantity("N m^2", above=0)]
+TorsionalInertiaIfAny = Annotated[float | None, Quantity("kg m^2/m", above=0)]
+SpeedIfAny = Annotated[float | None, Quantity("m/s", least=0)]
 ToleranceIfAny = Annotated[float | None, Quantity("1", least=1e-9, most=0.1)]
 
 

@@ -8,7 +8,9 @@ from pydantic import Field, StrictBool, StrictInt
 
 from towercrane.schema import (
     Angle,
+    EitherSpeed,
     Expect,
+    Length,
     Mass,
     ModeCount,
     Payload,
@@ -17,18 +19,20 @@ from towercrane.schema import (
     Rope,
     Run,
     Solver,
+    SpeedIfAny,
     Table,
+    ToleranceIfAny,
 )
 from towercrane.schema_accuracy import Accuracy
 from towercrane.schema_cranes import (  # noqa: TC001 - pydantic reads annotations when the class is made
     BasicCrane,
-    Crane,
     EnhancedCrane,
     JibCrane,
     MultiMassCrane,
     SlewingCrane,
 )
-from towercrane.schema_motions import JibMotions, Motions, SlewingMotions  # noqa: TC001
+from towercrane.schema_motions import JibMotions, Motions, SlewingMotions, SpaceMotions  # noqa: TC001
+from towercrane.schema_tower_cranes import RadialCrane, SpaceCrane  # noqa: TC001
 
 
 class Model(Table):
@@ -68,11 +72,18 @@ class MapRequest(Table):
     payload_masses: tuple[Mass, ...] = ()
 
 
+class SpaceAccuracy(Table):
+    """Error of the load's place, relative, for which ``towercrane compare`` names the modes needed."""
+
+    target: ToleranceIfAny = None
+
+
 class RadialCase(Table):
     """Case of a crane in radial motion."""
 
     title: str = ""
-    crane: Crane
+    kind: Literal["radial"] = "radial"
+    crane: RadialCrane
     payload: Payload
     rope: Rope
     motion: Motions
@@ -83,6 +94,62 @@ class RadialCase(Table):
     modes: ModesRequest = ModesRequest()
     map: MapRequest = MapRequest()
     accuracy: Accuracy = Accuracy()
+    allow_implausible: tuple[str, ...] = ()
+    expect: Expect | None = None
+
+
+class SpaceModel(Table):
+    """Modes that a case in space includes, zero for what is rigid; those of the tower count in both directions."""
+
+    tower_modes: ModeCount = 2
+    torsion_modes: ModeCount = 1
+    jib_lateral_modes: ModeCount = 2
+    jib_vertical_modes: ModeCount = 2
+    weight_softening: StrictBool = False
+    tower_damping_ratio: Ratio = 0.0
+    torsion_damping_ratio: Ratio = 0.0
+    jib_lateral_damping_ratio: Ratio = 0.0
+    jib_vertical_damping_ratio: Ratio = 0.0
+
+
+class Wind(Table):
+    """Wind on load and structure: steady, or gusts from a CSV file.
+
+    A steady wind blows towards ``direction``, counted like the slewing angle. Gusts are interpolated linearly between
+    the file's lines of time [s] and velocity along x, y and z [m/s].
+    """
+
+    speed: SpeedIfAny = None
+    direction: Angle = 0.0
+    upward: EitherSpeed = 0.0
+    series: str = ""
+
+
+class SpaceModesRequest(Table):
+    """Where ``towercrane modes`` takes the crane in space, one by one the others at the start of the motions."""
+
+    count: Annotated[StrictInt, Field(ge=1, le=30)] = 8
+    trolley_positions: tuple[Position, ...] = ()
+    rope_lengths: tuple[Length, ...] = ()
+    slewing_angles: tuple[Angle, ...] = ()
+
+
+class SpaceCase(Table):
+    """Case of a tower crane in space."""
+
+    title: str = ""
+    kind: Literal["space"] = "space"
+    crane: SpaceCrane
+    payload: Payload
+    rope: Rope
+    motion: SpaceMotions
+    wind: Wind | None = None
+    model: SpaceModel = SpaceModel()
+    start: Start = Start()
+    run: Run
+    solver: Solver = Solver()
+    modes: SpaceModesRequest = SpaceModesRequest()
+    accuracy: SpaceAccuracy = SpaceAccuracy()
     allow_implausible: tuple[str, ...] = ()
     expect: Expect | None = None
 
@@ -149,10 +216,11 @@ class JibCase(Table):
     expect: Expect | None = None
 
 
-AnyCase = RadialCase | SlewingCase | JibCase
+AnyCase = RadialCase | SpaceCase | SlewingCase | JibCase
 
-KINDS: dict[str, type[RadialCase] | type[SlewingCase] | type[JibCase]] = {
+KINDS: dict[str, type[RadialCase] | type[SpaceCase] | type[SlewingCase] | type[JibCase]] = {
     "radial": RadialCase,
+    "space": SpaceCase,
     "multi-mass": MultiMassCase,
     "basic": BasicCase,
     "enhanced": EnhancedCase,

@@ -1,4 +1,4 @@
-"""Crane files: one table per kind of crane."""
+"""Crane files of slewing and jib cranes: one table per kind of crane."""
 
 from __future__ import annotations
 
@@ -16,62 +16,13 @@ from towercrane.schema import (
     MassMomentOrNone,
     MassOrNone,
     MassPerLength,
-    MassPerLengthOrNone,
-    Modulus,
-    ModulusIfAny,
     Reach,
     RotaryStiffness,
-    SecondMoment,
-    SecondMomentIfAny,
     Stiffness,
     Table,
     TorqueOrNone,
     TurningOrNone,
 )
-from towercrane.schema_towers import Foundation, Tower
-
-
-class Jib(Table):
-    """Jib as a uniform beam."""
-
-    length: Length
-    mass_per_length: MassPerLength
-    youngs_modulus: Modulus
-    second_moment_of_area: SecondMoment
-
-
-class CounterJib(Table):
-    """Counter-jib with the counterweight at its end.
-
-    It is rigid in the equations of motion. Modulus and second moment of area, both or none, let it bend in the exact
-    frequencies of the crane, see :func:`towercrane.towers.crane_frame`.
-    """
-
-    length: Reach
-    mass_per_length: MassPerLengthOrNone
-    counterweight: MassOrNone
-    youngs_modulus: ModulusIfAny = None
-    second_moment_of_area: SecondMomentIfAny = None
-
-
-class Trolley(Table):
-    """Trolley."""
-
-    mass: MassOrNone
-
-
-class Crane(Table):
-    """Crane in radial motion."""
-
-    name: str
-    source: str = ""
-    kind: Literal["radial"] = "radial"
-    gravity: Acceleration = 9.81
-    tower: Tower
-    foundation: Foundation = Foundation()
-    jib: Jib
-    counter_jib: CounterJib
-    trolley: Trolley
 
 
 class Geometry(Table):

@@ -274,6 +274,13 @@ class Motions(Table):
     hoist: HoistMotion | None = None
 
 
+class SpaceMotions(Motions):
+    """What the drives of a tower crane in space do; the head's angle, or that of its drive's shaft."""
+
+    slewing: JointMotion | None = None
+    shaft: JointMotion | None = None
+
+
 class SlewingMotions(Table):
     """What the drives of a slewing crane do; the shaft's angle is referred to the platform."""
 

@@ -27,6 +27,8 @@ from towercrane.schema import (
     ShearStiffness,
     Stiffness,
     Table,
+    TorsionalInertiaIfAny,
+    TorsionalStiffnessIfAny,
 )
 
 BeamChoice = Literal["stated", "shear-flexible", "euler", "code-equivalent"]
@@ -80,7 +82,8 @@ class Tower(Section):
     """Tower: a uniform beam, or segments from the foot up.
 
     Which keys belong together is for :mod:`towercrane.tower_checks`. Roots that the source of a uniform tower prints
-    are shown beside the computed ones.
+    are shown beside the computed ones. Torsion is that of one uniform shaft from the foot to the top, whatever the
+    tower bends like, and matters to a crane in space alone.
     """
 
     height: LengthIfAny = None
@@ -88,6 +91,8 @@ class Tower(Section):
     segments: tuple[TowerSegment, ...] = ()
     bodies: tuple[TowerBody, ...] = ()
     shear_theory: ShearTheory = "haringx"
+    torsional_stiffness: TorsionalStiffnessIfAny = None
+    torsional_inertia_per_length: TorsionalInertiaIfAny = None
     published_roots: tuple[Root, ...] = ()
 
 

@@ -124,16 +124,17 @@ def simulate(
     return dataset(times, quantities, provenance)
 
 
-def run_case(case: Case, *, progress: Progress | None = None) -> xr.Dataset:
-    """Simulate a case; its text and its assumed values go into the result's attributes.
+def run_case(case: Case, *, model: Model | None = None, progress: Progress | None = None) -> xr.Dataset:
+    """Simulate a case, or another model of its crane; text and assumed values go into the result's attributes.
 
     Where the case asks for an error, model and solver are chosen by it, and the attribute ``accuracy`` says how.
     """
     with warnings.catch_warnings():
         # The summary says it.
         warnings.simplefilter("ignore", drift.EnergyDriftWarning)
-        result = _to_target(case, progress) or simulate(
-            model_of(case),
+        chosen = _to_target(case, progress) if model is None else None
+        result = chosen or simulate(
+            model_of(case) if model is None else model,
             case.motions,
             case.run.duration,
             output_step=case.run.output_step,

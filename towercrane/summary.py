@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from towercrane import drift
+from towercrane.cranes.small_motions import natural_modes
 from towercrane.integrate import FINISHED
-from towercrane.models import model_of, radial_model
+from towercrane.kinds import TOWER_CRANES
+from towercrane.models import model_of, radial_model, space_model
 from towercrane.spectrum import spectrum_peaks, swing_period
 from towercrane.system import NoEquilibrium
 
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from towercrane.case import Case
+    from towercrane.cranes.small_motions import NaturalMode
 
 TUNED = 0.05
 """Structure and twice the swing count as tuned when their frequencies differ by less than this fraction."""
@@ -41,8 +44,23 @@ class Signals(NamedTuple):
     swing: str
 
 
+class Natural(NamedTuple):
+    """Natural frequencies where a run ended [Hz], the kind of each where kinds are told apart, and for each output
+    that shows a swing of the load the index of its mode."""
+
+    frequencies: list[float]
+    kinds: list[str]
+    swings: dict[str, int]
+
+    @property
+    def swing_mode(self) -> int | None:
+        """Which of them is the load's swing, of several the one along the jib, counted from 1."""
+        return next(iter(self.swings.values())) + 1 if self.swings else None
+
+
 SIGNALS = {
     "radial": Signals("tower_tip_displacement", "swing_angle"),
+    "space": Signals("tower_tip_displacement", "sway_tangential"),
     "jib": Signals("sway_in_plane", "sway_in_plane"),
 }
 SLEWING_SIGNALS = Signals("jib_moment_vertical", "sway_radial")
@@ -57,15 +75,16 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         ``outcome``, ``end_time_s``, ``peaks`` per variable (maximum, maximum_time_s, minimum, minimum_time_s,
         units) among the rows of the result, ``spectrum_peaks_hz`` of the structure (of its free vibration where that
         is long enough), ``swing_period_s`` after the drives have stopped (None without a regular swing),
-        ``natural_frequencies_hz`` where the run ended, ``energy_balance``, ``expected``, ``notices``,
-        ``assumed``, ``solver``, ``wall_seconds``; ``accuracy`` where the case asks for an error, see
-        :func:`towercrane.promise.promise`.
+        ``natural_frequencies_hz`` where the run ended, in space their ``natural_kinds``, ``energy_balance``,
+        ``expected``, ``notices``, ``assumed``, ``idle`` (what the crane file holds for other cases), ``solver``,
+        ``wall_seconds``; ``accuracy`` where the case asks for an error, see :func:`towercrane.promise.promise`.
     """
     attributes = result.attrs
     times = result["time"].values
     signals = SIGNALS.get(case.kind, SLEWING_SIGNALS)
     free = _after_the_drives(case, times)
-    frequencies, swing = _natural(case, result)
+    natural = _natural(case, result)
+    frequencies = natural.frequencies
     # Free vibration shows the crane's own lines; a moving trolley drags them along and adds its own.
     calm = free if len(frequencies) > 1 and _cycles(times[free], frequencies) >= CYCLES else slice(None)
     return {
@@ -82,11 +101,13 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
         "spectrum_peaks_hz": spectrum_peaks(times[calm], result[signals.vibration].values[calm]),
         "swing_period_s": swing_period(times[free], result[signals.swing].values[free]),
         "natural_frequencies_hz": frequencies,
-        "swing_mode": None if swing is None else swing + 1,
+        **({"natural_kinds": natural.kinds} if natural.kinds else {}),
+        "swing_mode": natural.swing_mode,
         "energy_balance": energy_balance(result),
         "expected": expected(case, result),
-        "notices": notices(case, result, frequencies, swing, free),
+        "notices": notices(case, result, natural, free),
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(result)],
+        "idle": list(case.idle),
         "solver": {
             key: attributes[key]
             for key in (
@@ -163,7 +184,7 @@ def expected(case: Case, result: xr.Dataset) -> dict[str, Any] | None:
     return {"met": not misses, "misses": misses}
 
 
-def notices(case: Case, result: xr.Dataset, frequencies: list[float], swing: int | None, free: slice) -> list[str]:
+def notices(case: Case, result: xr.Dataset, natural: Natural, free: slice) -> list[str]:
     """What deserves a second look, in sentences."""
     found = []
     if result.attrs["outcome"] != FINISHED:
@@ -184,27 +205,29 @@ def notices(case: Case, result: xr.Dataset, frequencies: list[float], swing: int
     if gap > LOOSE:
         found.append(f"the energy balance is off by {gap:.1e} of the change: tighten solver.rtol and solver.atol")
     lengths: tuple[tuple[str, float], ...] = ()
-    if case.kind == "radial":
+    if case.kind in TOWER_CRANES:
         crane = case.radial_crane()
         lengths = (("tower_tip_displacement", crane.tower.length), ("jib_tip_deflection", crane.jib.length))
+    if case.kind == "space":
+        lengths += tuple((f"{name}_sideways", length) for name, length in lengths)
     for name, length in lengths:
         share = float(abs(result[name]).max()) / length
         if share > SMALL:
             what = name.replace("_", " ")
             found.append(f"{what} reaches {share:.0%} of the beam's length: beyond the small slopes of the model")
-    return found + _parametric(result, frequencies, swing, free)
+    for signal, swing in natural.swings.items():
+        found += _parametric(result, natural.frequencies, signal, swing, free)
+    return found
 
 
-def _parametric(result: xr.Dataset, frequencies: list[float], swing: int | None, free: slice) -> list[str]:
+def _parametric(result: xr.Dataset, frequencies: list[float], signal: str, swing: int, free: slice) -> list[str]:
     """Structure at twice the swing frequency: a small ringing then pumps the swing."""
-    if swing is None:
-        return []
     own = frequencies[swing]
     tuned = [f for f in frequencies if abs(f / (2.0 * own) - 1.0) < TUNED]
     if not tuned:
         return []
     ratio = f"structure at {tuned[0]:.3f} Hz, twice the swing's {own:.3f} Hz within {TUNED:.0%}"
-    angle, times = abs(result["swing_angle"].values[free]), result["time"].values[free]
+    angle, times = abs(result[signal].values[free]), result["time"].values[free]
     first = angle[: max(1, int(np.sum(times < times[:1] + 1.0 / own)))]
     before, after = float(first.max(initial=0.0)), float(angle.max(initial=0.0))
     if before > 0.0 and after > GROWTH * before:
@@ -215,18 +238,28 @@ def _parametric(result: xr.Dataset, frequencies: list[float], swing: int | None,
     return [f"2:1 tuning ({ratio}): a ringing structure can pump the swing; in this run it did not"]
 
 
-def _natural(case: Case, result: xr.Dataset) -> tuple[list[float], int | None]:
-    """Natural frequencies [Hz] where the run ended, and which is the swing; nothing for a tower that buckles."""
+def _natural(case: Case, result: xr.Dataset) -> Natural:
+    """Natural frequencies where the run ended; nothing for a tower that buckles."""
     try:
-        if case.kind != "radial":
-            return _linearised(case), None
+        if case.kind not in TOWER_CRANES:
+            return Natural(_linearised(case), [], {})
         position, length = float(result["trolley_position"][-1]), float(result["rope_length"][-1])
+        if case.kind == "space":
+            angle = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"][-1])
+            return _in_space(natural_modes(space_model(case), position, length, angle))
         picked = (accuracy(result) or {"setting": {}})["setting"]
         chosen = {key: picked[key] for key in ("tower_modes", "jib_modes", "weight_softening") if key in picked}
         frequencies, swing = radial_model(case, **chosen).natural_modes(position, length)
     except NoEquilibrium:
-        return [], None
-    return (frequencies / (2 * np.pi)).tolist(), swing
+        return Natural([], [], {})
+    return Natural((frequencies / (2 * np.pi)).tolist(), [], {"swing_angle": swing})
+
+
+def _in_space(modes: list[NaturalMode]) -> Natural:
+    kinds = [mode.kind for mode in modes]
+    sways = {"sway_radial": "radial sway", "sway_tangential": "lateral sway"}
+    swings = {signal: kinds.index(kind) for signal, kind in sways.items() if kind in kinds}
+    return Natural([mode.frequency_hz for mode in modes], kinds, swings)
 
 
 def _linearised(case: Case) -> list[float]:

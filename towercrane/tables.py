@@ -4,27 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
-from rich.table import Table
+from towercrane.report_tables import assumed_values as _assumed
+from towercrane.report_tables import console_of_reports as _console
+from towercrane.report_tables import report_table as _table
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-WIDTH_OF_A_PIPE = 120
-"""Columns where no terminal tells its width."""
-
-
-def _console() -> Console:
-    # Without markup: brackets in units and titles are text.
-    width = None if Console().is_terminal else WIDTH_OF_A_PIPE
-    return Console(width=width, markup=False, highlight=False)
-
-
-def _table(title: str, *columns: str, left: int = 1) -> Table:
-    table = Table(title=title, title_justify="left", title_style="bold", header_style="bold")
-    for number, column in enumerate(columns):
-        table.add_column(column, justify="left" if number < left else "right", overflow="fold")
-    return table
+    from rich.console import Console
 
 
 def modes_tables(report: dict[str, Any]) -> None:
@@ -202,7 +189,9 @@ def run_tables(summary: dict[str, Any]) -> None:
     )
     shown = ", ".join(f"{f:.4f}" for f in summary["spectrum_peaks_hz"]) or "none"
     console.print(f"spectrum peaks        {shown} Hz in {summary['spectrum_of'].replace('_', ' ')}")
-    natural = ", ".join(f"{f:.4f}" for f in summary["natural_frequencies_hz"][:5]) or "none"
+    frequencies, kinds = summary["natural_frequencies_hz"], summary.get("natural_kinds")
+    named = [f"{f:.4f}" + (f" {kinds[i]}" if kinds else "") for i, f in enumerate(frequencies[:5])]
+    natural = ", ".join(named) or "none"
     console.print(f"natural frequencies   {natural} Hz where the run ended")
     balance, solver = summary["energy_balance"], summary["solver"]
     console.print(
@@ -219,6 +208,8 @@ def run_tables(summary: dict[str, Any]) -> None:
         _accuracy(console, summary["accuracy"])
     for notice in summary["notices"]:
         console.print(f"note     {notice}", style="bold")
+    if summary["idle"]:
+        console.print(f"idle     {', '.join(summary['idle'])}: in the crane file, of no use to this run")
     _assumed(console, summary["assumed"])
 
 
@@ -411,16 +402,3 @@ def bench_tables(report: dict[str, Any]) -> None:
         console.print(table)
         for note in subject["notes"]:
             console.print(f"  {note}", style="dim")
-
-
-MOST_ASSUMED = 8
-"""Assumed values that are explained one by one."""
-
-
-def _assumed(console: Console, assumed: list[dict[str, str]]) -> None:
-    if len(assumed) > MOST_ASSUMED:
-        values = ", ".join(f"{entry['key']} = {entry['value']}" for entry in assumed)
-        console.print(f"assumed  {len(assumed)} values that no source gives (reasons: --json): {values}")
-        return
-    for entry in assumed:
-        console.print(f"assumed  {entry['key']} = {entry['value']}: {entry['why']}")

@@ -36,7 +36,7 @@ def announce_compilation(kind: str, *needed: str) -> None:
     """Compile the kernels of a kind of crane, and what a command needs besides, if they are not yet, and say so."""
     from modal.compiled import is_compiled
 
-    own = {"radial": "flexible_rhs", "jib": "jib_crane_kernel"}.get(kind, "lumped_kernel")
+    own = {"radial": "flexible_rhs", "space": "flexible_rhs", "jib": "jib_crane_kernel"}.get(kind, "lumped_kernel")
     missing = [m for m in (f"towercrane.cranes.{own}", *needed) if not is_compiled(m)]
     if missing:
         say("compiling for the first time, about ten seconds; later runs start at once ...")

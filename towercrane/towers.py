@@ -11,7 +11,7 @@ from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Seg
 if TYPE_CHECKING:
     from towercrane.case import Case
     from towercrane.cranes.tower_crane import TowerCrane
-    from towercrane.schema_cranes import Crane
+    from towercrane.schema_tower_cranes import Crane
     from towercrane.schema_towers import BeamChoice, Lattice, Section, Tower, TowerSegment
 
 TAPER_POWERS = {"legs": (0.0, 2.0, 0.0), "wedge": (1.0, 3.0, 1.0), "cone": (2.0, 4.0, 2.0)}

@@ -79,6 +79,7 @@ KINDS = {
     "N": ("a force", "120 MN"),
     "Hz": ("a frequency", "0.12 Hz"),
     "N m": ("a torque", "22 N m"),
+    "N m^2": ("a torsional stiffness", "170 MN m^2"),
     "N/m": ("a stiffness", "60 kN/m"),
     "N m/rad": ("a rotary stiffness", "40 kN m/rad"),
     "N s/m": ("a damping", "60 N s/m"),

@@ -9,21 +9,24 @@ from pydantic import TypeAdapter, ValidationError
 
 from towercrane.casefile import leaves
 from towercrane.faults import CaseError, Fault, shown
+from towercrane.kinds import TOWER_CRANES
+from towercrane.plans import Move, Plan
 from towercrane.plausibility import FASTEST, FASTEST_TURN, at, si, si_at
 from towercrane.profiles import plan
 from towercrane.schema_motions import HoistMotion, JointMotion, TrolleyMotion
 from towercrane.tower_checks import tower_height
+from towercrane.wind_file import CHANNELS, wind_motions
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from towercrane.plans import Plan
 
 ROUNDING = 1e-9
 """Relative; a motion that ends at the jib's end may overshoot it by rounding."""
 
-JOINTS = {
+JOINTS: dict[str, tuple[str, ...]] = {
     "radial": (),
+    "space": ("slewing", "shaft"),
     "multi-mass": ("shaft",),
     "basic": ("shaft",),
     "enhanced": ("shaft",),
@@ -31,11 +34,11 @@ JOINTS = {
 }
 """What turns, by kind of crane."""
 
-RESTS = ("slew",)
+RESTS = ("slew", "slewing")
 """Joints that rest at zero where the case does not name them."""
 
 
-MODELLED = ("radial",)
+MODELLED = ("radial", "space")
 """Kinds of crane whose modes are told apart, so that a motion may be shaped for the model's frequencies."""
 
 
@@ -86,9 +89,13 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
     """
     faults: list[Fault] = []
     plans: dict[str, Plan | None] = {}
-    if kind == "radial":
+    if kind in TOWER_CRANES:
         faults, plans["trolley"] = _trolley(tree, folder)
-    for joint in JOINTS[kind]:
+    if kind == "space":
+        more, wind = wind_motions(tree, folder)
+        faults = [*faults, *more]
+        plans |= {name: None if motion is None else Plan((Move(motion),)) for name, motion in wind.items()}
+    for joint in _joints(tree, kind):
         way = Way(f"motion.{joint}", turns=True)
         plans[joint], more = _motion(tree, way, TypeAdapter(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
@@ -107,9 +114,17 @@ def _without_model(channel: str, kind: str) -> Fault:
     return Fault("", key, f'a list of frequencies for a crane of kind "{kind}", such as ["0.12 Hz"]', '"model"', hint)
 
 
-def channels(kind: str) -> tuple[str, ...]:
-    """Names of the motions that drive a crane of this kind."""
-    return (*(("trolley",) if kind == "radial" else JOINTS[kind]), "rope")
+def channels(tree: dict[str, Any], kind: str) -> tuple[str, ...]:
+    """Names of the motions that drive the crane of a case of this kind."""
+    wind = CHANNELS if kind == "space" and "wind" in tree else ()
+    return (*(("trolley",) if kind in TOWER_CRANES else ()), *_joints(tree, kind), *wind, "rope")
+
+
+def _joints(tree: dict[str, Any], kind: str) -> tuple[str, ...]:
+    """What turns in a case; the head of a tower crane, or the shaft of its drive where that moves."""
+    if kind != "space":
+        return JOINTS[kind]
+    return ("shaft",) if at(tree, "motion.shaft") is not None else ("slewing",)
 
 
 def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Plan | None]:
@@ -136,13 +151,17 @@ def _rope(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], P
     if start is not None and start > 0.0 and not in_air.keeps(start):
         return [in_air.fault("rope.length", shown(at(tree, "rope.length")))], None
     faults = _out_of_way(tree, in_air, ("end",))
+    for key, value in leaves(at(tree, "modes.rope_lengths") or [], "modes.rope_lengths"):
+        length = si(value, "m")
+        if length is not None and length > 0.0 and not in_air.keeps(length):
+            faults.append(in_air.fault(key, shown(value)))
     rope, more = _motion(tree, in_air, TypeAdapter(HoistMotion), folder, start)
     return faults or more, rope
 
 
 def _height(tree: dict[str, Any], kind: str) -> tuple[float | None, str]:
     """Height that the rope hangs from and what it is; None where it is not known."""
-    if kind == "radial":
+    if kind in TOWER_CRANES:
         return tower_height(tree), "the height of the tower"
     keys, what = {
         "jib": (("post.height", "primary_boom.length", "secondary_boom.length"), "post and booms upright"),

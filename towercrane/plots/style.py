@@ -24,7 +24,7 @@ DASHES = ("-", "--", "-.", ":")
 MOST_NOTES = 6
 """Assumed values that are named under a figure one by one."""
 
-SPEEDS = ("trolley_speed", "shaft_speed")
+SPEEDS = ("trolley_speed", "slewing_speed", "shaft_speed")
 """Speeds that name a run."""
 
 
@@ -68,7 +68,8 @@ def run_label(result: xr.Dataset) -> str:
     name = result.attrs.get("case", result.attrs["crane"]).rpartition("/")[2]
     first, last = result["rope_length"].values[[0, -1]]
     rope = f"{first:.4g} m" if abs(last - first) < 1e-6 else f"{first:.4g} to {last:.4g} m"
-    speeds = (f"{float(abs(result[s]).max()):.3g} {result[s].attrs['units']}, " for s in SPEEDS if s in result)
+    known = [s for s in SPEEDS if s in result and not (s == "slewing_speed" and "shaft_speed" in result)]
+    speeds = (f"{float(abs(result[s]).max()):.3g} {result[s].attrs['units']}, " for s in known)
     label = f"{name}: {''.join(speeds)}{result.attrs['payload_mass']:.4g} kg, rope {rope}"
     if result.attrs["outcome"] != "finished":
         label += f" ({result.attrs['outcome']} at {result.attrs['end_time']:.2f} s)"

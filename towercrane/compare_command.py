@@ -1,0 +1,97 @@
+"""The command `compare`: a case in models from rigid to rich."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from towercrane.terminal import (
+    AsJson,
+    CaseName,
+    Changes,
+    announce_compilation,
+    fail,
+    folder_for_results,
+    load,
+    options_of,
+    suggest,
+    write,
+)
+
+if TYPE_CHECKING:
+    from towercrane.case import Case
+
+
+def compare(
+    case: CaseName,
+    target: Annotated[
+        float | None,
+        typer.Option(
+            "--target", metavar="ERROR", help="Accepted relative error of the load's place; else the case's."
+        ),
+    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+) -> None:
+    """Run a case in models from rigid to rich; which modes it needs for an error, and why."""
+    loaded = load(case, changes)
+    folder = out if out is not None else Path("results") / f"{loaded.name}-compare"
+    folder_for_results(folder)
+    if target is not None and not 0.0 < target < 1.0:
+        fail(f"--target {target:g}: wanted a fraction between 0 and 1")
+    if loaded.kind not in ("radial", "space"):
+        fail(f"{case}: wanted a case of kind 'radial' or 'space', whose modes count, got {loaded.kind!r}")
+    announce_compilation(loaded.kind, "towercrane.stepper")
+    from towercrane.comparison import TARGET
+
+    accepted = target or _asked(loaded) or TARGET
+    report, results = _compared(loaded, accepted)
+    files: dict[str, Any] = {"compare.json": json.dumps(report, indent=2, allow_nan=False) + "\n"}
+    if pictures:
+        from towercrane.plots.comparison import paths
+
+        files["paths.png"] = paths(report, results)
+    write(folder, files)
+    if as_json:
+        typer.echo(json.dumps(report, indent=2, allow_nan=False))
+        return
+    from towercrane.space_tables import comparison_tables
+
+    comparison_tables(report)
+    typer.echo(f"written to {folder}: {', '.join(files)}")
+    counts: dict[str, int] = next(
+        (row["modes"] for row in report["rows"] if row["name"] == report["recommended"]), {}
+    )
+    suggest(
+        "run", case, *options_of(changes), *options_of([f"model.{key}={count}" for key, count in counts.items()])
+    )  # fmt: skip
+
+
+def _asked(case: Case) -> float | None:
+    """Relative error that the case asks for, the least of its outputs'."""
+    if case.kind == "space":
+        return case.space.accuracy.target
+    return min((one.value for one in case.accuracy.targets.values() if one.relative), default=None)
+
+
+def _compared(case: Case, target: float) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The comparison, with a progress bar if somebody is looking."""
+    from towercrane.comparison import compare as compared
+
+    try:
+        if not sys.stderr.isatty():
+            return compared(case, target)
+        from rich.console import Console
+        from rich.progress import Progress
+
+        with Progress(console=Console(stderr=True), transient=True) as bar:
+            task = bar.add_task(f"models of {case.name}", total=1.0)
+            return compared(case, target, progress=lambda done: bar.update(task, completed=done))
+    except ValueError as error:
+        fail(f"{case.path}: {error}")

@@ -1,0 +1,38 @@
+"""What the tables of all reports share: a console, a table, and the assumed values below it."""
+
+from __future__ import annotations
+
+from rich.console import Console
+from rich.table import Table
+
+WIDTH_OF_A_PIPE = 120
+"""Columns where no terminal tells its width."""
+
+
+def console_of_reports() -> Console:
+    """Console as wide as the terminal, or as a pipe should be."""
+    # Without markup: brackets in units and titles are text.
+    width = None if Console().is_terminal else WIDTH_OF_A_PIPE
+    return Console(width=width, markup=False, highlight=False)
+
+
+def report_table(title: str, *columns: str, left: int = 1) -> Table:
+    """Empty table with a title and columns, the first ``left`` of them aligned left."""
+    table = Table(title=title, title_justify="left", title_style="bold", header_style="bold")
+    for number, column in enumerate(columns):
+        table.add_column(column, justify="left" if number < left else "right", overflow="fold")
+    return table
+
+
+MOST_ASSUMED = 8
+"""Assumed values that are explained one by one."""
+
+
+def assumed_values(console: Console, assumed: list[dict[str, str]]) -> None:
+    """Name the values that no source gives, with reasons where they are few."""
+    if len(assumed) > MOST_ASSUMED:
+        values = ", ".join(f"{entry['key']} = {entry['value']}" for entry in assumed)
+        console.print(f"assumed  {len(assumed)} values that no source gives (reasons: --json): {values}")
+        return
+    for entry in assumed:
+        console.print(f"assumed  {entry['key']} = {entry['value']}: {entry['why']}")
