@@ -9,9 +9,11 @@ from numpy.testing import assert_allclose
 from towercrane.case import CaseError, load_case
 from towercrane.cranes.small_motions import natural_modes
 from towercrane.cranes.sway_frequencies import PendulumFrequencies, SwayFrequencies
+from towercrane.models import model_of
 from towercrane.motion import rest, sequence, trapezoid
 from towercrane.plans import Move, NotSettled, Plan, Shaping, shaped_motions
 from towercrane.ramps import shape_ramps
+from towercrane.rest_study import attempt
 from towercrane.shaping import DESIGNS, boxes, zv, zvd
 
 CASE = "qtz5613/condition-3"
@@ -143,6 +145,22 @@ def test_case_shapes_for_the_frequency_of_its_own_model(name):
 
 X_END = dict.fromkeys(DESIGNS, 12.0)
 """Where the starting ramp ends, nearly [m]."""
+
+
+def test_case_in_space_shapes_slewing_for_two_modes_and_is_calm_then():
+    case = load_case("qtz5613/slewing", ["motion.slewing.shape=zvd"])
+    motions = case.motions
+    pair = SwayFrequencies(model_of(case))("slewing", 30.0, 15.0)
+    assert_allclose(pair, [0.1061, 0.1546], atol=1e-4)
+    assert_allclose(
+        motions["slewing"].switch_times, zvd(pair)(case.plans["slewing"].commanded).switch_times, atol=1e-6
+    )
+    assert_allclose(motions["slewing"].end, np.pi / 2, rtol=1e-13)
+    assert attempt(model_of(case), motions).residual < 0.0105
+    # The wind is a motion too, and none that a shaper changes.
+    windy = load_case("qtz5613/gusts-working", ["motion.slewing.shape=zvd", "motion.trolley.shape=zvd"])
+    assert windy.motions["wind_y"] is windy.plans["wind_y"].commanded
+    assert windy.motions["trolley"].duration > windy.plans["trolley"].commanded.duration
 
 
 def test_case_shapes_for_given_frequencies_in_any_kind_of_crane():

@@ -149,10 +149,10 @@ def test_pictures_have_units_names_and_what_was_assumed(monkeypatch):
         "torsional stiffness [of the model's]",
     ]
     assert [axes.get_ylabel().replace("\n", " ") for axes in moved.axes] == [
-        "slewing speed [deg/s]",
-        "slewing acceleration [deg/s$^2$]",
         "trolley speed [m/s]",
         "trolley acceleration [m/s$^2$]",
+        "slewing speed [deg/s]",
+        "slewing acceleration [deg/s$^2$]",
     ]
     assert any("(recommended)" in text.get_text() for text in left.axes[0].get_legend().get_texts())
 

@@ -150,7 +150,7 @@ def study(
     ----------
     model : FlexibleModel or RadialModel
     plans : dict of str to Plan
-        By channel of the model.
+        By channel; the wind is left out.
     allowed : float
         Residual that counts as rest [m].
     progress : callable, optional
@@ -164,6 +164,7 @@ def study(
         If no horizontal drive moves.
     """
     crane = _studied(model)
+    plans = {channel: plans[channel] for channel in crane.channels}
     sway = SwayFrequencies(model)
     tried = candidates(plans, sway, crane.crane.gravity)
     torsions = TORSIONS if crane.crane.torsion.count else ()

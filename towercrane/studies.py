@@ -160,10 +160,10 @@ def shape(
     if not 1e-3 <= step <= 10.0:
         fail(f"--step {step:g}: wanted seconds from 0.001 to 10")
     from towercrane.candidates import driven
-    from towercrane.ways import MODELLED
+    from towercrane.kinds import TOWER_CRANES
 
-    if loaded.kind not in MODELLED:
-        fail(f"{case}: wanted a crane of kind {' or '.join(MODELLED)}, whose modes are known; got {loaded.kind}")
+    if loaded.kind not in TOWER_CRANES:
+        fail(f"{case}: wanted a crane of kind {' or '.join(TOWER_CRANES)}, whose modes are known; got {loaded.kind}")
     if not driven(loaded.plans):
         fail(f"{case}: wanted a trolley or a slewing drive that moves, got none")
     announce_compilation(loaded.kind, "towercrane.stepper")

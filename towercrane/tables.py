@@ -370,6 +370,7 @@ def shape_tables(report: dict[str, Any]) -> None:
         f"motion, {report['damping_ratio']:.0%} modal damping; peaks of torque and trolley force"
     )
     table = _table(title, *columns)
+    table.columns[0].no_wrap = True
     for row in report["candidates"]:
         ropes = [value for factor, value in row["rope_residual_m"].items() if factor != "1"]
         left = [row["residual_m"], *ropes, *row["torsion_residual_m"].values()]

@@ -38,10 +38,6 @@ RESTS = ("slew", "slewing")
 """Joints that rest at zero where the case does not name them."""
 
 
-MODELLED = ("radial", "space")
-"""Kinds of crane whose modes are told apart, so that a motion may be shaped for the model's frequencies."""
-
-
 @dataclass(frozen=True)
 class Way:
     """Limits of a motion along a line; a turn has none.
@@ -102,7 +98,7 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
     more, plans["rope"] = _rope(tree, folder, kind)
     faults += more
     found = {name: plan for name, plan in plans.items() if plan is not None}
-    if kind not in MODELLED:
+    if kind not in TOWER_CRANES:
         faults += [_without_model(name, kind) for name, plan in found.items() if plan.needs_model]
     return faults, found
 
