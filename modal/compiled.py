@@ -38,13 +38,15 @@ def is_compiled(module: str) -> bool:
     return any(cache_folder().rglob(f"{stem}.*.nbi"))
 
 
-def kernel(signature: Any = None) -> Callable[[Callable[..., Any]], Any]:
+def kernel(signature: Any = None, *, parallel_calls: bool = False) -> Callable[[Callable[..., Any]], Any]:
     """Compile a function with numba, cached; with a signature at once, without one at its first call.
 
     Parameters
     ----------
     signature : numba signature, optional
         A function with a signature can be passed to other kernels as a function pointer.
+    parallel_calls : bool
+        Let several threads be inside at the same time: the interpreter's lock is given away on the way in.
     """
     import numba
     from numba.core import config as numba_config
@@ -57,7 +59,7 @@ def kernel(signature: Any = None) -> Callable[[Callable[..., Any]], Any]:
         before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
         try:
             arguments = () if signature is None else (signature,)
-            return compile_(*arguments, cache=True, error_model="numpy")(function)
+            return compile_(*arguments, cache=True, error_model="numpy", nogil=parallel_calls)(function)
         finally:
             config.CACHE_DIR = before
 

@@ -131,12 +131,20 @@ class RadialModel:
         return crane.gravity * (above * self.tower.slope_matrix() + along)
 
     @cached_property
+    def tip_shapes(self) -> Floats:
+        """Displacement of the tower top and deflection of the jib tip per coordinate; shape (2, coordinates)."""
+        shapes = np.zeros((2, self.coordinates))
+        shapes[0, : self.tower_modes] = self.tower(self.crane.tower.length)
+        shapes[1, self.tower_modes :] = self.jib(self.crane.jib.length)
+        return shapes
+
+    @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
         crane, load = self.crane, self.load
         n, tower = self.coordinates, self.tower_modes
         vectors = np.zeros((5, n))
-        vectors[kernel.TIP, :tower] = self.tower(crane.tower.length)
+        vectors[kernel.TIP] = self.tip_shapes[0]
         vectors[kernel.SLOPE, :tower] = self.tower(crane.tower.length, 1)
         vectors[kernel.JIB_MASS, tower:], vectors[kernel.JIB_MOMENT, tower:] = self.jib.mass_moments()
         tip, slope = vectors[kernel.TIP], vectors[kernel.SLOPE]
@@ -155,8 +163,7 @@ class RadialModel:
         if self.weight_softening:
             stiffness[:tower, :tower] -= self.geometric_stiffness
 
-        numbers = np.zeros(10)
-        numbers[kernel.TOWER_MODES] = tower
+        numbers = np.zeros(9)
         numbers[kernel.TROLLEY_MASS] = crane.trolley_mass
         numbers[kernel.GRAVITY] = crane.gravity
         numbers[kernel.SELF_GRAVITY] = crane.gravity if self.self_weight else 0.0

@@ -11,7 +11,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import types
 
 from modal.compiled import kernel
 from towercrane.payload import (
@@ -28,8 +27,8 @@ from towercrane.payload import (
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
 
-(TOWER_MODES, TROLLEY_MASS, GRAVITY, SELF_GRAVITY, STATIC_MOMENT, JIB_LENGTH, TILT_LIMIT,
- LOAD_MASS, DRAG, HINGE_DAMPING) = range(10)  # fmt: skip
+(TROLLEY_MASS, GRAVITY, SELF_GRAVITY, STATIC_MOMENT, JIB_LENGTH, TILT_LIMIT,
+ LOAD_MASS, DRAG, HINGE_DAMPING) = range(9)  # fmt: skip
 """Entries of ``numbers``. SELF_GRAVITY is zero where the structure's own weight is left out."""
 
 TIP, SLOPE, JIB_MASS, JIB_MOMENT, DAMPING = range(5)
@@ -45,10 +44,8 @@ TROLLEY, ROPE = range(2)
 TENSION, INNER_END, OUTER_END, TILT = range(4)
 """Guards: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad]."""
 
-_one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 
-
-@kernel(types.UniTuple(types.float64, 5)(types.int64, types.float64, _one, _two, _one, _two, _three, _three, _two))
+@kernel()
 def structure(
     d: int,
     t: float,
@@ -77,7 +74,7 @@ def structure(
         power [W].
     """
     n = vectors.shape[1]
-    tower = int(numbers[TOWER_MODES])
+    tower = n - tables.shape[1]
     rates = n + d
     up = d - 1
     x, xd, xdd = polynomial(inputs, TROLLEY, t)
