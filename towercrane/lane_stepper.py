@@ -13,7 +13,7 @@ import numpy as np
 from modal.compiled import kernel
 from towercrane.lane_vector import LANES
 from towercrane.payload import restore
-from towercrane.stepper import GROW, SAFETY, SHRINK
+from towercrane.stepper import GROW, SAFETY, SHRINK, _first_step
 
 RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED = range(7)
 """Rows of a lane's places: run (-1: idle), phase, next sample, first sample of the next phase, whether the slope at
@@ -108,6 +108,7 @@ class Lanes(NamedTuple):
         Of the run in each lane.
     work : ndarray, shape (rows, columns, lanes)
     norms : ndarray, shape (2, lanes)
+    outputs : ndarray, shape (outputs, lanes)
     """
 
     next_run: Any
@@ -129,9 +130,10 @@ class Lanes(NamedTuple):
     watched: Any
     work: Any
     norms: Any
+    outputs: Any
 
 
-def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int]) -> Lanes:
+def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int], outputs: int) -> Lanes:
     """Idle lanes for the runs of a queue."""
     size, guards = queue.starts.shape[1], queue.floors.shape[1]
 
@@ -161,6 +163,7 @@ def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int]) -> Lanes:
         watched=lanes(*queue.watched.shape[1:]),
         work=lanes(*work_shape),
         norms=lanes(2),
+        outputs=lanes(outputs),
     )
 
 
@@ -219,29 +222,32 @@ def end_run(answers: Any, lanes: Any, lane: int, outcome: int) -> None:
 
 
 @kernel()
-def choose_step(answers: Any, lanes: Any, lane: int) -> None:
-    """Step that a lane tries next; none where it is idle or the step has collapsed."""
-    clock = lanes.clock
-    clock[TRIAL, lane] = 0.0
-    if lanes.places[RUN, lane] < 0:
-        return
-    left, h = clock[END, lane] - clock[TIME, lane], clock[STEP, lane]
-    if h < _shortest(clock[END, lane]):
-        end_run(answers, lanes, lane, COLLAPSED)
-        return
-    clock[TRIAL, lane] = left if _is_last(clock, lane) else h
-
-
-@kernel()
-def _shortest(length: float) -> float:
+def shortest(length: float) -> float:
+    """Step below which a phase of that length is given up."""
     return 16.0 * np.finfo(np.float64).eps * length
 
 
 @kernel()
-def _is_last(clock: Any, lane: int) -> bool:
+def is_last(clock: Any, lane: int) -> bool:
     """Whether a lane's step ends its phase."""
     end = clock[END, lane]
-    return clock[TIME, lane] + clock[STEP, lane] >= end - _shortest(end)
+    return clock[TIME, lane] + clock[STEP, lane] >= end - shortest(end)
+
+
+@kernel()
+def choose_steps(places: Any, clock: Any) -> bool:
+    """Step that each lane tries next, none where it is idle; whether some lane's step has collapsed."""
+    collapsed = False
+    for lane in range(LANES):
+        clock[TRIAL, lane] = 0.0
+        if places[RUN, lane] >= 0:
+            if clock[STEP, lane] < shortest(clock[END, lane]):
+                collapsed = True
+            elif is_last(clock, lane):
+                clock[TRIAL, lane] = clock[END, lane] - clock[TIME, lane]
+            else:
+                clock[TRIAL, lane] = clock[STEP, lane]
+    return collapsed
 
 
 @kernel()
@@ -268,44 +274,49 @@ def error_parts(error: Any, k: Any, y: Any, new: Any, rtol: float, atol: Any, un
 
 
 @kernel()
-def judge_step(
-    queue: Any, answers: Any, lanes: Any, lane: int, stages: int, rows: int, error_order: int, active: int
-) -> bool:
-    """Accept or reject a lane's step; whether somebody wants to look inside it."""
-    clock, places, norms = lanes.clock, lanes.places, lanes.norms
-    clock[ACCEPTED_STEP, lane] = 0.0
-    run, step = places[RUN, lane], clock[TRIAL, lane]
-    if run < 0:
-        return False
-    first, second = norms[0, lane], norms[1, lane]
-    norm = 0.0
-    if first != 0.0:
-        if rows == 2:
-            norm = step * first / np.sqrt((first + 0.01 * second) * active)
+def judge_steps(
+    places: Any, clock: Any, norms: Any, lowest: Any, floors: Any, counts: Any, smallest_steps: Any,
+    sample_times: Any, stages: int, rows: int, error_order: int, active: int,
+) -> int:  # fmt: skip
+    """Accept or reject each lane's step; the lanes that want to look inside it, as bits."""
+    looking = 0
+    for lane in range(LANES):
+        clock[ACCEPTED_STEP, lane] = 0.0
+        run, step = places[RUN, lane], clock[TRIAL, lane]
+        if run < 0:
+            continue
+        first, second = norms[0, lane], norms[1, lane]
+        norm = 0.0
+        if first != 0.0:
+            if rows == 2:
+                norm = step * first / np.sqrt((first + 0.01 * second) * active)
+            else:
+                norm = step * np.sqrt(first / active)
+        counts[run, EVALUATIONS] += stages
+        if not norm <= 1.0:
+            counts[run, REJECTED] += 1
+            factor = SAFETY * norm ** (-1.0 / (error_order + 1)) if np.isfinite(norm) else SHRINK
+            clock[STEP, lane] = step * max(SHRINK, factor)
+            clock[GROWTH, lane] = 1.0
+            continue
+        counts[run, ACCEPTED] += 1
+        smallest_steps[run] = min(smallest_steps[run], step)
+        clock[ACCEPTED_STEP, lane] = 1.0
+        factor = GROW if norm == 0.0 else SAFETY * norm ** (-1.0 / (error_order + 1))
+        growth = clock[GROWTH, lane]
+        # The cut last step of a phase says nothing about the next one's length.
+        if is_last(clock, lane):
+            clock[STOP, lane] = clock[END, lane]
+            clock[STEP, lane] = max(clock[STEP, lane], step * min(growth, factor))
         else:
-            norm = step * np.sqrt(first / active)
-    answers.counts[run, EVALUATIONS] += stages
-    if not norm <= 1.0:
-        answers.counts[run, REJECTED] += 1
-        factor = SAFETY * norm ** (-1.0 / (error_order + 1)) if np.isfinite(norm) else SHRINK
-        clock[STEP, lane] = step * max(SHRINK, factor)
-        clock[GROWTH, lane] = 1.0
-        return False
-    answers.counts[run, ACCEPTED] += 1
-    clock[ACCEPTED_STEP, lane] = 1.0
-    last = _is_last(clock, lane)
-    clock[STOP, lane] = clock[END, lane] if last else clock[TIME, lane] + step
-    factor = GROW if norm == 0.0 else SAFETY * norm ** (-1.0 / (error_order + 1))
-    growth = min(clock[GROWTH, lane], factor)
-    # The cut last step of a phase says nothing about the next one's length.
-    clock[STEP, lane] = max(clock[STEP, lane], step * growth) if last else step * min(
-        clock[GROWTH, lane], max(SHRINK, factor)
-    )
-    clock[GROWTH, lane] = GROW
-    answers.smallest_steps[run] = min(answers.smallest_steps[run], step)
-    clock[LOW, lane], clock[HIGH, lane], places[CROSSED, lane] = 0.0, 0.0, -1
-    places[SUSPECT, lane] = fallen(lanes.lowest, lanes.floors, lane) >= 0
-    return bool(places[SUSPECT, lane]) or wants_sample(queue, lanes, lane)
+            clock[STOP, lane] = clock[TIME, lane] + step
+            clock[STEP, lane] = step * min(growth, max(SHRINK, factor))
+        clock[GROWTH, lane] = GROW
+        clock[LOW, lane], clock[HIGH, lane], places[CROSSED, lane] = 0.0, 0.0, -1
+        places[SUSPECT, lane] = fallen(lowest, floors, lane) >= 0
+        if places[SUSPECT, lane] or wants_sample(places, clock, sample_times, lane):
+            looking |= 1 << lane
+    return looking
 
 
 @kernel()
@@ -318,14 +329,13 @@ def fallen(guards: Any, floors: Any, lane: int) -> int:
 
 
 @kernel()
-def wants_sample(queue: Any, lanes: Any, lane: int) -> bool:
+def wants_sample(places: Any, clock: Any, sample_times: Any, lane: int) -> bool:
     """Whether a lane's accepted step reaches its next sample; if so, where in the step that is."""
-    clock, places = lanes.clock, lanes.places
     clock[FRACTION, lane] = 0.0
     sample = places[SAMPLE, lane]
     if clock[ACCEPTED_STEP, lane] == 0.0 or sample >= places[SAMPLES_END, lane]:
         return False
-    moment = min(queue.sample_times[sample] - clock[BEGIN, lane], clock[END, lane])
+    moment = min(sample_times[sample] - clock[BEGIN, lane], clock[END, lane])
     if moment > clock[STOP, lane]:
         return False
     clock[FRACTION, lane] = (moment - clock[TIME, lane]) / clock[TRIAL, lane]
@@ -334,13 +344,40 @@ def wants_sample(queue: Any, lanes: Any, lane: int) -> bool:
 
 
 @kernel()
-def record(answers: Any, run: int, output: int, time: float, value: float) -> None:
-    """Keep a value if it is the largest or smallest of its run so far."""
-    extremes = answers.extremes
-    if value > extremes[run, output, LARGEST]:
-        extremes[run, output, LARGEST], extremes[run, output, LARGEST_TIME] = value, time
-    if value < extremes[run, output, SMALLEST]:
-        extremes[run, output, SMALLEST], extremes[run, output, SMALLEST_TIME] = value, time
+def wanted_samples(places: Any, clock: Any, sample_times: Any) -> int:
+    """Lanes whose steps reach another sample, as bits."""
+    wanted = 0
+    for lane in range(LANES):
+        if wants_sample(places, clock, sample_times, lane):
+            wanted |= 1 << lane
+    return wanted
+
+
+@kernel()
+def record(
+    lane_values: Any, wanted: int, places: Any, counts: Any, sample_times: Any, extremes: Any, series: Any
+) -> None:
+    """Keep the wanted lanes' outputs where they are extremes of their runs so far; go to the next samples.
+
+    ``lane_values`` has a row per output.
+    """
+    for lane in range(LANES):
+        if not wanted >> lane & 1:
+            continue
+        run, sample = places[RUN, lane], places[SAMPLE, lane]
+        places[SAMPLE, lane] += 1
+        counts[run, WRITTEN] += 1
+        time = sample_times[sample]
+        for output in range(extremes.shape[1]):
+            value = lane_values[output, lane]
+            if value > extremes[run, output, LARGEST]:
+                extremes[run, output, LARGEST] = value
+                extremes[run, output, LARGEST_TIME] = time
+            if value < extremes[run, output, SMALLEST]:
+                extremes[run, output, SMALLEST] = value
+                extremes[run, output, SMALLEST_TIME] = time
+            if series.shape[0]:
+                series[run, sample, output] = value
 
 
 @kernel()
@@ -363,40 +400,102 @@ def dense_states(y: Any, dense: Any, k: Any, h: Any, x: Any, out: Any) -> None:
 
 
 @kernel()
-def look_for_fall(lanes: Any, lane: int, looks: int) -> bool:
-    """Where in its step to look next for the guard that a lane's stage has seen fall; False once that is known.
+def look_for_falls(places: Any, clock: Any, looks: int) -> int:
+    """Lanes that have to look once more for the guard that a stage has seen fall, as bits, and where in their steps.
 
     The bracket is empty before the first look. It moves along the step, and is halved once a guard has fallen at
     its upper end.
     """
-    clock, places = lanes.clock, lanes.places
-    clock[FRACTION, lane] = 0.0
-    if clock[ACCEPTED_STEP, lane] == 0.0 or not places[SUSPECT, lane]:
-        return False
-    if places[CROSSED, lane] < 0:
-        part = int(round(clock[HIGH, lane] * looks)) + 1
-        if part > looks:
-            return False
-        clock[FRACTION, lane] = part / looks
-    elif clock[HIGH, lane] - clock[LOW, lane] > 1e-12:
-        clock[FRACTION, lane] = 0.5 * (clock[LOW, lane] + clock[HIGH, lane])
-    else:
-        return False
-    clock[MOMENT, lane] = clock[TIME, lane] + clock[FRACTION, lane] * clock[TRIAL, lane]
-    return True
+    looking = 0
+    for lane in range(LANES):
+        clock[FRACTION, lane] = 0.0
+        if clock[ACCEPTED_STEP, lane] == 0.0 or not places[SUSPECT, lane]:
+            continue
+        if places[CROSSED, lane] < 0:
+            part = int(round(clock[HIGH, lane] * looks)) + 1
+            if part > looks:
+                continue
+            clock[FRACTION, lane] = part / looks
+        elif clock[HIGH, lane] - clock[LOW, lane] > 1e-12:
+            clock[FRACTION, lane] = 0.5 * (clock[LOW, lane] + clock[HIGH, lane])
+        else:
+            continue
+        clock[MOMENT, lane] = clock[TIME, lane] + clock[FRACTION, lane] * clock[TRIAL, lane]
+        looking |= 1 << lane
+    return looking
 
 
 @kernel()
-def note_look(answers: Any, lanes: Any, lane: int, looks: int) -> None:
-    """Narrow or move a lane's bracket by what its guards were at the last look."""
-    clock, places = lanes.clock, lanes.places
-    answers.counts[places[RUN, lane], EVALUATIONS] += 1
-    guard, at = fallen(lanes.guards, lanes.floors, lane), clock[FRACTION, lane]
-    if guard >= 0:
-        if places[CROSSED, lane] < 0:
-            clock[LOW, lane] = (int(round(at * looks)) - 1.0) / looks
-        clock[HIGH, lane], places[CROSSED, lane] = at, guard
-    elif places[CROSSED, lane] < 0:
-        clock[HIGH, lane] = at
-    else:
-        clock[LOW, lane] = at
+def note_looks(looking: int, places: Any, clock: Any, guards: Any, floors: Any, looks: int) -> None:
+    """Narrow or move the brackets of the looking lanes by what their guards were."""
+    for lane in range(LANES):
+        if not looking >> lane & 1:
+            continue
+        guard, at = fallen(guards, floors, lane), clock[FRACTION, lane]
+        if guard >= 0:
+            if places[CROSSED, lane] < 0:
+                clock[LOW, lane] = (int(round(at * looks)) - 1.0) / looks
+            clock[HIGH, lane] = at
+            places[CROSSED, lane] = guard
+        elif places[CROSSED, lane] < 0:
+            clock[HIGH, lane] = at
+        else:
+            clock[LOW, lane] = at
+
+
+@kernel()
+def cut_steps(places: Any, clock: Any, states: Any, new: Any) -> None:
+    """Let the steps in which a guard fell end there, in these states."""
+    for lane in range(LANES):
+        if clock[ACCEPTED_STEP, lane] and places[CROSSED, lane] >= 0:
+            clock[STOP, lane] = clock[TIME, lane] + clock[HIGH, lane] * clock[TRIAL, lane]
+            for m in range(new.shape[0]):
+                new[m, lane] = states[m, lane]
+
+
+@kernel()
+def move_on(places: Any, clock: Any) -> bool:
+    """Advance the lanes' times by their accepted steps; whether some lane's phase or run has ended."""
+    ended = False
+    for lane in range(LANES):
+        if clock[ACCEPTED_STEP, lane]:
+            clock[TIME, lane] = clock[STOP, lane]
+            ended = ended or places[CROSSED, lane] >= 0 or clock[TIME, lane] >= clock[END, lane]
+    return ended
+
+
+@kernel()
+def wants_entry(places: Any, waiting: int) -> bool:
+    """Whether some lane is idle while runs wait, or stands at the start of a phase."""
+    found = False
+    for lane in range(LANES):
+        found = found or (waiting > 0 and places[RUN, lane] < 0) or places[FRESH, lane] != 0
+    return found
+
+
+@kernel()
+def count(these: int, places: Any, counts: Any, evaluations: int) -> None:
+    """Add evaluations to these lanes' runs."""
+    for lane in range(LANES):
+        if these >> lane & 1:
+            counts[places[RUN, lane], EVALUATIONS] += evaluations
+
+
+@kernel()
+def enter_phase(answers: Any, lanes: Any, lane: int, rtol: float) -> None:
+    """Take a lane's slope as that at the start of its phase, unless the run ends there."""
+    lanes.places[FRESH, lane] = 0
+    answers.counts[lanes.places[RUN, lane], EVALUATIONS] += 1
+    finite = True
+    for m in range(lanes.y.shape[0]):
+        lanes.k[0, m, lane] = lanes.slope[m, lane]
+        finite = finite and np.isfinite(lanes.slope[m, lane])
+    guard = fallen(lanes.guards, lanes.floors, lane)
+    if not finite:
+        end_run(answers, lanes, lane, NOT_FINITE)
+    elif guard >= 0:
+        end_run(answers, lanes, lane, FIRST_GUARD + guard)
+    elif lanes.clock[STEP, lane] <= 0.0:
+        lanes.clock[STEP, lane] = _first_step(
+            lanes.y[:, lane], lanes.slope[:, lane], rtol, lanes.atol[:, lane], lanes.clock[END, lane]
+        )

@@ -192,7 +192,7 @@ def _carry_on(
         task = slice(first, first + share)
         part = queue._replace(**{name: getattr(queue, name)[task] for name in queue._fields if name not in SHARED})
         mine = Answers(*(array[task] for array in answers))
-        lanes = lanes_for(part, len(tableau.a), system.work_shape)
+        lanes = lanes_for(part, len(tableau.a), system.work_shape, len(OUTPUTS))
         left = True
         while left and not stop.is_set():
             left = advance(

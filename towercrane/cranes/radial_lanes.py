@@ -11,31 +11,26 @@ from typing import Any
 import numpy as np
 
 from modal.compiled import kernel
-from towercrane import lane_stepper as lane_steps
+from towercrane import lane_stepper as steps
 from towercrane.cranes import radial_kernel
 from towercrane.lane_stepper import (
     ACCEPTED_STEP,
-    BEGIN,
+    COLLAPSED,
     CROSSED,
     END,
-    EVALUATIONS,
     FINISHED,
     FIRST_GUARD,
     FRACTION,
     FRESH,
+    HIGH,
     MOMENT,
-    NOT_FINITE,
     PHASE,
     RUN,
-    SAMPLE,
-    STEP,
-    STOP,
     TIME,
     TRIAL,
-    WRITTEN,
 )
 from towercrane.lane_vector import LANES, choose, in_lanes
-from towercrane.stepper import LOOKS, _first_step, _stage
+from towercrane.stepper import LOOKS, _stage
 
 AXES = 2
 """The load swings in the plane of the jib."""
@@ -81,167 +76,128 @@ def advance(
     bool
         Whether runs are left.
     """
-    clock, places, floors = lanes.clock, lanes.places, lanes.floors
-    clocks, guards, lowest = in_lanes(clock), in_lanes(lanes.guards), in_lanes(lanes.lowest)
+    # What handles all lanes takes arrays: the tuples that hold them would cost time at every call.
+    places, clock, clocks = lanes.places, lanes.clock, in_lanes(lanes.clock)
+    lane_floors, lane_guards, guards = lanes.floors, lanes.guards, in_lanes(lanes.guards)
+    lane_lowest, lowest = lanes.lowest, in_lanes(lanes.lowest)
+    lane_norms, norms, atol = lanes.norms, in_lanes(lanes.norms), in_lanes(lanes.atol)
+    lane_trial, lane_new, lane_outputs = lanes.trial, lanes.new, lanes.outputs
     y, new, trial, slope, k = (
         in_lanes(lanes.y), in_lanes(lanes.new), in_lanes(lanes.trial), in_lanes(lanes.slope), in_lanes(lanes.k),
     )  # fmt: skip
-    atol, norms, watched = in_lanes(lanes.atol), in_lanes(lanes.norms), in_lanes(lanes.watched)
-    inputs, numbers, vectors, matrices, work, tables = (
+    inputs, numbers, vectors, matrices, tables, work = (
         in_lanes(lanes.inputs), in_lanes(lanes.numbers), in_lanes(lanes.vectors), in_lanes(lanes.matrices),
-        in_lanes(lanes.work), queue.tables,
+        queue.tables, in_lanes(lanes.work),
     )  # fmt: skip
-    size, coordinates = y.size, vectors.shape[1]
-    rows, every_stage = error.shape[0], a.shape[0]
+    watched, outputs, sample_times = in_lanes(lanes.watched), in_lanes(lanes.outputs), queue.sample_times
+    counts, smallest_steps, extremes, series = (
+        answers.counts, answers.smallest_steps, answers.extremes, answers.series,
+    )  # fmt: skip
+    size, n, rows = y.size, vectors.shape[1], error.shape[0]
     # The same state steers no step in every run: the work done.
     unused = np.isinf(queue.atol[0])
     active = size - np.sum(unused)
     for _ in range(most_steps):
-        busy, fresh = False, False
-        for lane in range(LANES):
-            while places[RUN, lane] < 0 and lanes.next_run[0] < queue.starts.shape[0]:
-                lane_steps.fill(queue, lanes, lane)
-                lane_steps.begin_phase(queue, lanes, lane, coordinates, AXES)
-            busy = busy or places[RUN, lane] >= 0
-            fresh = fresh or (places[RUN, lane] >= 0 and places[FRESH, lane] != 0)
-        if not busy:
-            return False
-        if fresh:
+        if steps.wants_entry(places, queue.starts.shape[0] - lanes.next_run[0]):
+            for lane in range(LANES):
+                if places[RUN, lane] < 0 and lanes.next_run[0] < queue.starts.shape[0]:
+                    steps.fill(queue, lanes, lane)
+                    steps.begin_phase(queue, lanes, lane, n, AXES)
             rhs(clocks[TIME], y, slope, inputs, numbers, vectors, matrices, tables, work, guards)
             for lane in range(LANES):
-                if places[RUN, lane] >= 0 and places[FRESH, lane]:
-                    places[FRESH, lane] = 0
-                    answers.counts[places[RUN, lane], EVALUATIONS] += 1
-                    finite = True
-                    for m in range(size):
-                        lanes.k[0, m, lane] = lanes.slope[m, lane]
-                        finite = finite and np.isfinite(lanes.slope[m, lane])
-                    guard = lane_steps.fallen(lanes.guards, floors, lane)
-                    if not finite:
-                        lane_steps.end_run(answers, lanes, lane, NOT_FINITE)
-                    elif guard >= 0:
-                        lane_steps.end_run(answers, lanes, lane, FIRST_GUARD + guard)
-                    elif clock[STEP, lane] <= 0.0:
-                        clock[STEP, lane] = _first_step(
-                            lanes.y[:, lane], lanes.slope[:, lane], rtol, lanes.atol[:, lane], clock[END, lane]
-                        )
+                if places[FRESH, lane]:
+                    steps.enter_phase(answers, lanes, lane, rtol)
+        idle = 0
         for lane in range(LANES):
-            lane_steps.choose_step(answers, lanes, lane)
+            idle += places[RUN, lane] < 0
+        if idle == LANES:
+            return bool(lanes.next_run[0] < queue.starts.shape[0])
+        if steps.choose_steps(places, clock):
+            for lane in range(LANES):
+                if places[RUN, lane] >= 0 and clock[TRIAL, lane] == 0.0:
+                    steps.end_run(answers, lanes, lane, COLLAPSED)
 
         for g in range(guards.size):
             lowest[g] = np.inf
-        step, time = clocks[TRIAL], clocks[TIME]
-        for i in range(1, stages + 1):
-            _stage(y, a, i, k, step, trial)
-            rhs(time + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-            for g in range(guards.size):
-                lowest[g] = min(lowest[g], guards[g])
-            for m in range(size):
-                k[i, m] = slope[m]
+        _take_stages(
+            1, stages, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices, tables, work, guards, lowest
+        )
         for m in range(size):
             new[m] = trial[m]
-        lane_steps.error_parts(error, k, y, new, rtol, atol, unused, norms)
-        look = False
-        for lane in range(LANES):
-            look |= lane_steps.judge_step(queue, answers, lanes, lane, stages, rows, error_order, active)
-        if look:
-            for i in range(stages + 1, every_stage):
-                _stage(y, a, i, k, step, trial)
-                rhs(time + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-                for m in range(size):
-                    k[i, m] = slope[m]
-            for lane in range(LANES):
-                if clock[ACCEPTED_STEP, lane] and (
-                    places[lane_steps.SUSPECT, lane] or lane_steps.wants_sample(queue, lanes, lane)
-                ):
-                    answers.counts[places[RUN, lane], EVALUATIONS] += every_stage - stages - 1
-            _find_falls(answers, lanes, y, new, trial, slope, k, dense, clocks, inputs, numbers, vectors, matrices,
-                        tables, work, guards)  # fmt: skip
-            _take_samples(queue, answers, lanes, y, trial, slope, k, dense, clocks, inputs, numbers, vectors, matrices,
-                          tables, work, guards, watched)  # fmt: skip
+        steps.error_parts(error, k, y, new, rtol, atol, unused, norms)
+        looking = steps.judge_steps(
+            places, clock, lane_norms, lane_lowest, lane_floors, counts, smallest_steps, sample_times, stages, rows,
+            error_order, active,
+        )  # fmt: skip
+        if looking:
+            _take_stages(
+                stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices, tables,
+                work, guards, lowest,
+            )  # fmt: skip
+            steps.count(looking, places, counts, a.shape[0] - 1 - stages)
+            # A stage is only an estimate of the state there; the dense output decides.
+            suspect, looking = False, steps.look_for_falls(places, clock, LOOKS)
+            while looking:
+                steps.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
+                rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                steps.count(looking, places, counts, 1)
+                steps.note_looks(looking, places, clock, lane_guards, lane_floors, LOOKS)
+                suspect, looking = True, steps.look_for_falls(places, clock, LOOKS)
+            if suspect:
+                steps.dense_states(y, dense, k, clocks[TRIAL], clocks[HIGH], trial)
+                steps.cut_steps(places, clock, lane_trial, lane_new)
+            wanted = steps.wanted_samples(places, clock, sample_times)
+            while wanted:
+                steps.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
+                rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                _observe(trial, lane_trial, guards, watched, outputs, lane_outputs, n)
+                steps.record(lane_outputs, wanted, places, counts, sample_times, extremes, series)
+                wanted = steps.wanted_samples(places, clock, sample_times)
         accepted = clocks[ACCEPTED_STEP]
         for m in range(size):
             y[m] = choose(accepted, new[m], y[m])
             k[0, m] = choose(accepted, k[stages, m], k[0, m])
-        for lane in range(LANES):
-            if clock[ACCEPTED_STEP, lane]:
-                clock[TIME, lane] = clock[STOP, lane]
+        if steps.move_on(places, clock):
+            for lane in range(LANES):
+                if places[RUN, lane] < 0 or not clock[ACCEPTED_STEP, lane]:
+                    continue
                 if places[CROSSED, lane] >= 0:
-                    lane_steps.end_run(answers, lanes, lane, FIRST_GUARD + places[CROSSED, lane])
+                    steps.end_run(answers, lanes, lane, FIRST_GUARD + places[CROSSED, lane])
                 elif clock[TIME, lane] >= clock[END, lane]:
                     places[PHASE, lane] += 1
                     if places[PHASE, lane] == queue.phase_counts[places[RUN, lane]]:
-                        lane_steps.end_run(answers, lanes, lane, FINISHED)
+                        steps.end_run(answers, lanes, lane, FINISHED)
                     else:
-                        lane_steps.begin_phase(queue, lanes, lane, coordinates, AXES)
+                        steps.begin_phase(queue, lanes, lane, n, AXES)
     return True
 
 
 @kernel()
-def _find_falls(
-    answers: Any, lanes: Any, y: Any, new: Any, trial: Any, slope: Any, k: Any, dense: Any, clocks: Any,
-    inputs: Any, numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any, guards: Any,
+def _take_stages(
+    first: int, last: int, a: Any, c: Any, y: Any, trial: Any, slope: Any, k: Any, clocks: Any, inputs: Any,
+    numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any, guards: Any, lowest: Any,
 ) -> None:  # fmt: skip
-    """Decide by the dense output whether and where the guards fall that a stage has seen fall; cut those steps."""
-    clock = lanes.clock
-    suspect = False
-    looking = True
-    while looking:
-        looking = False
-        for lane in range(LANES):
-            looking |= lane_steps.look_for_fall(lanes, lane, LOOKS)
-        if looking:
-            suspect = True
-            lane_steps.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
-            rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-            for lane in range(LANES):
-                if clock[FRACTION, lane] > 0.0:
-                    lane_steps.note_look(answers, lanes, lane, LOOKS)
-    if not suspect:
-        return
-    lane_steps.dense_states(y, dense, k, clocks[TRIAL], clocks[lane_steps.HIGH], trial)
-    for lane in range(LANES):
-        if clock[ACCEPTED_STEP, lane] and lanes.places[CROSSED, lane] >= 0:
-            clock[STOP, lane] = clock[TIME, lane] + clock[lane_steps.HIGH, lane] * clock[TRIAL, lane]
-            for m in range(y.size):
-                lanes.new[m, lane] = lanes.trial[m, lane]
+    """Slopes of the stages from first to last in every lane, and the lowest value of every guard."""
+    step, time = clocks[TRIAL], clocks[TIME]
+    for i in range(first, last + 1):
+        _stage(y, a, i, k, step, trial)
+        rhs(time + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+        for g in range(guards.size):
+            lowest[g] = min(lowest[g], guards[g])
+        for m in range(y.size):
+            k[i, m] = slope[m]
 
 
 @kernel()
-def _take_samples(
-    queue: Any, answers: Any, lanes: Any, y: Any, trial: Any, slope: Any, k: Any, dense: Any, clocks: Any,
-    inputs: Any, numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any, guards: Any, watched: Any,
-) -> None:  # fmt: skip
-    """Record the outputs of every lane at the samples that its step reaches."""
-    places, clock = lanes.places, lanes.clock
-    n, series = vectors.shape[1], answers.series.shape[0] > 0
-    while True:
-        wanted = 0
-        for lane in range(LANES):
-            if lane_steps.wants_sample(queue, lanes, lane):
-                wanted |= 1 << lane
-        if wanted == 0:
-            return
-        lane_steps.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
-        rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-        for output in range(watched.shape[0]):
-            value = trial[0] * 0.0
-            for i in range(n):
-                value += watched[output, i] * trial[i]
-            slope[output] = value
-        for lane in range(LANES):
-            if wanted >> lane & 1:
-                run, sample = places[RUN, lane], places[SAMPLE, lane]
-                places[SAMPLE, lane] += 1
-                answers.counts[run, WRITTEN] += 1
-                time = queue.sample_times[sample]
-                for output in range(4):
-                    if output == SWING:
-                        value = np.arctan2(lanes.trial[n, lane], -lanes.trial[n + 1, lane])
-                    elif output == TENSION:
-                        value = lanes.guards[radial_kernel.TENSION, lane]
-                    else:
-                        value = lanes.slope[output, lane]
-                    lane_steps.record(answers, run, output, time, value)
-                    if series:
-                        answers.series[run, sample, output] = value
+def _observe(
+    states: Any, lane_states: Any, guards: Any, watched: Any, outputs: Any, lane_outputs: Any, n: int
+) -> None:
+    """Outputs of every lane in these states."""
+    for output in (TOWER_TIP, JIB_TIP):
+        value = guards[0] * 0.0
+        for i in range(n):
+            value += watched[output, i] * states[i]
+        outputs[output] = value
+    outputs[TENSION] = guards[radial_kernel.TENSION]
+    for lane in range(LANES):
+        lane_outputs[SWING, lane] = np.arctan2(lane_states[n, lane], -lane_states[n + 1, lane])
