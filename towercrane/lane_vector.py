@@ -217,28 +217,46 @@ def _item(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
     return found
 
 
+def _view(context: Any, builder: Any, source: Any, kind: Any, axes: int, itemsize: Any) -> Any:
+    """Array over the first axes of another's memory, which it does not own.
+
+    Counting owners at every call of a small function would take a quarter of the time of the steps.
+    """
+    target = make_array(kind)(context, builder)
+    populate_array(
+        target,
+        data=builder.bitcast(source.data, target.data.type),
+        shape=cgutils.unpack_tuple(builder, source.shape)[:axes],
+        strides=cgutils.unpack_tuple(builder, source.strides)[:axes],
+        itemsize=itemsize,
+        meminfo=None,
+    )
+    return target._getvalue()
+
+
 @intrinsic  # type: ignore[untyped-decorator]
 def in_lanes(_context: Any, array: Any) -> Any:
-    """The same memory with its last axis, of length LANES, as lane vectors."""
+    """The same memory with its last axis, of length LANES, as lane vectors; the caller keeps the array."""
     # Without a claim of alignment: numpy promises 16 bytes, a register would want 64.
-    view = types.Array(VECTOR, array.ndim - 1, "C", aligned=False)
+    kind = types.Array(VECTOR, array.ndim - 1, "C", aligned=False)
 
     def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         source = make_array(signature.args[0])(context, builder, arguments[0])
-        target = make_array(view)(context, builder)
-        populate_array(
-            target,
-            data=builder.bitcast(source.data, target.data.type),
-            shape=cgutils.unpack_tuple(builder, source.shape)[:-1],
-            strides=cgutils.unpack_tuple(builder, source.strides)[:-1],
-            itemsize=ir.Constant(ir.IntType(64), 8 * LANES),
-            meminfo=source.meminfo,
-            parent=source.parent,
-        )
-        context.nrt.incref(builder, view, target._getvalue())
-        return target._getvalue()
+        itemsize = ir.Constant(ir.IntType(64), 8 * LANES)
+        return _view(context, builder, source, kind, array.ndim - 1, itemsize)
 
-    return view(array), build
+    return kind(array), build
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def lent(_context: Any, array: Any) -> Any:
+    """The same array for functions that are called often; the caller keeps it."""
+
+    def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        source = make_array(signature.args[0])(context, builder, arguments[0])
+        return _view(context, builder, source, array, array.ndim, source.itemsize)
+
+    return array(array), build
 
 
 @intrinsic  # type: ignore[untyped-decorator]

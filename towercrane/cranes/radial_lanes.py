@@ -29,7 +29,7 @@ from towercrane.lane_stepper import (
     TIME,
     TRIAL,
 )
-from towercrane.lane_vector import LANES, choose, in_lanes
+from towercrane.lane_vector import LANES, choose, in_lanes, lent
 from towercrane.stepper import LOOKS, _stage
 
 AXES = 2
@@ -77,22 +77,23 @@ def advance(
         Whether runs are left.
     """
     # What handles all lanes takes arrays: the tuples that hold them would cost time at every call.
-    places, clock, clocks = lanes.places, lanes.clock, in_lanes(lanes.clock)
-    lane_floors, lane_guards, guards = lanes.floors, lanes.guards, in_lanes(lanes.guards)
-    lane_lowest, lowest = lanes.lowest, in_lanes(lanes.lowest)
-    lane_norms, norms, atol = lanes.norms, in_lanes(lanes.norms), in_lanes(lanes.atol)
-    lane_trial, lane_new, lane_outputs = lanes.trial, lanes.new, lanes.outputs
+    places, clock, clocks = lent(lanes.places), lent(lanes.clock), in_lanes(lanes.clock)
+    lane_floors, lane_guards, guards = lent(lanes.floors), lent(lanes.guards), in_lanes(lanes.guards)
+    lane_lowest, lowest = lent(lanes.lowest), in_lanes(lanes.lowest)
+    lane_norms, norms, atol = lent(lanes.norms), in_lanes(lanes.norms), in_lanes(lanes.atol)
+    lane_trial, lane_new, lane_outputs = lent(lanes.trial), lent(lanes.new), lent(lanes.outputs)
     y, new, trial, slope, k = (
         in_lanes(lanes.y), in_lanes(lanes.new), in_lanes(lanes.trial), in_lanes(lanes.slope), in_lanes(lanes.k),
     )  # fmt: skip
     inputs, numbers, vectors, matrices, tables, work = (
         in_lanes(lanes.inputs), in_lanes(lanes.numbers), in_lanes(lanes.vectors), in_lanes(lanes.matrices),
-        queue.tables, in_lanes(lanes.work),
+        lent(queue.tables), in_lanes(lanes.work),
     )  # fmt: skip
-    watched, outputs, sample_times = in_lanes(lanes.watched), in_lanes(lanes.outputs), queue.sample_times
+    watched, outputs, sample_times = in_lanes(lanes.watched), in_lanes(lanes.outputs), lent(queue.sample_times)
     counts, smallest_steps, extremes, series = (
-        answers.counts, answers.smallest_steps, answers.extremes, answers.series,
+        lent(answers.counts), lent(answers.smallest_steps), lent(answers.extremes), lent(answers.series),
     )  # fmt: skip
+    a, c, error, dense = lent(a), lent(c), lent(error), lent(dense)
     size, n, rows = y.size, vectors.shape[1], error.shape[0]
     # The same state steers no step in every run: the work done.
     unused = np.isinf(queue.atol[0])
