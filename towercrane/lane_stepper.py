@@ -27,8 +27,8 @@ bracket of a guard's fall."""
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN = range(4)
 """Columns of a run's counts."""
 
-WAITING, FINISHED, COLLAPSED, NOT_FINITE, FIRST_GUARD = range(5)
-"""Codes of outcomes; those from FIRST_GUARD on stand for the guards."""
+WAITING, NO_START, FINISHED, COLLAPSED, NOT_FINITE, FIRST_GUARD = range(6)
+"""Codes of outcomes; NO_START is for runs that never came to a lane, those from FIRST_GUARD on are the guards'."""
 
 LARGEST, LARGEST_TIME, SMALLEST, SMALLEST_TIME = range(4)
 """Columns of an output's extremes."""
@@ -39,6 +39,8 @@ class Queue(NamedTuple):
 
     Parameters
     ----------
+    waiting : ndarray of int, shape (up to runs,)
+        The runs to take, in this order.
     starts, atol : ndarray, shapes (runs, size)
     numbers, vectors, matrices : ndarray, shapes (runs, ...)
         Constants of each run, as its system has them.
@@ -55,6 +57,7 @@ class Queue(NamedTuple):
         The same for all runs.
     """
 
+    waiting: Any
     starts: Any
     atol: Any
     numbers: Any
@@ -98,7 +101,7 @@ class Lanes(NamedTuple):
     Parameters
     ----------
     next_run : ndarray of int, shape (1,)
-        First run of the queue that no lane has taken.
+        Place in ``waiting`` of the first run that no lane has taken.
     places : ndarray of int, shape (7, lanes)
     clock : ndarray, shape (12, lanes)
     y, new, trial, slope, atol : ndarray, shape (size, lanes)
@@ -170,7 +173,7 @@ def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int], outputs: i
 @kernel()
 def fill(queue: Any, lanes: Any, lane: int) -> None:
     """Put the queue's next run into a lane."""
-    run = lanes.next_run[0]
+    run = queue.waiting[lanes.next_run[0]]
     lanes.next_run[0] += 1
     lanes.places[RUN, lane] = run
     lanes.places[PHASE, lane] = 0

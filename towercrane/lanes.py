@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.radial import TOWER_BUCKLED
 from towercrane.cranes.radial_kernel import TENSION as TENSION_GUARD
 from towercrane.cranes.radial_lanes import OUTPUTS, advance
 from towercrane.integrate import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, evaluate, phase_of
@@ -22,6 +23,7 @@ from towercrane.lane_stepper import (
     EVALUATIONS,
     FIRST_GUARD,
     LARGEST,
+    NO_START,
     REJECTED,
     SMALLEST,
     WAITING,
@@ -45,7 +47,6 @@ if TYPE_CHECKING:
     from towercrane.cranes.radial import RadialModel
     from towercrane.motion import Phases
     from towercrane.system import System
-    from towercrane.tableaus import Tableau
 
     Floats = NDArray[np.float64]
 
@@ -54,9 +55,6 @@ STEPS_PER_CALL = 2_000
 
 RUNS_PER_TASK = 256
 """Largest number of runs that a thread takes at a time."""
-
-SHARED = ("sample_times", "tables")
-"""What of a queue is the same for all runs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,56 +150,28 @@ def integrate_many(
         raise ValueError(f"threads: wanted one or more, got {threads!r}")
     if not runs:
         raise ValueError("runs: wanted one or more, got none")
-    tableau = TABLEAUS[method]
-    starts, failures = _starts(runs)
-    alive = [number for number in range(len(runs)) if number not in failures]
-    answers = _answers(len(runs), runs[0].model.system, len(sample_times) if series else 0)
-    if alive:
-        queue = _queue([runs[i] for i in alive], [starts[i] for i in alive], sample_times, atol)
-        found = _answers(len(alive), runs[0].model.system, len(sample_times) if series else 0)
-        _carry_on(queue, found, runs[0].model.system, tableau, rtol, threads or available_cores(), progress)
-        for whole, part in zip(answers, found, strict=True):
-            if len(part):
-                whole[alive] = part
-    for number in failures:
-        answers.end_states[number] = starts[number]
-    return _told(runs, answers, sample_times, failures)
-
-
-def available_cores() -> int:
-    """Cores that this process may use."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
-
-
-def _carry_on(
-    queue: Queue,
-    answers: Answers,
-    system: System,
-    tableau: Tableau,
-    rtol: float,
-    threads: int,
-    progress: Callable[[int], None] | None,
-) -> None:
-    """Work through a queue on several threads, until its end or Ctrl-C."""
-    count = len(queue.starts)
-    share = min(RUNS_PER_TASK, max(LANES, -(-count // (4 * threads))))
+    tableau, system = TABLEAUS[method], runs[0].model.system
+    if any(not _alike(run.model.system, system) for run in runs):
+        raise ValueError("runs: wanted the same numbers and shapes of modes in all, got different ones")
+    answers = _answers(len(runs), system, len(sample_times) if series else 0)
+    workers = threads or available_cores()
+    share = min(RUNS_PER_TASK, max(LANES, -(-len(runs) // (4 * workers))))
     stop = threading.Event()
 
     def work(first: int) -> None:
         task = slice(first, first + share)
-        part = queue._replace(**{name: getattr(queue, name)[task] for name in queue._fields if name not in SHARED})
         mine = Answers(*(array[task] for array in answers))
-        lanes = lanes_for(part, len(tableau.a), system.work_shape, len(OUTPUTS))
+        queue = _queue(runs[task], mine, sample_times, atol)
+        lanes = lanes_for(queue, len(tableau.a), system.work_shape, len(OUTPUTS))
         left = True
         while left and not stop.is_set():
             left = advance(
-                part, mine, lanes, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
+                queue, mine, lanes, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
                 tableau.error_order, rtol, STEPS_PER_CALL,
             )  # fmt: skip
 
-    with ThreadPoolExecutor(threads) as pool:
-        futures = [pool.submit(work, first) for first in range(0, count, share)]
+    with ThreadPoolExecutor(workers) as pool:
+        futures = [pool.submit(work, first) for first in range(0, len(runs), share)]
         try:
             # A wait without end could not be interrupted everywhere.
             while wait(futures, timeout=0.1).not_done:
@@ -214,27 +184,39 @@ def _carry_on(
         for future in futures:
             if not future.cancelled():
                 future.result()
+    return _told(runs, answers, sample_times)
 
 
-def _starts(runs: Sequence[LaneRun]) -> tuple[list[Floats], dict[int, NoEquilibrium]]:
-    """State at the start of every run, and why some have none."""
-    starts, failures = [], {}
-    for number, run in enumerate(runs):
-        model, inputs = run.model, run.phases.inputs[0]
-        try:
-            starts.append(model.start(inputs, run.state, run.swing_angle))
-        except NoEquilibrium as failure:
-            starts.append(model.start(inputs, "zero", run.swing_angle))
-            failures[number] = failure
-    return starts, failures
+def available_cores() -> int:
+    """Cores that this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
-def _queue(runs: Sequence[LaneRun], starts: list[Floats], sample_times: Floats, atol: float) -> Queue:
+def _alike(one: System, other: System) -> bool:
+    """Whether two systems can share lanes."""
+    if one.size != other.size or one.tables.shape != other.tables.shape:
+        return False
+    return one.tables is other.tables or np.array_equal(one.tables, other.tables)
+
+
+def _start(run: LaneRun) -> tuple[Floats, int]:
+    """State at the start of a run, and whether it waits for a lane or has no equilibrium to start from."""
+    inputs = run.phases.inputs[0]
+    try:
+        return run.model.start(inputs, run.state, run.swing_angle), WAITING
+    except NoEquilibrium:
+        return run.model.start(inputs, "zero", run.swing_angle), NO_START
+
+
+def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float) -> Queue:
     """The runs' data as the compiled steps want them; runs with fewer phases are padded."""
     systems = [run.model.system for run in runs]
-    tables = systems[0].tables
-    if any(system.tables is not tables and not np.array_equal(system.tables, tables) for system in systems):
-        raise ValueError("runs: wanted the same jib modes in all, got different ones")
+    starts = np.empty((len(runs), systems[0].size))
+    for number, run in enumerate(runs):
+        starts[number], answers.outcomes[number] = _start(run)
+    # Those without a start end in it.
+    answers.end_states[:] = starts
     most = max(len(run.phases.inputs) for run in runs)
     powers = max(run.phases.inputs.shape[2] for run in runs)
     times = np.full((len(runs), most + 1), np.inf)
@@ -248,7 +230,8 @@ def _queue(runs: Sequence[LaneRun], starts: list[Floats], sample_times: Floats, 
         owner = phase_of(sample_times, cut)
         first_samples[number, : count + 1] = np.searchsorted(owner, np.arange(count + 1))
     return Queue(
-        starts=np.array(starts),
+        waiting=np.flatnonzero(answers.outcomes == WAITING),
+        starts=starts,
         atol=atol * np.array([system.scale for system in systems]),
         numbers=np.array([system.numbers for system in systems]),
         vectors=np.array([system.vectors for system in systems]),
@@ -260,7 +243,7 @@ def _queue(runs: Sequence[LaneRun], starts: list[Floats], sample_times: Floats, 
         inputs=inputs,
         first_samples=first_samples,
         sample_times=np.array(sample_times, dtype=float),
-        tables=tables,
+        tables=systems[0].tables,
     )
 
 
@@ -278,21 +261,19 @@ def _answers(count: int, system: System, samples: int) -> Answers:
     )
 
 
-def _told(
-    runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, failures: dict[int, NoEquilibrium]
-) -> LaneAnswers:
+def _told(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats) -> LaneAnswers:
     """Outcomes by name; the last row of runs that ended early; nothing of those that were interrupted."""
-    names = {FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED, NOT_FINITE_CODE: NOT_FINITE}
+    # A crane without a stable equilibrium has buckled under its weights.
+    names = {
+        WAITING: INTERRUPTED, NO_START: TOWER_BUCKLED, FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED,
+        NOT_FINITE_CODE: NOT_FINITE,
+    }  # fmt: skip
     outcomes = []
     for number, (run, code) in enumerate(zip(runs, answers.outcomes.tolist(), strict=True)):
-        if number in failures:
-            outcomes.append(failures[number].outcome)
-        elif code == WAITING:
-            outcomes.append(INTERRUPTED)
+        outcomes.append(names[code] if code in names else run.model.system.guards[code - FIRST_GUARD])
+        if code == WAITING:
             answers.extremes[number] = np.nan
             continue
-        else:
-            outcomes.append(names.get(code) or run.model.system.guards[code - FIRST_GUARD])
         written, end = answers.counts[number, WRITTEN], float(answers.end_times[number])
         if outcomes[-1] != FINISHED and (written == 0 or sample_times[written - 1] < end):
             _record_end(run, answers, number, end)

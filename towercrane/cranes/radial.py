@@ -6,7 +6,7 @@ Source: Gao et al. (2023); the equations are derived anew, see :mod:`towercrane.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import factorial
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -19,8 +19,11 @@ from towercrane.payload import FORCE, JACOBIAN, MASS, Load, restore, work_shape
 from towercrane.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
+    from modal.beam import Beam, EndBody
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.motion import Motion
     from towercrane.results import Quantity
@@ -111,12 +114,12 @@ class RadialModel:
     @cached_property
     def tower(self) -> Modes:
         """Modes of the tower with the slewing part on its end."""
-        return cantilever_modes(self.crane.tower, self.tower_modes, self.crane.end_body)
+        return _modes(self.crane.tower, self.tower_modes, self.crane.end_body)
 
     @cached_property
     def jib(self) -> Modes:
         """Modes of the jib, clamped at the tower top and free at its end."""
-        return cantilever_modes(self.crane.jib, self.jib_modes)
+        return _modes(self.crane.jib, self.jib_modes)
 
     @cached_property
     def geometric_stiffness(self) -> Floats:
@@ -130,35 +133,20 @@ class RadialModel:
         along = own * crane.tower.mass_per_length * self.tower.weighted_slope_matrix()
         return crane.gravity * (above * self.tower.slope_matrix() + along)
 
-    @cached_property
+    @property
     def tip_shapes(self) -> Floats:
         """Displacement of the tower top and deflection of the jib tip per coordinate; shape (2, coordinates)."""
-        shapes = np.zeros((2, self.coordinates))
-        shapes[0, : self.tower_modes] = self.tower(self.crane.tower.length)
-        shapes[1, self.tower_modes :] = self.jib(self.crane.jib.length)
-        return shapes
+        return _structure(self.crane, self.tower, self.jib).tip_shapes
 
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
         crane, load = self.crane, self.load
+        structure = _structure(crane, self.tower, self.jib)
         n, tower = self.coordinates, self.tower_modes
-        vectors = np.zeros((5, n))
-        vectors[kernel.TIP] = self.tip_shapes[0]
-        vectors[kernel.SLOPE, :tower] = self.tower(crane.tower.length, 1)
-        vectors[kernel.JIB_MASS, tower:], vectors[kernel.JIB_MOMENT, tower:] = self.jib.mass_moments()
-        tip, slope = vectors[kernel.TIP], vectors[kernel.SLOPE]
         omega = np.concatenate([self.tower.angular_frequencies, self.jib.angular_frequencies])
         ratio = np.repeat([self.tower_damping_ratio, self.jib_damping_ratio], [tower, self.jib_modes])
-        vectors[kernel.DAMPING] = 2.0 * ratio * omega
-
-        base = np.zeros((n, n))
-        base[:tower, :tower] = self.tower.mass_matrix()
-        base += crane.slewing_mass * np.outer(tip, tip) + crane.slewing_inertia * np.outer(slope, slope)
-        base[tower:, tower:] = self.jib.mass_matrix()
-        # Tilting the tower top moves the clamped jib through -gamma x: first order, absent in the source.
-        base[:tower, tower:] = -np.outer(slope[:tower], vectors[kernel.JIB_MOMENT, tower:])
-        base[tower:, :tower] = base[:tower, tower:].T
+        vectors = np.vstack([structure.vectors, 2.0 * ratio * omega])
         stiffness = np.diag(omega**2)
         if self.weight_softening:
             stiffness[:tower, :tower] -= self.geometric_stiffness
@@ -173,35 +161,21 @@ class RadialModel:
         numbers[kernel.LOAD_MASS] = load.mass
         numbers[kernel.DRAG] = load.drag
         numbers[kernel.HINGE_DAMPING] = load.rope_damping
+        # Tolerances are metres where a mode moves most, radians of swing; the work steers nothing.
+        scale = np.concatenate([structure.mode_scale, np.ones(self.axes)])
         return System(
             rhs=kernel.rhs,
             size=self.size,
             guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED),
             floors=np.array([-np.inf if self.rope_as_rod else 0.0, -ROUNDING, -ROUNDING, 0.0]),
-            scale=self._scale(),
+            scale=np.concatenate([scale, scale, [np.inf]]),
             numbers=numbers,
             vectors=vectors,
-            matrices=np.array([base, stiffness]),
-            tables=self._shape_table(),
+            matrices=np.array([structure.base, stiffness]),
+            tables=structure.shape_table,
             work_shape=work_shape(n),
             restore=lambda state: restore(state, n, self.axes),
         )
-
-    def _scale(self) -> Floats:
-        """Tolerances are metres where a mode moves most, radians of swing; the work steers nothing."""
-        # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
-        largest = [abs(m(np.linspace(0.0, m.beam.length, 201))).max(axis=1) for m in (self.tower, self.jib)]
-        scale = np.concatenate([1.0 / np.concatenate(largest), np.ones(self.axes)])
-        return np.concatenate([scale, scale, [np.inf]])
-
-    def _shape_table(self) -> Floats:
-        """Jib shapes as Taylor polynomials about the middle of equal cells; shape (cells, modes, powers)."""
-        length = self.crane.jib.length
-        highest = self.jib.roots[-1] if self.jib_modes else 0.0
-        cells = max(1, int(np.ceil(highest / (2.0 * TABLE_REACH))))
-        middles = (np.arange(cells) + 0.5) * length / cells
-        shapes = [self.jib(middles, derivative).T / factorial(derivative) for derivative in range(TABLE_POWERS)]
-        return np.ascontiguousarray(np.stack(shapes, axis=-1).reshape(cells, self.jib_modes, TABLE_POWERS))
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at rest at the start.
@@ -264,12 +238,12 @@ class RadialModel:
         NoEquilibrium
             If the stiffness is not positive definite, or no equilibrium is found.
         """
-        n = self.coordinates
+        n, load_weight = self.coordinates, self.load.mass * self.crane.gravity
+        at_rest = self._at_rest(inputs)
 
         def residual(at: Floats) -> Floats:
-            work = self._at_rest(at, inputs)
-            up = work[JACOBIAN + self.axes - 1, :n]
-            return work[FORCE, :n] - self.load.mass * self.crane.gravity * up
+            work = at_rest(at)
+            return work[FORCE, :n] - load_weight * work[JACOBIAN + self.axes - 1, :n]
 
         try:
             return stable_equilibrium(residual, self.system.scale[:n])
@@ -282,15 +256,18 @@ class RadialModel:
         geometric = np.linalg.eigvals(self.geometric_stiffness / self.tower.angular_frequencies**2)
         return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
 
-    def _at_rest(self, q: Floats, inputs: Floats) -> Floats:
-        """Scratch array of the structure at rest at these coordinates."""
-        y = np.zeros(self.size)
-        y[: self.coordinates] = q
-        fixed = np.zeros_like(inputs)
+    def _at_rest(self, inputs: Floats) -> Callable[[Floats], Floats]:
+        """Scratch array of the structure at rest at given coordinates, the same array every time."""
+        n, constants = self.coordinates, self.system.constants
+        y, work, fixed = np.zeros(self.size), np.zeros(self.system.work_shape), np.zeros_like(inputs)
         fixed[:, 0] = inputs[:, 0]
-        work = np.zeros(self.system.work_shape)
-        kernel.structure(self.axes, 0.0, y, fixed, *self.system.constants, work)
-        return work
+
+        def structure(q: Floats) -> Floats:
+            y[:n] = q
+            kernel.structure(self.axes, 0.0, y, fixed, *constants, work)
+            return work
+
+        return structure
 
     def linear_matrices(self, trolley_position: float, rope_length: float) -> tuple[Floats, Floats]:
         """Mass and stiffness of small motions about the undeformed crane; shapes (n + 1, n + 1).
@@ -300,7 +277,7 @@ class RadialModel:
         """
         n, load = self.coordinates, self.load.mass
         inputs = np.array([[trolley_position, 0.0, 0.0], [rope_length, 0.0, 0.0]])
-        work = self._at_rest(np.zeros(n), inputs)
+        work = self._at_rest(inputs)(np.zeros(n))
         lower = np.tril(work[MASS : MASS + n, :n])
         forward, up = work[JACOBIAN, :n], work[JACOBIAN + self.axes - 1, :n]
         mass = np.zeros((n + 1, n + 1))
@@ -344,3 +321,62 @@ class RadialModel:
         frequencies = 1.0 / np.sqrt(reciprocal[::-1])
         swing = int(np.argmax(stiffness[-1, -1] * vectors[-1, ::-1] ** 2))
         return frequencies, swing
+
+
+@dataclass(frozen=True, eq=False)
+class _Structure:
+    """What of a crane's equations does not depend on its load, so that many loads share it.
+
+    Parameters
+    ----------
+    vectors : ndarray, shape (4, coordinates)
+        Without damping.
+    base : ndarray, shape (coordinates, coordinates)
+    tip_shapes : ndarray, shape (2, coordinates)
+    mode_scale : ndarray, shape (coordinates,)
+        Coordinate per metre where its mode moves most.
+    shape_table : ndarray, shape (cells, jib modes, TABLE_POWERS)
+        Jib shapes as Taylor polynomials about the middle of equal cells.
+    """
+
+    vectors: Floats
+    base: Floats
+    tip_shapes: Floats
+    mode_scale: Floats
+    shape_table: Floats
+
+
+@lru_cache(maxsize=64)
+def _modes(beam: Beam, count: int, end_body: EndBody | None = None) -> Modes:
+    return cantilever_modes(beam, count) if end_body is None else cantilever_modes(beam, count, end_body)
+
+
+@lru_cache(maxsize=32)
+def _structure(crane: TowerCrane, tower_modes: Modes, jib_modes: Modes) -> _Structure:
+    tower, n = tower_modes.count, tower_modes.count + jib_modes.count
+    tip_shapes, vectors = np.zeros((2, n)), np.zeros((4, n))
+    tip_shapes[0, :tower] = tower_modes(crane.tower.length)
+    tip_shapes[1, tower:] = jib_modes(crane.jib.length)
+    vectors[kernel.TIP] = tip_shapes[0]
+    vectors[kernel.SLOPE, :tower] = tower_modes(crane.tower.length, 1)
+    vectors[kernel.JIB_MASS, tower:], vectors[kernel.JIB_MOMENT, tower:] = jib_modes.mass_moments()
+    tip, slope = vectors[kernel.TIP], vectors[kernel.SLOPE]
+
+    base = np.zeros((n, n))
+    base[:tower, :tower] = tower_modes.mass_matrix()
+    base += crane.slewing_mass * np.outer(tip, tip) + crane.slewing_inertia * np.outer(slope, slope)
+    base[tower:, tower:] = jib_modes.mass_matrix()
+    # Tilting the tower top moves the clamped jib through -gamma x: first order, absent in the source.
+    base[:tower, tower:] = -np.outer(slope[:tower], vectors[kernel.JIB_MOMENT, tower:])
+    base[tower:, :tower] = base[:tower, tower:].T
+    # The tip alone would not do for the scale: higher tower modes move it little and the mast below it a lot.
+    largest = [abs(m(np.linspace(0.0, m.beam.length, 201))).max(axis=1) for m in (tower_modes, jib_modes)]
+    return _Structure(vectors, base, tip_shapes, 1.0 / np.concatenate(largest), _shape_table(jib_modes))
+
+
+def _shape_table(jib: Modes) -> Floats:
+    length, highest = jib.beam.length, jib.roots[-1] if jib.count else 0.0
+    cells = max(1, int(np.ceil(highest / (2.0 * TABLE_REACH))))
+    middles = (np.arange(cells) + 0.5) * length / cells
+    shapes = [jib(middles, derivative).T / factorial(derivative) for derivative in range(TABLE_POWERS)]
+    return np.ascontiguousarray(np.stack(shapes, axis=-1).reshape(cells, jib.count, TABLE_POWERS))

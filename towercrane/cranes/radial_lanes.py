@@ -99,9 +99,9 @@ def advance(
     unused = np.isinf(queue.atol[0])
     active = size - np.sum(unused)
     for _ in range(most_steps):
-        if steps.wants_entry(places, queue.starts.shape[0] - lanes.next_run[0]):
+        if steps.wants_entry(places, queue.waiting.size - lanes.next_run[0]):
             for lane in range(LANES):
-                if places[RUN, lane] < 0 and lanes.next_run[0] < queue.starts.shape[0]:
+                if places[RUN, lane] < 0 and lanes.next_run[0] < queue.waiting.size:
                     steps.fill(queue, lanes, lane)
                     steps.begin_phase(queue, lanes, lane, n, AXES)
             rhs(clocks[TIME], y, slope, inputs, numbers, vectors, matrices, tables, work, guards)
@@ -112,7 +112,7 @@ def advance(
         for lane in range(LANES):
             idle += places[RUN, lane] < 0
         if idle == LANES:
-            return bool(lanes.next_run[0] < queue.starts.shape[0])
+            return bool(lanes.next_run[0] < queue.waiting.size)
         if steps.choose_steps(places, clock):
             for lane in range(LANES):
                 if places[RUN, lane] >= 0 and clock[TRIAL, lane] == 0.0:
@@ -121,7 +121,23 @@ def advance(
         for g in range(guards.size):
             lowest[g] = np.inf
         _take_stages(
-            1, stages, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices, tables, work, guards, lowest
+            1,
+            stages,
+            a,
+            c,
+            y,
+            trial,
+            slope,
+            k,
+            clocks,
+            inputs,
+            numbers,
+            vectors,
+            matrices,
+            tables,
+            work,
+            guards,
+            lowest,
         )
         for m in range(size):
             new[m] = trial[m]
