@@ -15,8 +15,9 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.payload import Load
     from towercrane.simulate import run_case
+    from towercrane.variations import sweep
 
-__all__ = ["Load", "RadialModel", "TowerCrane", "load_case", "run_case"]
+__all__ = ["Load", "RadialModel", "TowerCrane", "load_case", "run_case", "sweep"]
 
 __version__ = "0.1.0"
 
@@ -26,6 +27,7 @@ _HOME = {
     "TowerCrane": "cranes.tower_crane",
     "load_case": "case",
     "run_case": "simulate",
+    "sweep": "variations",
 }
 
 
