@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from towercrane.studies import linearise, sensitivity
+from towercrane.sweeps import sweep
 from towercrane.terminal import (
     ENDED_EARLY,
     INTERRUPTED,
@@ -278,6 +279,7 @@ def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Datase
 
 app.command()(linearise)
 app.command()(sensitivity)
+app.command()(sweep)
 
 
 if __name__ == "__main__":

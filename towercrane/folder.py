@@ -43,7 +43,7 @@ def write(folder: Path, files: Mapping[str, Any]) -> None:
         match path.suffix:
             case ".nc":
                 results.save(content, path)
-            case ".csv":
+            case ".csv" if not isinstance(content, str):
                 results.save_csv(content, path)
             case ".png":
                 style.save(content, path)

@@ -415,7 +415,7 @@ def look_for_falls(places: Any, clock: Any, looks: int) -> int:
         if clock[ACCEPTED_STEP, lane] == 0.0 or not places[SUSPECT, lane]:
             continue
         if places[CROSSED, lane] < 0:
-            part = int(round(clock[HIGH, lane] * looks)) + 1
+            part = round(clock[HIGH, lane] * looks) + 1
             if part > looks:
                 continue
             clock[FRACTION, lane] = part / looks
@@ -437,7 +437,7 @@ def note_looks(looking: int, places: Any, clock: Any, guards: Any, floors: Any, 
         guard, at = fallen(guards, floors, lane), clock[FRACTION, lane]
         if guard >= 0:
             if places[CROSSED, lane] < 0:
-                clock[LOW, lane] = (int(round(at * looks)) - 1.0) / looks
+                clock[LOW, lane] = (round(at * looks) - 1.0) / looks
             clock[HIGH, lane] = at
             places[CROSSED, lane] = guard
         elif places[CROSSED, lane] < 0:

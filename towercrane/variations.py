@@ -115,7 +115,9 @@ def sweep(
     in_lanes = all(_fits_lanes(variant) for variant, _ in runs)
     if series and not in_lanes:
         raise ValueError("series: wanted a crane in radial motion and a compiled method, got another; see run_case")
-    found = _side_by_side(runs, values, threads, series, progress) if in_lanes else _one_by_one(loaded, values, progress)
+    found = (
+        _side_by_side(runs, values, threads, series, progress) if in_lanes else _one_by_one(loaded, values, progress)
+    )
     return _dataset(loaded, values, found, runs[0][0])
 
 
@@ -238,7 +240,10 @@ def _lane_runs(runs: list[tuple[Case, dict[str, float]]], lane_run: type[LaneRun
     made = []
     for case, quick in runs:
         if case not in models:
-            models[case] = (radial_model(case), phases((case.trolley_motion(), case.rope_motion()), case.run.duration))
+            models[case] = (
+                radial_model(case),
+                phases((case.trolley_motion(), case.rope_motion()), case.run.duration),
+            )
         model, cut = models[case]
         if LOAD in quick:
             model = dataclasses.replace(model, load=dataclasses.replace(model.load, mass=quick[LOAD]))

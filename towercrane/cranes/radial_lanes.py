@@ -1,7 +1,7 @@
 """Compiled runs of the crane in radial motion side by side.
 
-The equations are those of :mod:`towercrane.cranes.radial_kernel`, compiled for lane vectors; the steps are put together
-from :mod:`towercrane.lane_stepper`.
+The equations are those of :mod:`towercrane.cranes.radial_kernel`, compiled for lane vectors; the steps are put
+together from :mod:`towercrane.lane_stepper`.
 """
 
 from __future__ import annotations
@@ -148,8 +148,8 @@ def advance(
         )  # fmt: skip
         if looking:
             _take_stages(
-                stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices, tables,
-                work, guards, lowest,
+                stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices,
+                tables, work, guards, lowest,
             )  # fmt: skip
             steps.count(looking, places, counts, a.shape[0] - 1 - stages)
             # A stage is only an estimate of the state there; the dense output decides.
