@@ -234,7 +234,7 @@ def shortest(length: float) -> float:
 def is_last(clock: Any, lane: int) -> bool:
     """Whether a lane's step ends its phase."""
     end = clock[END, lane]
-    return clock[TIME, lane] + clock[STEP, lane] >= end - shortest(end)
+    return bool(clock[TIME, lane] + clock[STEP, lane] >= end - shortest(end))
 
 
 @kernel()

@@ -14,9 +14,11 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.core.typeconv import Conversion
+from numba.core.typeconv.castgraph import Conversion
 from numba.extending import intrinsic, lower_builtin, lower_cast, models, register_model, type_callable
 from numba.np.arrayobj import make_array, populate_array
+
+_intrinsic: Any = intrinsic
 
 LANES = 8
 """Runs side by side; eight doubles fill a register of AVX-512."""
@@ -234,7 +236,7 @@ def _view(context: Any, builder: Any, source: Any, kind: Any, axes: int, itemsiz
     return target._getvalue()
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@_intrinsic
 def in_lanes(_context: Any, array: Any) -> Any:
     """The same memory with its last axis, of length LANES, as lane vectors; the caller keeps the array."""
     # Without a claim of alignment: numpy promises 16 bytes, a register would want 64.
@@ -248,7 +250,7 @@ def in_lanes(_context: Any, array: Any) -> Any:
     return kind(array), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@_intrinsic
 def lent(_context: Any, array: Any) -> Any:
     """The same array for functions that are called often; the caller keeps it."""
 
@@ -259,7 +261,7 @@ def lent(_context: Any, array: Any) -> Any:
     return array(array), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@_intrinsic
 def choose(_context: Any, where: Any, a: Any, b: Any) -> Any:
     """In every lane a where ``where`` is not zero, else b."""
 

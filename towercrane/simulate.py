@@ -138,7 +138,7 @@ def run_case(case: Case, *, progress: Progress | None = None) -> xr.Dataset:
 def rows_of(duration: float, output_step: float) -> np.ndarray[Any, np.dtype[np.float64]]:
     """Times of a result's rows [s]; shape (rows,)."""
     rows = int(np.floor(duration / output_step * (1.0 + 1e-12))) + 1
-    return np.minimum(np.arange(rows) * output_step, duration)
+    return np.asarray(np.minimum(np.arange(rows) * output_step, duration))
 
 
 def versions() -> dict[str, str]:

@@ -21,6 +21,7 @@ from towercrane.terminal import (
     folder_for_results,
     load,
     options_of,
+    say,
     suggest,
     write,
 )
@@ -59,9 +60,13 @@ def sweep(
     folder = out if out is not None else Path("results") / f"{loaded.name}-sweep"
     folder_for_results(folder)
     values = _values(loaded, vary)
+    from modal.compiled import is_compiled
     from towercrane.variations import grid
 
-    announce_compilation(loaded.kind, *(["towercrane.cranes.radial_lanes"] if loaded.kind == "radial" else []))
+    if loaded.kind == "radial" and not is_compiled("towercrane.cranes.radial_lanes"):
+        say("compiling for many runs at once, about half a minute; later sweeps start at once ...")
+    else:
+        announce_compilation(loaded.kind, "towercrane.stepper")
     began = time.perf_counter()
     data = _with_progress(loaded, grid(values), threads)
     summary = report(data, time.perf_counter() - began)
@@ -178,7 +183,7 @@ def _steps(option: str, parts: list[str], quantity: Any) -> list[Any]:
         fail(f"--vary {option}: wanted at most {MOST_RUNS} values, got {count}")
     if quantity is not None:
         read, unit = quantity
-        return [float(value) for value in np.linspace(*(read(end, unit) for end in ends), count)]
+        return list(np.linspace(read(ends[0], unit), read(ends[1], unit), count).tolist())
     if not all(isinstance(end, int) for end in ends):
         fail(f"--vary {option}: wanted whole numbers, or single values such as {option.partition('=')[0]}=a,b")
     steps = np.linspace(ends[0], ends[1], count)

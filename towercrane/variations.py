@@ -96,9 +96,9 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        Over ``run``: the varied values as coordinates, ``outcome``, ``end_time``, ``evaluations``, and of every output
-        ``<output>_max``, ``_max_time``, ``_min`` and ``_min_time`` among the rows of a single run. After Ctrl-C the
-        runs that had not ended are "interrupted", and nothing is known of them.
+        Over ``run``: the varied values as coordinates, ``outcome``, ``end_time``, ``evaluations``, and of every
+        output ``<output>_max``, ``_max_time``, ``_min`` and ``_min_time`` among the rows of a single run. After
+        Ctrl-C the runs that had not ended are "interrupted", and nothing is known of them.
 
     Raises
     ------
@@ -115,9 +115,7 @@ def sweep(
     in_lanes = all(_fits_lanes(variant) for variant, _ in runs)
     if series and not in_lanes:
         raise ValueError("series: wanted a crane in radial motion and a compiled method, got another; see run_case")
-    found = (
-        _side_by_side(runs, values, threads, series, progress) if in_lanes else _one_by_one(loaded, values, progress)
-    )
+    found = _side_by_side(runs, threads, series, progress) if in_lanes else _one_by_one(loaded, values, progress)
     return _dataset(loaded, values, found, runs[0][0])
 
 
@@ -126,7 +124,7 @@ def _read(case: Case, vary: Mapping[str, Sequence[Value] | Floats]) -> dict[str,
     counts = {key: len(given) for key, given in vary.items()}
     if not counts or len(set(counts.values())) != 1 or 0 in counts.values():
         raise ValueError(f"vary: wanted keys with equally many values, one or more, got {counts}")
-    values = {}
+    values: dict[str, list[Value]] = {}
     for key, given in vary.items():
         # The first value tells whether the key exists; the message is the case's own.
         plain = [value.item() if isinstance(value, np.generic) else value for value in given]
@@ -183,7 +181,6 @@ def _fits_lanes(case: Case) -> bool:
 
 def _side_by_side(
     runs: list[tuple[Case, dict[str, float]]],
-    values: dict[str, list[Value]],
     threads: int | None,
     series: bool,
     progress: Progress | None,
@@ -203,11 +200,10 @@ def _side_by_side(
     extremes = np.full((count, outputs, 4), np.nan)
     kept: list[tuple[list[int], Floats]] = []
     for (duration, output_step, method, rtol, atol, *_), members in groups.items():
-        before = ended
         found: LaneAnswers = integrate_many(
             [lane_runs[i] for i in members], rows_of(duration, output_step), method=method, rtol=rtol, atol=atol,
             threads=threads, series=series,
-            progress=None if progress is None else lambda done, before=before: progress(before + done),
+            progress=_counted(progress, ended),
         )  # fmt: skip
         for place, number in enumerate(members):
             outcomes[number] = found.outcomes[place]
@@ -225,12 +221,18 @@ def _side_by_side(
     return _Extremes(RADIAL_OUTPUTS, outcomes, end_times, evaluations, extremes, whole)
 
 
+def _counted(progress: Progress | None, before: int) -> Progress | None:
+    """Progress of a group of runs after others."""
+    return None if progress is None else lambda done: progress(before + done)
+
+
 def _company(case: Case) -> tuple[Any, ...]:
     """What runs that share lanes have in common."""
     run, solver, jib = case.run, case.solver, case.jib_beam()
     modes = (case.model.tower_modes, case.model.jib_modes)
     return (
-        run.duration, run.output_step, solver.method, solver.rtol, solver.atol, *modes, jib.length, jib.mass_per_length,
+        run.duration, run.output_step, solver.method, solver.rtol, solver.atol, *modes,
+        jib.length, jib.mass_per_length,
     )  # fmt: skip
 
 

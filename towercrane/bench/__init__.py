@@ -6,6 +6,7 @@ import os
 import platform
 from typing import TYPE_CHECKING, Any
 
+from towercrane.bench.lanes import many_runs
 from towercrane.bench.radial import modes_left_out, radial_run, right_hand_side
 from towercrane.bench.roots import roots
 from towercrane.bench.slewing import example_runs, right_hand_sides
@@ -14,7 +15,7 @@ from towercrane.simulate import versions
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-SUBJECTS = (roots, right_hand_side, radial_run, modes_left_out, right_hand_sides, example_runs)
+SUBJECTS = (roots, right_hand_side, radial_run, modes_left_out, right_hand_sides, example_runs, many_runs)
 """Each takes the number of repeats and gives a table."""
 
 
