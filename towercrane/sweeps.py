@@ -147,6 +147,7 @@ def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
     """The values of every key that is varied."""
     from math import prod
 
+    from towercrane.case import load_case
     from towercrane.kinds import unit_of
     from towercrane.units import UnitError, to_si
 
@@ -159,6 +160,8 @@ def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
         if key in values:
             fail(f"--vary {option}: the key stands in two options")
         unit, parts = unit_of(case.kind, key), [part.strip() for part in written.split(":")]
+        # The case itself tells best what is wrong with a key or its first value.
+        load_case(case.path, [*case.changes, f"{key}={parts[0].partition(',')[0]}"])
         try:
             if len(parts) == 1:
                 given = [part.strip() for part in written.split(",")]
