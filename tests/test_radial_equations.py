@@ -198,7 +198,7 @@ def test_mass_matrix_is_symmetric_positive_definite_anywhere():
     n = model.coordinates
     for _ in range(1000):
         q = 2.0 * model.system.scale[:n] * rng.normal(size=n)
-        work = model._at_rest(q, np.array([[rng.uniform(0, 55.6), 0, 0], [10.0, 0, 0]]))
+        work = model._at_rest(np.array([[rng.uniform(0, 55.6), 0, 0], [10.0, 0, 0]]))(q)
         theta = rng.uniform(-np.pi, np.pi)
         along = work[JACOBIAN : JACOBIAN + 2, :n].T @ [np.sin(theta), -np.cos(theta)]
         lower = np.tril(work[MASS : MASS + n, :n])

@@ -18,7 +18,7 @@ from towercrane.cranes.radial import TOWER_BUCKLED
 from towercrane.cranes.radial_kernel import TENSION as TENSION_GUARD
 from towercrane.cranes.radial_lanes import OUTPUTS, advance
 from towercrane.integrate import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, evaluate, phase_of
-from towercrane.lane_stepper import (
+from towercrane.lane_queue import (
     ACCEPTED,
     EVALUATIONS,
     FIRST_GUARD,
@@ -32,9 +32,9 @@ from towercrane.lane_stepper import (
     Queue,
     lanes_for,
 )
-from towercrane.lane_stepper import COLLAPSED as COLLAPSED_CODE
-from towercrane.lane_stepper import FINISHED as FINISHED_CODE
-from towercrane.lane_stepper import NOT_FINITE as NOT_FINITE_CODE
+from towercrane.lane_queue import COLLAPSED as COLLAPSED_CODE
+from towercrane.lane_queue import FINISHED as FINISHED_CODE
+from towercrane.lane_queue import NOT_FINITE as NOT_FINITE_CODE
 from towercrane.lane_vector import LANES
 from towercrane.system import NoEquilibrium
 from towercrane.tableaus import TABLEAUS

@@ -6,14 +6,13 @@ Source: Gao et al. (2023); the equations are derived anew, see :mod:`towercrane.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from math import factorial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from modal.shapes import Modes, cantilever_modes
 from towercrane.cranes import radial_kernel as kernel
+from towercrane.cranes.radial_structure import modes_of, structure_of
 from towercrane.equilibrium import Unstable, stable_equilibrium
 from towercrane.payload import FORCE, JACOBIAN, MASS, Load, restore, work_shape
 from towercrane.system import NoEquilibrium, System
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from modal.beam import Beam, EndBody
+    from modal.shapes import Modes
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.motion import Motion
     from towercrane.results import Quantity
@@ -39,12 +38,6 @@ TILT_LIMIT = 0.5
 
 ROUNDING = 1e-9
 """Way beyond an end of the jib that counts as parked on it [m]."""
-
-TABLE_POWERS = 8
-"""Coefficients per cell of the tabulated jib shapes."""
-
-TABLE_REACH = 0.04
-"""Largest wave number times half a cell: the next Taylor term is then below 0.04^8/8! = 2e-16."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,12 +107,12 @@ class RadialModel:
     @cached_property
     def tower(self) -> Modes:
         """Modes of the tower with the slewing part on its end."""
-        return _modes(self.crane.tower, self.tower_modes, self.crane.end_body)
+        return modes_of(self.crane.tower, self.tower_modes, self.crane.end_body)
 
     @cached_property
     def jib(self) -> Modes:
         """Modes of the jib, clamped at the tower top and free at its end."""
-        return _modes(self.crane.jib, self.jib_modes)
+        return modes_of(self.crane.jib, self.jib_modes)
 
     @cached_property
     def geometric_stiffness(self) -> Floats:
@@ -136,13 +129,13 @@ class RadialModel:
     @property
     def tip_shapes(self) -> Floats:
         """Displacement of the tower top and deflection of the jib tip per coordinate; shape (2, coordinates)."""
-        return _structure(self.crane, self.tower, self.jib).tip_shapes
+        return structure_of(self.crane, self.tower, self.jib).tip_shapes
 
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
         crane, load = self.crane, self.load
-        structure = _structure(crane, self.tower, self.jib)
+        structure = structure_of(crane, self.tower, self.jib)
         n, tower = self.coordinates, self.tower_modes
         omega = np.concatenate([self.tower.angular_frequencies, self.jib.angular_frequencies])
         ratio = np.repeat([self.tower_damping_ratio, self.jib_damping_ratio], [tower, self.jib_modes])
@@ -321,62 +314,3 @@ class RadialModel:
         frequencies = 1.0 / np.sqrt(reciprocal[::-1])
         swing = int(np.argmax(stiffness[-1, -1] * vectors[-1, ::-1] ** 2))
         return frequencies, swing
-
-
-@dataclass(frozen=True, eq=False)
-class _Structure:
-    """What of a crane's equations does not depend on its load, so that many loads share it.
-
-    Parameters
-    ----------
-    vectors : ndarray, shape (4, coordinates)
-        Without damping.
-    base : ndarray, shape (coordinates, coordinates)
-    tip_shapes : ndarray, shape (2, coordinates)
-    mode_scale : ndarray, shape (coordinates,)
-        Coordinate per metre where its mode moves most.
-    shape_table : ndarray, shape (cells, jib modes, TABLE_POWERS)
-        Jib shapes as Taylor polynomials about the middle of equal cells.
-    """
-
-    vectors: Floats
-    base: Floats
-    tip_shapes: Floats
-    mode_scale: Floats
-    shape_table: Floats
-
-
-@lru_cache(maxsize=64)
-def _modes(beam: Beam, count: int, end_body: EndBody | None = None) -> Modes:
-    return cantilever_modes(beam, count) if end_body is None else cantilever_modes(beam, count, end_body)
-
-
-@lru_cache(maxsize=32)
-def _structure(crane: TowerCrane, tower_modes: Modes, jib_modes: Modes) -> _Structure:
-    tower, n = tower_modes.count, tower_modes.count + jib_modes.count
-    tip_shapes, vectors = np.zeros((2, n)), np.zeros((4, n))
-    tip_shapes[0, :tower] = tower_modes(crane.tower.length)
-    tip_shapes[1, tower:] = jib_modes(crane.jib.length)
-    vectors[kernel.TIP] = tip_shapes[0]
-    vectors[kernel.SLOPE, :tower] = tower_modes(crane.tower.length, 1)
-    vectors[kernel.JIB_MASS, tower:], vectors[kernel.JIB_MOMENT, tower:] = jib_modes.mass_moments()
-    tip, slope = vectors[kernel.TIP], vectors[kernel.SLOPE]
-
-    base = np.zeros((n, n))
-    base[:tower, :tower] = tower_modes.mass_matrix()
-    base += crane.slewing_mass * np.outer(tip, tip) + crane.slewing_inertia * np.outer(slope, slope)
-    base[tower:, tower:] = jib_modes.mass_matrix()
-    # Tilting the tower top moves the clamped jib through -gamma x: first order, absent in the source.
-    base[:tower, tower:] = -np.outer(slope[:tower], vectors[kernel.JIB_MOMENT, tower:])
-    base[tower:, :tower] = base[:tower, tower:].T
-    # The tip alone would not do for the scale: higher tower modes move it little and the mast below it a lot.
-    largest = [abs(m(np.linspace(0.0, m.beam.length, 201))).max(axis=1) for m in (tower_modes, jib_modes)]
-    return _Structure(vectors, base, tip_shapes, 1.0 / np.concatenate(largest), _shape_table(jib_modes))
-
-
-def _shape_table(jib: Modes) -> Floats:
-    length, highest = jib.beam.length, jib.roots[-1] if jib.count else 0.0
-    cells = max(1, int(np.ceil(highest / (2.0 * TABLE_REACH))))
-    middles = (np.arange(cells) + 0.5) * length / cells
-    shapes = [jib(middles, derivative).T / factorial(derivative) for derivative in range(TABLE_POWERS)]
-    return np.ascontiguousarray(np.stack(shapes, axis=-1).reshape(cells, jib.count, TABLE_POWERS))

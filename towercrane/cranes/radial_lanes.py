@@ -1,7 +1,7 @@
 """Compiled runs of the crane in radial motion side by side.
 
 The equations are those of :mod:`towercrane.cranes.radial_kernel`, compiled for lane vectors; the steps are put
-together from :mod:`towercrane.lane_stepper`.
+together from :mod:`towercrane.lane_stepper` and :mod:`towercrane.lane_looks`.
 """
 
 from __future__ import annotations
@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from modal.compiled import kernel
-from towercrane import lane_stepper as steps
+from towercrane import lane_looks as looks
+from towercrane import lane_queue, lane_stepper
 from towercrane.cranes import radial_kernel
-from towercrane.lane_stepper import (
+from towercrane.lane_queue import (
     ACCEPTED_STEP,
     COLLAPSED,
     CROSSED,
@@ -30,7 +31,7 @@ from towercrane.lane_stepper import (
     TRIAL,
 )
 from towercrane.lane_vector import LANES, choose, in_lanes, lent
-from towercrane.stepper import LOOKS, _stage
+from towercrane.stepper import LOOKS, stage_state
 
 AXES = 2
 """The load swings in the plane of the jib."""
@@ -63,7 +64,7 @@ def advance(
     Parameters
     ----------
     queue, answers, lanes
-        See :mod:`towercrane.lane_stepper`.
+        See :mod:`towercrane.lane_queue`.
     stages, a, c, error, dense, error_order
         As in :class:`towercrane.tableaus.Tableau`.
     rtol : float
@@ -99,24 +100,24 @@ def advance(
     unused = np.isinf(queue.atol[0])
     active = size - np.sum(unused)
     for _ in range(most_steps):
-        if steps.wants_entry(places, queue.waiting.size - lanes.next_run[0]):
+        if lane_stepper.wants_entry(places, queue.waiting.size - lanes.next_run[0]):
             for lane in range(LANES):
                 if places[RUN, lane] < 0 and lanes.next_run[0] < queue.waiting.size:
-                    steps.fill(queue, lanes, lane)
-                    steps.begin_phase(queue, lanes, lane, n, AXES)
+                    lane_queue.fill(queue, lanes, lane)
+                    lane_queue.begin_phase(queue, lanes, lane, n, AXES)
             rhs(clocks[TIME], y, slope, inputs, numbers, vectors, matrices, tables, work, guards)
             for lane in range(LANES):
                 if places[FRESH, lane]:
-                    steps.enter_phase(answers, lanes, lane, rtol)
+                    lane_stepper.enter_phase(answers, lanes, lane, rtol)
         idle = 0
         for lane in range(LANES):
             idle += places[RUN, lane] < 0
         if idle == LANES:
             return bool(lanes.next_run[0] < queue.waiting.size)
-        if steps.choose_steps(places, clock):
+        if lane_stepper.choose_steps(places, clock):
             for lane in range(LANES):
                 if places[RUN, lane] >= 0 and clock[TRIAL, lane] == 0.0:
-                    steps.end_run(answers, lanes, lane, COLLAPSED)
+                    lane_queue.end_run(answers, lanes, lane, COLLAPSED)
 
         for g in range(guards.size):
             lowest[g] = np.inf
@@ -141,8 +142,8 @@ def advance(
         )
         for m in range(size):
             new[m] = trial[m]
-        steps.error_parts(error, k, y, new, rtol, atol, unused, norms)
-        looking = steps.judge_steps(
+        lane_stepper.error_parts(error, k, y, new, rtol, atol, unused, norms)
+        looking = lane_stepper.judge_steps(
             places, clock, lane_norms, lane_lowest, lane_floors, counts, smallest_steps, sample_times, stages, rows,
             error_order, active,
         )  # fmt: skip
@@ -151,41 +152,41 @@ def advance(
                 stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices,
                 tables, work, guards, lowest,
             )  # fmt: skip
-            steps.count(looking, places, counts, a.shape[0] - 1 - stages)
+            lane_stepper.count(looking, places, counts, a.shape[0] - 1 - stages)
             # A stage is only an estimate of the state there; the dense output decides.
-            suspect, looking = False, steps.look_for_falls(places, clock, LOOKS)
+            suspect, looking = False, looks.look_for_falls(places, clock, LOOKS)
             while looking:
-                steps.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
+                looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
                 rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-                steps.count(looking, places, counts, 1)
-                steps.note_looks(looking, places, clock, lane_guards, lane_floors, LOOKS)
-                suspect, looking = True, steps.look_for_falls(places, clock, LOOKS)
+                lane_stepper.count(looking, places, counts, 1)
+                looks.note_looks(looking, places, clock, lane_guards, lane_floors, LOOKS)
+                suspect, looking = True, looks.look_for_falls(places, clock, LOOKS)
             if suspect:
-                steps.dense_states(y, dense, k, clocks[TRIAL], clocks[HIGH], trial)
-                steps.cut_steps(places, clock, lane_trial, lane_new)
-            wanted = steps.wanted_samples(places, clock, sample_times)
+                looks.dense_states(y, dense, k, clocks[TRIAL], clocks[HIGH], trial)
+                looks.cut_steps(places, clock, lane_trial, lane_new)
+            wanted = looks.wanted_samples(places, clock, sample_times)
             while wanted:
-                steps.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
+                looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
                 rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
                 _observe(trial, lane_trial, guards, watched, outputs, lane_outputs, n)
-                steps.record(lane_outputs, wanted, places, counts, sample_times, extremes, series)
-                wanted = steps.wanted_samples(places, clock, sample_times)
+                looks.record(lane_outputs, wanted, places, counts, sample_times, extremes, series)
+                wanted = looks.wanted_samples(places, clock, sample_times)
         accepted = clocks[ACCEPTED_STEP]
         for m in range(size):
             y[m] = choose(accepted, new[m], y[m])
             k[0, m] = choose(accepted, k[stages, m], k[0, m])
-        if steps.move_on(places, clock):
+        if lane_stepper.move_on(places, clock):
             for lane in range(LANES):
                 if places[RUN, lane] < 0 or not clock[ACCEPTED_STEP, lane]:
                     continue
                 if places[CROSSED, lane] >= 0:
-                    steps.end_run(answers, lanes, lane, FIRST_GUARD + places[CROSSED, lane])
+                    lane_queue.end_run(answers, lanes, lane, FIRST_GUARD + places[CROSSED, lane])
                 elif clock[TIME, lane] >= clock[END, lane]:
                     places[PHASE, lane] += 1
                     if places[PHASE, lane] == queue.phase_counts[places[RUN, lane]]:
-                        steps.end_run(answers, lanes, lane, FINISHED)
+                        lane_queue.end_run(answers, lanes, lane, FINISHED)
                     else:
-                        steps.begin_phase(queue, lanes, lane, n, AXES)
+                        lane_queue.begin_phase(queue, lanes, lane, n, AXES)
     return True
 
 
@@ -197,7 +198,7 @@ def _take_stages(
     """Slopes of the stages from first to last in every lane, and the lowest value of every guard."""
     step, time = clocks[TRIAL], clocks[TIME]
     for i in range(first, last + 1):
-        _stage(y, a, i, k, step, trial)
+        stage_state(y, a, i, k, step, trial)
         rhs(time + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
         for g in range(guards.size):
             lowest[g] = min(lowest[g], guards[g])
