@@ -12,6 +12,7 @@ import typer
 from towercrane.lattice_command import lattice
 from towercrane.map_command import frequency_map
 from towercrane.studies import bench, linearise, sensitivity
+from towercrane.sweeps import sweep
 from towercrane.terminal import (
     ENDED_EARLY,
     INTERRUPTED,
@@ -274,6 +275,7 @@ app.command()(lattice)
 app.command()(linearise)
 app.command("map")(frequency_map)
 app.command()(sensitivity)
+app.command()(sweep)
 app.command()(bench)
 
 

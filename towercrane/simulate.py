@@ -82,8 +82,7 @@ def simulate(
             warnings.warn(said, drift.EnergyDriftWarning, stacklevel=2)
     began = time.perf_counter()
     cut = phases(tuple(motions[channel] for channel in model.channels), duration)
-    rows = int(np.floor(duration / output_step * (1.0 + 1e-12))) + 1
-    sample_times = np.minimum(np.arange(rows) * output_step, duration)
+    sample_times = rows_of(duration, output_step)
     message = ""
     try:
         start = model.start(cut.inputs[0], state, swing_angle)
@@ -146,6 +145,12 @@ def run_case(case: Case, *, progress: Progress | None = None) -> xr.Dataset:
     result.attrs["case_text"] = json.dumps(case.as_written)
     result.attrs["assumed"] = json.dumps([[a.key, str(a.value), a.why] for a in case.rests_on])
     return result
+
+
+def rows_of(duration: float, output_step: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Times of a result's rows [s]; shape (rows,)."""
+    rows = int(np.floor(duration / output_step * (1.0 + 1e-12))) + 1
+    return np.asarray(np.minimum(np.arange(rows) * output_step, duration))
 
 
 def versions() -> dict[str, str]:

@@ -7,6 +7,7 @@ import platform
 from typing import TYPE_CHECKING, Any
 
 from towercrane.bench.growth import growth
+from towercrane.bench.lanes import many_runs
 from towercrane.bench.radial import modes_left_out, right_hand_side
 from towercrane.bench.roots import roots
 from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene
@@ -29,6 +30,7 @@ SUBJECTS: dict[str, tuple[str, Subject]] = {
     "enhanced": ("slewing crane, enhanced", lambda repeats, quick: _lumped("enhanced", repeats, quick)),
     "basic": ("slewing crane, basic", lambda repeats, quick: _lumped("basic", repeats, quick)),
     "jib": ("jib crane", lambda repeats, quick: work_precision(jib_scene(), repeats, quick=quick)),
+    "many": ("many runs at once", lambda repeats, quick: many_runs(repeats)),
     "growth": ("growth of the cost", lambda repeats, quick: growth(repeats)),
 }
 """What is measured, by name; each takes the number of repeats and whether to be quick, and gives a table."""
