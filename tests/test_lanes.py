@@ -15,7 +15,7 @@ from towercrane.simulate import rows_of, simulate
 
 DURATION = 12.0
 ROWS = rows_of(DURATION, 0.05)
-LOOSE = {"rtol": 1e-4, "atol": 1e-6}
+LOOSE = {"rtol": 1e-5, "atol": 1e-7}
 
 
 def lane_run(crane, drives, state="equilibrium", swing_angle=0.0):

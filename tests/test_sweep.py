@@ -12,7 +12,7 @@ from towercrane import load_case, results, run_case, sweep
 from towercrane.summary import peaks
 from towercrane.variations import grid
 
-SHORT = ["run.duration=8 s", "solver.rtol=1e-4", "solver.atol=1e-6", "model.jib_modes=1", "model.tower_modes=1"]
+SHORT = ["run.duration=8 s", "solver.rtol=1e-5", "solver.atol=1e-7", "model.jib_modes=1", "model.tower_modes=1"]
 
 
 @pytest.fixture(scope="module")

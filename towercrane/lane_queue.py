@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba import types
 
 from modal.compiled import kernel
 from towercrane.lane_vector import LANES
@@ -133,6 +134,30 @@ class Lanes(NamedTuple):
     work: Any
     norms: Any
     outputs: Any
+
+
+def queue_type() -> Any:
+    """Numba type of a :class:`Queue`."""
+    one, two, three, four = (types.Array(types.float64, axes, "C") for axes in (1, 2, 3, 4))
+    integers = types.Array(types.int64, 1, "C")
+    fields = [integers, two, two, two, three, four, two, three, integers, two, four, types.int64[:, ::1], one, three]
+    return types.NamedTuple(fields, Queue)
+
+
+def answers_type() -> Any:
+    """Numba type of :class:`Answers`."""
+    one, two, three = (types.Array(types.float64, axes, "C") for axes in (1, 2, 3))
+    integers = types.Array(types.int64, 1, "C")
+    return types.NamedTuple([integers, one, one, two, types.int64[:, ::1], three, three], Answers)
+
+
+def lanes_type() -> Any:
+    """Numba type of :class:`Lanes`."""
+    two, three, four = (types.Array(types.float64, axes, "C") for axes in (2, 3, 4))
+    states, guards = [two] * 5, [two] * 3
+    constants = [three, two, three, four, three]
+    fields = [types.int64[::1], types.int64[:, ::1], two, *states, three, *guards, *constants, three, two, two]
+    return types.NamedTuple(fields, Lanes)
 
 
 def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int], outputs: int) -> Lanes:

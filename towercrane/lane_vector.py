@@ -16,10 +16,8 @@ from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.core.typeconv.castgraph import Conversion
-from numba.extending import intrinsic, lower_builtin, lower_cast, models, register_model, type_callable
-from numba.np.arrayobj import make_array, populate_array
-
-_intrinsic: Any = intrinsic
+from numba.extending import lower_builtin, lower_cast, models, register_model, type_callable
+from numba.np.arrayobj import make_array
 
 LANES = 8
 """Runs side by side; eight doubles fill a register of AVX-512."""
@@ -45,20 +43,20 @@ class LaneIndex(types.Type):
 
 VECTOR, INDEX = LaneVector(), LaneIndex()
 
-_DOUBLES, _INTEGERS = ir.VectorType(ir.DoubleType(), LANES), ir.VectorType(ir.IntType(64), LANES)
-_TABLE = types.Array(types.float64, 3, "C")
+DOUBLES, INTEGERS = ir.VectorType(ir.DoubleType(), LANES), ir.VectorType(ir.IntType(64), LANES)
+TABLE = types.Array(types.float64, 3, "C")
 
 
 @register_model(LaneVector)
 class _LaneVectorModel(models.PrimitiveModel):
     def __init__(self, manager: Any, kind: Any) -> None:
-        super().__init__(manager, kind, _DOUBLES)
+        super().__init__(manager, kind, DOUBLES)
 
 
 @register_model(LaneIndex)
 class _LaneIndexModel(models.PrimitiveModel):
     def __init__(self, manager: Any, kind: Any) -> None:
-        super().__init__(manager, kind, _INTEGERS)
+        super().__init__(manager, kind, INTEGERS)
 
 
 def _spread(builder: Any, value: Any, kind: Any) -> Any:
@@ -72,7 +70,7 @@ def _doubles(context: Any, builder: Any, value: Any, kind: Any) -> Any:
     """A number or lane vector as a lane vector."""
     if kind == VECTOR:
         return value
-    return _spread(builder, context.cast(builder, value, kind, types.float64), _DOUBLES)
+    return _spread(builder, context.cast(builder, value, kind, types.float64), DOUBLES)
 
 
 @lower_cast(types.Float, VECTOR)
@@ -111,7 +109,7 @@ def _called(name: str) -> Any:
     """Build a call of an LLVM intrinsic on one lane vector."""
 
     def build(_context: Any, builder: Any, value: Any) -> Any:
-        kind = ir.FunctionType(_DOUBLES, [_DOUBLES])
+        kind = ir.FunctionType(DOUBLES, [DOUBLES])
         function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{LANES}f64")
         return builder.call(function, [value])
 
@@ -151,7 +149,7 @@ for _function, _name in (
 
 def _signed(_context: Any, builder: Any, value: Any) -> Any:
     """Build -1, 0 or 1."""
-    zero, one = (ir.Constant(_DOUBLES, [number] * LANES) for number in (0.0, 1.0))
+    zero, one = (ir.Constant(DOUBLES, [number] * LANES) for number in (0.0, 1.0))
     positive = builder.select(builder.fcmp_ordered(">", value, zero), one, value)
     return builder.select(builder.fcmp_ordered("<", value, zero), builder.fneg(one), positive)
 
@@ -161,7 +159,7 @@ def _lane_by_lane(function: Any) -> Any:
 
     def build(context: Any, builder: Any, value: Any) -> Any:
         called = context.get_function(function, types.float64(types.float64))
-        found = ir.Constant(_DOUBLES, ir.Undefined)
+        found = ir.Constant(DOUBLES, ir.Undefined)
         for lane in range(LANES):
             place = ir.Constant(ir.IntType(32), lane)
             found = builder.insert_element(found, called(builder, [builder.extract_element(value, place)]), place)
@@ -188,7 +186,7 @@ def _type_of_index(_context: Any) -> Any:
 
 @lower_builtin(int, VECTOR)
 def _to_index(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
-    return builder.fptosi(arguments[0], _INTEGERS)
+    return builder.fptosi(arguments[0], INTEGERS)
 
 
 def _bounded(function: Any, comparison: str) -> None:
@@ -201,7 +199,7 @@ def _bounded(function: Any, comparison: str) -> None:
     @lower_builtin(function, INDEX, types.Integer)
     def lower(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         index = arguments[0]
-        bound = _spread(builder, context.cast(builder, arguments[1], signature.args[1], types.int64), _INTEGERS)
+        bound = _spread(builder, context.cast(builder, arguments[1], signature.args[1], types.int64), INTEGERS)
         return builder.select(builder.icmp_signed(comparison, bound, index), bound, index)
 
 
@@ -217,7 +215,7 @@ def _type_of_sum(_context: Any) -> Any:
 @lower_builtin(operator.add, INDEX, types.Float)
 def _sum(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     number = _doubles(context, builder, arguments[1], signature.args[1])
-    return builder.fadd(builder.sitofp(arguments[0], _DOUBLES), number)
+    return builder.fadd(builder.sitofp(arguments[0], DOUBLES), number)
 
 
 _PLACE = types.Tuple([INDEX, types.int64, types.int64])
@@ -225,125 +223,21 @@ _PLACE = types.Tuple([INDEX, types.int64, types.int64])
 
 @type_callable(operator.getitem)
 def _type_of_item(_context: Any) -> Any:
-    return lambda table, place: VECTOR if table == _TABLE and place == _PLACE else None
+    return lambda table, place: VECTOR if table == TABLE and place == _PLACE else None
 
 
-@lower_builtin(operator.getitem, _TABLE, _PLACE)
+@lower_builtin(operator.getitem, TABLE, _PLACE)
 def _item(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
     """In every lane table[cell, i, j] with the lane's own cell."""
-    table = make_array(_TABLE)(context, builder, arguments[0])
+    table = make_array(TABLE)(context, builder, arguments[0])
     cells, i, j = cgutils.unpack_tuple(builder, arguments[1])
     _, rows, columns = cgutils.unpack_tuple(builder, table.shape)
     offset = builder.add(builder.mul(i, columns), j)
-    stride = _spread(builder, builder.mul(rows, columns), _INTEGERS)
-    offsets = builder.add(builder.mul(cells, stride), _spread(builder, offset, _INTEGERS))
-    found = ir.Constant(_DOUBLES, ir.Undefined)
+    stride = _spread(builder, builder.mul(rows, columns), INTEGERS)
+    offsets = builder.add(builder.mul(cells, stride), _spread(builder, offset, INTEGERS))
+    found = ir.Constant(DOUBLES, ir.Undefined)
     for lane in range(LANES):
         place = ir.Constant(ir.IntType(32), lane)
         value = builder.load(builder.gep(table.data, [builder.extract_element(offsets, place)]))
         found = builder.insert_element(found, value, place)
     return found
-
-
-def _view(context: Any, builder: Any, source: Any, kind: Any, axes: int, itemsize: Any) -> Any:
-    """Array over the first axes of another's memory, which it does not own.
-
-    Counting owners at every call of a small function would take a quarter of the time of the steps.
-    """
-    target = make_array(kind)(context, builder)
-    populate_array(
-        target,
-        data=builder.bitcast(source.data, target.data.type),
-        shape=cgutils.unpack_tuple(builder, source.shape)[:axes],
-        strides=cgutils.unpack_tuple(builder, source.strides)[:axes],
-        itemsize=itemsize,
-        meminfo=None,
-    )
-    return target._getvalue()
-
-
-@_intrinsic
-def in_lanes(_context: Any, array: Any) -> Any:
-    """The same memory with its last axis, of length LANES, as lane vectors; the caller keeps the array."""
-    # Without a claim of alignment: numpy promises 16 bytes, a register would want 64.
-    kind = types.Array(VECTOR, array.ndim - 1, "C", aligned=False)
-
-    def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        source = make_array(signature.args[0])(context, builder, arguments[0])
-        itemsize = ir.Constant(ir.IntType(64), 8 * LANES)
-        return _view(context, builder, source, kind, array.ndim - 1, itemsize)
-
-    return kind(array), build
-
-
-@_intrinsic
-def lent(_context: Any, array: Any) -> Any:
-    """The same array for functions that are called often; the caller keeps it."""
-
-    def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        source = make_array(signature.args[0])(context, builder, arguments[0])
-        return _view(context, builder, source, array, array.ndim, source.itemsize)
-
-    return array(array), build
-
-
-def _constant(kind: Any, number: float) -> Any:
-    """A number, or the same in every lane."""
-    return ir.Constant(_DOUBLES, [number] * LANES) if kind == VECTOR else ir.Constant(ir.DoubleType(), number)
-
-
-@_intrinsic
-def below(_context: Any, a: Any, b: Any) -> Any:
-    """1 where a is less than b, else 0; in every lane where one of them is a lane vector.
-
-    A comparison that is a number, and not a truth value, has a type that widens to lanes as its operands do.
-    """
-    kind = VECTOR if VECTOR in (a, b) else types.float64
-
-    def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        given = zip(arguments, signature.args, strict=True)
-        one, other = (context.cast(builder, value, own, kind) for value, own in given)
-        return builder.uitofp(builder.fcmp_ordered("<", one, other), _constant(kind, 0.0).type)
-
-    return kind(a, b), build
-
-
-@_intrinsic
-def choose(_context: Any, where: Any, a: Any, b: Any) -> Any:
-    """A where a condition is not zero, else b; in every lane where one of the three is a lane vector."""
-    kind = VECTOR if VECTOR in (where, a, b) else types.float64
-
-    def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        given = zip(arguments, signature.args, strict=True)
-        condition, one, other = (context.cast(builder, value, own, kind) for value, own in given)
-        return builder.select(builder.fcmp_unordered("!=", condition, _constant(kind, 0.0)), one, other)
-
-    return kind(where, a, b), build
-
-
-@_intrinsic
-def everywhere(_context: Any, condition: Any) -> Any:
-    """Whether a condition is not zero, in all lanes."""
-
-    def build(_context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        kind = signature.args[0]
-        bits = builder.fcmp_unordered("!=", arguments[0], _constant(kind, 0.0))
-        if kind == VECTOR:
-            all_bits = ir.IntType(LANES)
-            return builder.icmp_unsigned("==", builder.bitcast(bits, all_bits), all_bits(2**LANES - 1))
-        return bits
-
-    return types.boolean(condition), build
-
-
-@_intrinsic
-def whole(_context: Any, value: Any) -> Any:
-    """Whole number that a float holds, or a lane vector in every lane."""
-
-    def build(_context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        number = arguments[0]
-        if signature.args[0] == VECTOR:
-            number = builder.extract_element(number, ir.Constant(ir.IntType(32), 0))
-        return builder.fptosi(number, ir.IntType(64))
-
-    return types.int64(value), build

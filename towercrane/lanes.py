@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.radial import TOWER_BUCKLED
 from towercrane.cranes.flexible_layout import TENSION as TENSION_GUARD
+from towercrane.cranes.radial import TOWER_BUCKLED
+from towercrane.cranes.radial_lane_rhs import rhs
 from towercrane.cranes.radial_lanes import OUTPUTS, advance
 from towercrane.integrate import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, evaluate, phase_of
 from towercrane.lane_queue import (
@@ -166,7 +167,7 @@ def integrate_many(
         left = True
         while left and not stop.is_set():
             left = advance(
-                queue, mine, lanes, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
+                rhs, queue, mine, lanes, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
                 tableau.error_order, rtol, STEPS_PER_CALL,
             )  # fmt: skip
 

@@ -17,6 +17,7 @@ from towercrane.terminal import (
     CaseName,
     Changes,
     announce_compilation,
+    compile_beside,
     fail,
     folder_for_results,
     load,
@@ -65,6 +66,7 @@ def sweep(
 
     if loaded.kind == "radial" and not is_compiled("towercrane.cranes.radial_lanes"):
         say("compiling for many runs at once, about half a minute; later sweeps start at once ...")
+        compile_beside("towercrane.cranes.radial_lane_rhs", "towercrane.cranes.radial_lanes")
     else:
         announce_compilation(loaded.kind, "towercrane.stepper")
     began = time.perf_counter()
@@ -92,6 +94,7 @@ def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
     """Largest and smallest value of every output over all runs and where they occur, ready for JSON."""
     import numpy as np
 
+    from towercrane.drift import notice
     from towercrane.summary import assumed
 
     varied = {key: data[key.replace(".", "_")] for key in json.loads(data.attrs["varied"])}
@@ -108,6 +111,7 @@ def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
             units = data[f"{name}_max"].attrs["units"]
             extremes[name] = {"largest": at(f"{name}_max", high), "smallest": at(f"{name}_min", low), "units": units}
     runs = len(data["run"])
+    said = notice(data.attrs["method"], data.attrs["rtol"], data.attrs["atol"])
     return {
         "case": data.attrs["case"],
         "title": data.attrs["title"],
@@ -120,6 +124,7 @@ def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
             for key, values in varied.items()
         ],
         "extremes": extremes,
+        "notices": [said] if said else [],
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(data)],
         "seconds": seconds,
         "runs_per_second": runs / seconds,

@@ -319,6 +319,8 @@ def sweep_tables(report: dict[str, Any]) -> None:
             table.add_row(name.replace("_", " "), kind, f"{value['value']:.5g}", found["units"], *at)
     console.print(table)
     console.print(f"{report['seconds']:.2f} s, {report['runs_per_second']:.0f} runs per second")
+    for said in report["notices"]:
+        console.print(f"note     {said}", style="bold")
     _assumed(console, report["assumed"])
 
 

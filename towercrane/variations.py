@@ -311,7 +311,7 @@ def _dataset(case: Case, values: dict[str, list[Value]], found: _Extremes, first
         unit = unit_of(case.kind, key)
         about = {"key": key, "units": unit or "1", "long_name": key.replace(".", " ").replace("_", " ")}
         coordinates[key.replace(".", "_")] = ("run", np.array(given), about)
-    rests_on = [a for a in case.assumed if not a.key.startswith("crane.tower.lattice.") and a.key not in values]
+    rests_on = [a for a in case.rests_on if a.key not in values]
     attributes = {
         "title": case.title,
         "case": case.name,

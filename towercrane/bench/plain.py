@@ -1,7 +1,7 @@
 """Radial equations as one would first write them in NumPy: matrices, a general solve, the swing as an angle.
 
-The same model as :class:`towercrane.cranes.radial.RadialModel` in other coordinates and without its shortcuts. It shows what
-the compiled right-hand side saves, and checks it.
+The same model as :class:`towercrane.cranes.radial.RadialModel` in other coordinates and without its shortcuts. It
+shows what the compiled right-hand side saves, and checks it.
 """
 
 from __future__ import annotations

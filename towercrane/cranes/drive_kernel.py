@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from modal.compiled import kernel
-from towercrane.lane_vector import below, choose
+from towercrane.lane_choices import below, choose
 
 
 @kernel()

@@ -207,8 +207,9 @@ class FlexibleModel:
     def with_load(self, load: Load) -> FlexibleModel:
         """The same crane with another load: what does not depend on the load is shared, not made again."""
         other = replace(self, load=load)
+        softened = matrices(other) if self.weight_softening else self.system.matrices
         # A cached property that is filled beforehand.
-        vars(other)["system"] = replace(self.system, numbers=numbers(other), matrices=matrices(other))
+        vars(other)["system"] = replace(self.system, numbers=numbers(other), matrices=softened)
         return other
 
     @cached_property

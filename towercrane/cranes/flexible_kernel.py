@@ -23,7 +23,7 @@ from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.head_kernel import Head, Vector, move_head
 from towercrane.cranes.jib_kernel import bend_jib
 from towercrane.cranes.projection_kernel import Body, project_head, project_jib
-from towercrane.lane_vector import whole
+from towercrane.lane_choices import whole
 from towercrane.payload import BIAS, FORCE, VELOCITY, WIND
 from towercrane.polynomial import polynomial
 

@@ -10,7 +10,7 @@ from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.drive_kernel import coupling_torque
 from towercrane.cranes.flexible_kernel import structure
-from towercrane.lane_vector import whole
+from towercrane.lane_choices import whole
 from towercrane.payload import ACCELERATION, DIRECTION, FORCE, HINGE, MASS, hang_load
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature

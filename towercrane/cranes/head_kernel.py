@@ -14,7 +14,7 @@ import numpy as np
 from numba import types
 
 from modal.compiled import kernel
-from towercrane.lane_vector import below, choose, everywhere
+from towercrane.lane_choices import below, choose, everywhere
 
 Vector = tuple[float, float, float]
 

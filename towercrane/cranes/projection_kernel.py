@@ -12,7 +12,7 @@ from typing import Any
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.head_kernel import Head, Vector
-from towercrane.lane_vector import whole
+from towercrane.lane_choices import whole
 from towercrane.payload import FORCE, JACOBIAN, MASS
 
 Body = tuple[float, Vector, tuple[float, ...], Vector, Vector]

@@ -1,7 +1,7 @@
 """Compiled runs of the crane in radial motion side by side.
 
-The equations are those of :mod:`towercrane.cranes.flexible_rhs` in a plane, compiled for lane vectors; the steps are put
-together from :mod:`towercrane.lane_stepper` and :mod:`towercrane.lane_looks`.
+The steps are put together from :mod:`towercrane.lane_stepper` and :mod:`towercrane.lane_looks`; the equations come as
+a function pointer, which is compiled by itself.
 """
 
 from __future__ import annotations
@@ -9,12 +9,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numba import types
 
 from modal.compiled import kernel
 from towercrane import lane_looks as looks
 from towercrane import lane_queue, lane_stepper
 from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes import flexible_rhs
+from towercrane.lane_arrays import in_lanes, lane_rhs_signature, lent
+from towercrane.lane_choices import choose
 from towercrane.lane_queue import (
     ACCEPTED_STEP,
     COLLAPSED,
@@ -30,8 +32,11 @@ from towercrane.lane_queue import (
     RUN,
     TIME,
     TRIAL,
+    answers_type,
+    lanes_type,
+    queue_type,
 )
-from towercrane.lane_vector import LANES, choose, in_lanes, lent
+from towercrane.lane_vector import LANES
 from towercrane.stepper import LOOKS, stage_state
 
 AXES = 2
@@ -43,11 +48,48 @@ TOWER_TIP, JIB_TIP, SWING, TENSION = range(4)
 OUTPUTS = ("tower_tip_displacement", "jib_tip_deflection", "swing_angle", "rope_tension")
 """Their names."""
 
-rhs = kernel()(flexible_rhs.rhs.py_func)
+
+@kernel()
+def _take_stages(
+    rhs: Any, first: int, last: int, a: Any, c: Any, y: Any, trial: Any, slope: Any, k: Any, clocks: Any, inputs: Any,
+    numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any, guards: Any, lowest: Any,
+) -> None:  # fmt: skip
+    """Slopes of the stages from first to last in every lane, and the lowest value of every guard."""
+    step, time = clocks[TRIAL], clocks[TIME]
+    for i in range(first, last + 1):
+        stage_state(y, a, i, k, step, trial)
+        rhs(time + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+        for g in range(guards.size):
+            lowest[g] = min(lowest[g], guards[g])
+        for m in range(y.size):
+            k[i, m] = slope[m]
 
 
-@kernel(parallel_calls=True)
+@kernel()
+def _observe(
+    states: Any, lane_states: Any, guards: Any, watched: Any, outputs: Any, lane_outputs: Any, n: int
+) -> None:
+    """Outputs of every lane in these states."""
+    for output in (TOWER_TIP, JIB_TIP):
+        value = guards[0] * 0.0
+        for i in range(n):
+            value += watched[output, i] * states[i]
+        outputs[output] = value
+    outputs[TENSION] = guards[layout.TENSION]
+    for lane in range(LANES):
+        lane_outputs[SWING, lane] = np.arctan2(lane_states[n, lane], -lane_states[n + 1, lane])
+
+
+@kernel(
+    types.boolean(
+        types.FunctionType(lane_rhs_signature()), queue_type(), answers_type(), lanes_type(),
+        types.int64, types.float64[:, ::1], types.float64[::1], types.float64[:, ::1], types.float64[:, ::1],
+        types.int64, types.float64, types.int64,
+    ),
+    parallel_calls=True,
+)  # fmt: skip
 def advance(
+    rhs: Any,
     queue: Any,
     answers: Any,
     lanes: Any,
@@ -64,6 +106,8 @@ def advance(
 
     Parameters
     ----------
+    rhs : compiled function
+        As in :func:`towercrane.lane_arrays.lane_rhs_signature`.
     queue, answers, lanes
         See :mod:`towercrane.lane_queue`.
     stages, a, c, error, dense, error_order
@@ -123,6 +167,7 @@ def advance(
         for g in range(guards.size):
             lowest[g] = np.inf
         _take_stages(
+            rhs,
             1,
             stages,
             a,
@@ -150,7 +195,7 @@ def advance(
         )  # fmt: skip
         if looking:
             _take_stages(
-                stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices,
+                rhs, stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices,
                 tables, work, guards, lowest,
             )  # fmt: skip
             lane_stepper.count(looking, places, counts, a.shape[0] - 1 - stages)
@@ -189,34 +234,3 @@ def advance(
                     else:
                         lane_queue.begin_phase(queue, lanes, lane, n, AXES)
     return True
-
-
-@kernel()
-def _take_stages(
-    first: int, last: int, a: Any, c: Any, y: Any, trial: Any, slope: Any, k: Any, clocks: Any, inputs: Any,
-    numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any, guards: Any, lowest: Any,
-) -> None:  # fmt: skip
-    """Slopes of the stages from first to last in every lane, and the lowest value of every guard."""
-    step, time = clocks[TRIAL], clocks[TIME]
-    for i in range(first, last + 1):
-        stage_state(y, a, i, k, step, trial)
-        rhs(time + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-        for g in range(guards.size):
-            lowest[g] = min(lowest[g], guards[g])
-        for m in range(y.size):
-            k[i, m] = slope[m]
-
-
-@kernel()
-def _observe(
-    states: Any, lane_states: Any, guards: Any, watched: Any, outputs: Any, lane_outputs: Any, n: int
-) -> None:
-    """Outputs of every lane in these states."""
-    for output in (TOWER_TIP, JIB_TIP):
-        value = guards[0] * 0.0
-        for i in range(n):
-            value += watched[output, i] * states[i]
-        outputs[output] = value
-    outputs[TENSION] = guards[layout.TENSION]
-    for lane in range(LANES):
-        lane_outputs[SWING, lane] = np.arctan2(lane_states[n, lane], -lane_states[n + 1, lane])
