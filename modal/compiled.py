@@ -38,7 +38,9 @@ def is_compiled(module: str) -> bool:
     return any(cache_folder().rglob(f"{stem}.*.nbi"))
 
 
-def kernel(signature: Any = None, *, inline: bool = False) -> Callable[[Callable[..., Any]], Any]:
+def kernel(
+    signature: Any = None, *, inline: bool = False, parallel_calls: bool = False
+) -> Callable[[Callable[..., Any]], Any]:
     """Compile a function with numba, cached; with a signature at once, without one at its first call.
 
     Parameters
@@ -47,6 +49,8 @@ def kernel(signature: Any = None, *, inline: bool = False) -> Callable[[Callable
         A function with a signature can be passed to other kernels as a function pointer.
     inline : bool
         Copy the function into each kernel that calls it: a call with arrays costs some 20 ns of reference counts.
+    parallel_calls : bool
+        Let several threads be inside at the same time: the interpreter's lock is given away on the way in.
     """
     import numba
     from numba.core import config as numba_config
@@ -60,7 +64,9 @@ def kernel(signature: Any = None, *, inline: bool = False) -> Callable[[Callable
         try:
             arguments = () if signature is None else (signature,)
             inlining = "always" if inline else "never"
-            return compile_(*arguments, cache=True, error_model="numpy", inline=inlining)(function)
+            return compile_(*arguments, cache=True, error_model="numpy", inline=inlining, nogil=parallel_calls)(
+                function
+            )
         finally:
             config.CACHE_DIR = before
 

@@ -35,7 +35,19 @@ def run(folder):
 
 def test_help_and_version_name_every_command():
     text = towercrane("--help").stdout
-    for command in ("modes", "run", "linearise", "shape", "figures", "bench", "cases"):
+    for command in (
+        "modes",
+        "run",
+        "linearise",
+        "shape",
+        "sweep",
+        "map",
+        "lattice",
+        "compare",
+        "figures",
+        "bench",
+        "cases",
+    ):
         assert command in text
     assert towercrane("--version").stdout.startswith("towercrane 0.")
 

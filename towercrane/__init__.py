@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.payload import Load
     from towercrane.simulate import run_case
+    from towercrane.variations import sweep
 
 __all__ = [
     "FlexibleModel",
@@ -28,6 +29,7 @@ __all__ = [
     "flexible_crane",
     "load_case",
     "run_case",
+    "sweep",
 ]
 
 __version__ = "0.1.0"
@@ -41,6 +43,7 @@ _HOME = {
     "flexible_crane": "cranes.flexible_crane",
     "load_case": "case",
     "run_case": "simulate",
+    "sweep": "variations",
 }
 
 

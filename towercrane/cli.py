@@ -14,6 +14,7 @@ from towercrane.lattice_command import lattice
 from towercrane.map_command import frequency_map
 from towercrane.space_command import space_modes
 from towercrane.studies import bench, linearise, sensitivity, shape
+from towercrane.sweeps import sweep
 from towercrane.terminal import (
     ENDED_EARLY,
     INTERRUPTED,
@@ -295,6 +296,7 @@ app.command()(linearise)
 app.command("map")(frequency_map)
 app.command()(compare)
 app.command()(sensitivity)
+app.command()(sweep)
 app.command()(bench)
 app.command()(shape)
 

@@ -180,7 +180,7 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
     guards, numbers, floors = np.empty(len(system.guards)), system.numbers.copy(), system.floors.copy()
     k, scratch = np.empty((len(tableau.a), system.size)), np.empty((3, system.size))
     work, step = np.zeros(system.work_shape), 0.0
-    owner = _phase_of(sample_times, phases)
+    owner = phase_of(sample_times, phases)
     for phase, inputs in enumerate(phases.inputs):
         run.restart(phases, phase)
         begin, t_end = run.time, float(phases.times[phase + 1] - phases.times[phase])
@@ -251,7 +251,7 @@ def _scipy(
     current = 0
 
     def rhs(t: float, y: Floats) -> Floats:
-        phase = current if split else int(_phase_of(np.array([t]), phases)[0])
+        phase = current if split else int(phase_of(np.array([t]), phases)[0])
         local = t - phases.times[phase]
         system.rhs(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards)
         return slope.copy()
@@ -268,7 +268,7 @@ def _scipy(
     # A state that must not steer the step gets a tolerance that it always meets.
     atol = np.where(np.isinf(run.atol), 1e300, run.atol)
     watched = [index for index, floor in enumerate(system.floors) if np.isfinite(floor)]
-    owner = _phase_of(sample_times, phases)
+    owner = phase_of(sample_times, phases)
     legs = range(len(phases.inputs)) if split else range(1)
     for current in legs:
         run.restart(phases, current)
@@ -305,7 +305,7 @@ def _scipy(
     return FINISHED
 
 
-def _phase_of(times: Floats, phases: Phases) -> NDArray[np.int64]:
+def phase_of(times: Floats, phases: Phases) -> NDArray[np.int64]:
     """Index of the phase that each time belongs to; a switch time belongs to the phase it begins."""
     index = np.searchsorted(phases.times, times + SAME_INSTANT, side="right") - 1
     return np.clip(index, 0, len(phases.inputs) - 1)
@@ -327,7 +327,7 @@ def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> t
     from towercrane import stepper
 
     slopes, guards = np.empty_like(states), np.empty((len(times), len(system.guards)))
-    work, owner = np.zeros(system.work_shape), _phase_of(times, phases)
+    work, owner = np.zeros(system.work_shape), phase_of(times, phases)
     for phase in np.unique(owner):
         mine = np.flatnonzero(owner == phase)
         part = slice(mine[0], mine[-1] + 1)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.casefile import leaves
 from towercrane.faults import Fault, closest, shown
-from towercrane.schema import Table, tables
+from towercrane.schema import Quantity, Table, tables
 from towercrane.schema_cases import KINDS
 
 if TYPE_CHECKING:
@@ -88,6 +88,17 @@ def of_kinds(kinds: Iterable[str]) -> str:
 def plain_key(key: str) -> str:
     """A dotted key without the numbers of list items."""
     return ".".join(part for part in key.split(".") if not part.isdecimal())
+
+
+def unit_of(kind: str, key: str) -> str | None:
+    """SI unit of a dotted key that this kind knows; None if its value is no quantity."""
+    within: list[type[Table]] = [KINDS[kind]]
+    *parents, last = plain_key(key).split(".")
+    for name in parents:
+        fields = [table.model_fields[name] for table in within if name in table.model_fields]
+        within = [inner for field in fields for inner in tables(field.annotation)]
+    metadata = [m for table in within if last in table.model_fields for m in table.model_fields[last].metadata]
+    return next((m.unit for m in metadata if isinstance(m, Quantity)), None)
 
 
 @cache

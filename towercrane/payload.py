@@ -13,16 +13,11 @@ work [J] that inputs and dissipation have put into the crane since the start. An
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from modal.compiled import kernel
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
 
 AIR_DENSITY = 1.225
 """Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""
@@ -78,15 +73,22 @@ def work_shape(coordinates: int) -> tuple[int, int]:
     return MASS + coordinates, max(coordinates, 3)
 
 
-def restore(state: Floats, coordinates: int, axes: int) -> None:
+@kernel()
+def restore(state: Any, coordinates: int, axes: int) -> None:
     """Put the rope's direction back to unit length and its rate at right angles, in place.
 
     The stretch of an elastic rope counts as a coordinate here.
     """
-    n = state[coordinates : coordinates + axes]
-    p = state[(len(state) - 1) // 2 + coordinates :][:axes]
-    n /= np.linalg.norm(n)
-    p -= (n @ p) * n
+    direction, sway = coordinates, (state.size - 1) // 2 + coordinates
+    square, along = 0.0, 0.0
+    for k in range(axes):
+        square += state[direction + k] * state[direction + k]
+    norm = np.sqrt(square)
+    for k in range(axes):
+        state[direction + k] /= norm
+        along += state[direction + k] * state[sway + k]
+    for k in range(axes):
+        state[sway + k] -= along * state[direction + k]
 
 
 @kernel()

@@ -83,8 +83,7 @@ def simulate(
             warnings.warn(said, drift.EnergyDriftWarning, stacklevel=2)
     began = time.perf_counter()
     cut = phases(tuple(motions[channel] for channel in model.channels), duration)
-    rows = int(np.floor(duration / output_step * (1.0 + 1e-12))) + 1
-    sample_times = np.minimum(np.arange(rows) * output_step, duration)
+    sample_times = rows_of(duration, output_step)
     message = ""
     try:
         start = model.start(cut.inputs[0], state, swing_angle)
@@ -169,6 +168,12 @@ def _to_target(case: Case, progress: Progress | None) -> xr.Dataset | None:
     result = scene.run(choice.setting, progress=progress)
     result.attrs["accuracy"] = json.dumps(promise(case, choice, result))
     return result
+
+
+def rows_of(duration: float, output_step: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Times of a result's rows [s]; shape (rows,)."""
+    rows = int(np.floor(duration / output_step * (1.0 + 1e-12))) + 1
+    return np.asarray(np.minimum(np.arange(rows) * output_step, duration))
 
 
 def versions() -> dict[str, str]:

@@ -69,7 +69,7 @@ def _fallen(guards: Any, floors: Any) -> int:
 
 
 @kernel()
-def _stage(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
+def stage_state(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
     """State of stage ``row``: out = y + h sum_j a[row, j] k[j]."""
     for m in range(y.size):
         out[m] = 0.0
@@ -99,7 +99,7 @@ def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
 
 
 @kernel()
-def _first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> float:
+def first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> float:
     """First guess of a step, from the size of state and slope."""
     size, speed = 0.0, 0.0
     for m in range(y.size):
@@ -187,7 +187,7 @@ def advance(
         if counts[GUARD_INDEX] >= 0:
             return GUARD
     if h <= 0.0:
-        h = _first_step(y, slope, rtol, atol, t_end)
+        h = first_step(y, slope, rtol, atol, t_end)
     shortest = 16.0 * np.finfo(np.float64).eps * t_end
     taken = 0
     grow = GROW
@@ -203,7 +203,7 @@ def advance(
         # The slopes go through a fixed array: a view of k per stage would cost a tenth of the right-hand side.
         suspect = False
         for i in range(1, stages + 1):
-            _stage(y, a, i, k, step, trial)
+            stage_state(y, a, i, k, step, trial)
             rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
             suspect = suspect or _fallen(guards, floors) >= 0
             for m in range(y.size):
@@ -224,7 +224,7 @@ def advance(
         wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
         if suspect or wanted:
             for i in range(stages + 1, all_stages):
-                _stage(y, a, i, k, step, trial)
+                stage_state(y, a, i, k, step, trial)
                 rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
                 for m in range(y.size):
                     k[i, m] = slope[m]

@@ -393,6 +393,28 @@ def shape_tables(report: dict[str, Any]) -> None:
     _assumed(console, report["assumed"])
 
 
+def sweep_tables(report: dict[str, Any]) -> None:
+    """Extremes over all runs, as :func:`towercrane.sweeps.report` gives them."""
+    console = _console()
+    keys = [varied["key"] for varied in report["varied"]]
+    units = {varied["key"]: varied["units"] for varied in report["varied"]}
+    ended = ", ".join(f"{count} {outcome}" for outcome, count in report["outcomes"].items())
+    table = _table(
+        f"{report['crane']}: {report['title']}; {report['runs']} runs, {ended}",
+        "output", "", "value", "unit", *(f"{key} [{units[key]}]" for key in keys), left=2,
+    )  # fmt: skip
+    for name, found in report["extremes"].items():
+        for kind in ("largest", "smallest"):
+            value = found[kind]
+            at = [f"{v:.5g}" if isinstance(v, float) else str(v) for v in value["at"].values()]
+            table.add_row(name.replace("_", " "), kind, f"{value['value']:.5g}", found["units"], *at)
+    console.print(table)
+    console.print(f"{report['seconds']:.2f} s, {report['runs_per_second']:.0f} runs per second")
+    for said in report["notices"]:
+        console.print(f"note     {said}", style="bold")
+    _assumed(console, report["assumed"])
+
+
 def bench_tables(report: dict[str, Any]) -> None:
     """Speed against error, as :func:`towercrane.bench.measure` gives it."""
     console = _console()

@@ -40,10 +40,10 @@ def announce_compilation(kind: str, *needed: str) -> None:
     missing = [m for m in (f"towercrane.cranes.{own}", *needed) if not is_compiled(m)]
     if missing:
         say("compiling for the first time, about ten seconds; later runs start at once ...")
-        _compile(*missing)
+        compile_beside(*missing)
 
 
-def _compile(here: str, *beside: str) -> None:
+def compile_beside(here: str, *beside: str) -> None:
     """Import modules of kernels, the first here, the others in processes beside: all leave code in the cache."""
     import subprocess
     from importlib import import_module

@@ -34,6 +34,7 @@ SUBJECTS: dict[str, tuple[str, Subject]] = {
     "basic": ("slewing crane, basic", lambda repeats, quick: _lumped("basic", repeats, quick)),
     "jib": ("jib crane", lambda repeats, quick: work_precision(jib_scene(), repeats, quick=quick)),
     "accuracy": ("error-controlled runs of drawn scenes", lambda repeats, quick: error_controlled(repeats)),
+    "many": ("many runs at once", lambda repeats, quick: _many(repeats)),
     "growth": ("growth of the cost", lambda repeats, quick: growth(repeats)),
 }
 """What is measured, by name; each takes the number of repeats and whether to be quick, and gives a table."""
@@ -70,6 +71,13 @@ def measure(*, quick: bool = False, subject: str = "", say: Callable[[str], None
             subjects.append(run(2 if quick else 9, quick))
     machine = {"processor": platform.processor() or platform.machine(), "cores": os.cpu_count()}
     return {"machine": machine, "versions": versions(), "subjects": subjects}
+
+
+def _many(repeats: int) -> dict[str, Any]:
+    # Imported here: its import compiles.
+    from towercrane.bench.lanes import many_runs
+
+    return many_runs(repeats)
 
 
 def _lumped(kind: str, repeats: int, quick: bool) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -214,6 +214,14 @@ class FlexibleModel:
             restore=lambda state: restore(state, n, self.axes),
             switch=Corner(layout.INSIDE, layout.OUTSIDE, drive.soft != drive.stiff) if drive else None,
         )
+
+    def with_load(self, load: Load) -> FlexibleModel:
+        """The same crane with another load: what does not depend on the load is shared, not made again."""
+        other = replace(self, load=load)
+        softened = matrices(other) if self.weight_softening else self.system.matrices
+        # A cached property that is filled beforehand.
+        vars(other)["system"] = replace(self.system, numbers=numbers(other), matrices=softened)
+        return other
 
     @cached_property
     def angular_frequencies(self) -> Floats:

@@ -27,7 +27,8 @@ def geometric_stiffness(model: FlexibleModel) -> Floats:
     crane = model.crane
     own = 1.0 if model.self_weight else 0.0
     above = own * crane.slewing.mass + crane.trolley_mass + model.load.mass
-    return np.asarray(crane.gravity * (above * crane.tower.slope_matrix() + own * crane.tower.weight_matrix()))
+    slopes, weights = crane.tower_softening
+    return np.asarray(crane.gravity * (above * slopes + own * weights))
 
 
 def numbers(model: FlexibleModel) -> Floats:
@@ -90,8 +91,7 @@ def matrices(model: FlexibleModel) -> Floats:
     own, stiffness = np.zeros((n, n)), np.diag(model.angular_frequencies**2)
     for plane in ("tower_x", "tower_y"):
         if model.counts[plane]:
-            own[parts[plane], parts[plane]] = crane.tower.mass_matrix()
-            stiffness[parts[plane], parts[plane]] = crane.tower.stiffness_matrix()
+            own[parts[plane], parts[plane]], stiffness[parts[plane], parts[plane]] = crane.tower_matrices
             if model.weight_softening:
                 stiffness[parts[plane], parts[plane]] -= geometric_stiffness(model)
     own[parts["torsion"], parts["torsion"]] = crane.torsion.mass_matrix()

@@ -144,6 +144,16 @@ class FlexibleCrane:
         """Sums over the tower's own mass of its shapes, and with the height as weight; shapes (count,)."""
         return self.tower.mass_moments()
 
+    @cached_property
+    def tower_matrices(self) -> tuple[Floats, Floats]:
+        """Own mass and stiffness of the tower in its shapes; shapes (count, count)."""
+        return self.tower.mass_matrix(), self.tower.stiffness_matrix()
+
+    @cached_property
+    def tower_softening(self) -> tuple[Floats, Floats]:
+        """What unit force on the tower's top, and its own weight under unit gravity, take from the stiffness."""
+        return self.tower.slope_matrix(), self.tower.weight_matrix()
+
     def jib_shapes(self, position: ArrayLike, derivative: int = 0) -> Floats:
         """Shapes of the jib to the left, then up, or their derivatives; shape (jib modes, *shape of position)."""
         bases = [basis for basis in (self.lateral, self.vertical) if basis.count]

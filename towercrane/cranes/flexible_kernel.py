@@ -17,26 +17,24 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import types
 
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.head_kernel import Head, Vector, move_head
 from towercrane.cranes.jib_kernel import bend_jib
 from towercrane.cranes.projection_kernel import Body, project_head, project_jib
+from towercrane.lane_choices import whole
 from towercrane.payload import BIAS, FORCE, VELOCITY, WIND
 from towercrane.polynomial import polynomial
-
-_one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 
 
 @kernel(inline=True)
 def move_top(d: int, t: float, y: Any, inputs: Any, numbers: Any, vectors: Any) -> tuple[Head, float]:
     """Head as the coordinates of tower and slewing move it, and its tilt [rad]."""
     rates = vectors.shape[1] + d
-    to_y = int(numbers[at.TOWER_X])
-    to_turn = to_y + int(numbers[at.TOWER_Y])
-    to_jib = to_turn + int(numbers[at.TORSION]) + int(numbers[at.DRIVEN])
+    to_y = whole(numbers[at.TOWER_X])
+    to_turn = to_y + whole(numbers[at.TOWER_Y])
+    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
     ux, uy, tx, ty, txd, tyd = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     turn, turning, turn_acceleration = 0.0, 0.0, 0.0
     for i in range(to_y):
@@ -47,12 +45,16 @@ def move_top(d: int, t: float, y: Any, inputs: Any, numbers: Any, vectors: Any) 
         uy += vectors[at.TIP, i] * y[rates + i]
         tx -= vectors[at.SLOPE, i] * y[i]
         txd -= vectors[at.SLOPE, i] * y[rates + i]
-    if numbers[at.SLEWING_CHANNEL] >= 0.0 and numbers[at.DRIVEN] == 0.0:
+    slewing = whole(numbers[at.SLEWING_CHANNEL]) >= 0 and whole(numbers[at.DRIVEN]) == 0
+    if slewing:
         turn, turning, turn_acceleration = polynomial(inputs, at.SLEWING, t)
     for i in range(to_turn, to_jib):
         turn += vectors[at.TWIST, i] * y[i]
         turning += vectors[at.TWIST, i] * y[rates + i]
-    return move_head(tx, ty, txd, tyd, turn, turning, turn_acceleration, ux, uy), np.sqrt(tx * tx + ty * ty)
+    c, s = 1.0, 0.0
+    if to_jib > to_turn or slewing:
+        c, s = np.cos(turn), np.sin(turn)
+    return move_head(tx, ty, txd, tyd, c, s, turning, turn_acceleration, ux, uy), np.sqrt(tx * tx + ty * ty)
 
 
 @kernel(inline=True)
@@ -99,11 +101,11 @@ def press_wind(
     """
     n = vectors.shape[1]
     rates = n + d
-    to_y = int(numbers[at.TOWER_X])
-    to_turn = to_y + int(numbers[at.TOWER_Y])
-    to_jib = to_turn + int(numbers[at.TORSION]) + int(numbers[at.DRIVEN])
-    to_vertical = to_jib + int(numbers[at.LATERAL])
-    breeze = int(numbers[at.WIND_CHANNEL])
+    to_y = whole(numbers[at.TOWER_X])
+    to_turn = to_y + whole(numbers[at.TOWER_Y])
+    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
+    to_vertical = to_jib + whole(numbers[at.LATERAL])
+    breeze = whole(numbers[at.WIND_CHANNEL])
     x, _, _ = polynomial(inputs, breeze, t)
     across, _, _ = polynomial(inputs, breeze + 1, t)
     z, _, _ = polynomial(inputs, breeze + 2, t)
@@ -171,7 +173,7 @@ def with_trolley(body: Body, mass: float, place: Vector, pull: Vector) -> Body:
     return own + mass, first, inertia, (fx + px, fy + py, fz + pz), moment
 
 
-@kernel(types.UniTuple(types.float64, 16)(types.int64, types.float64, _one, _two, _one, _two, _three, _three, _two))
+@kernel()
 def structure(
     d: int,
     t: float,
@@ -202,8 +204,8 @@ def structure(
     """
     n = vectors.shape[1]
     rates = n + d
-    jib = int(numbers[at.TOWER_X] + numbers[at.TOWER_Y] + numbers[at.TORSION] + numbers[at.DRIVEN])
-    middle = jib + int(numbers[at.LATERAL])
+    jib = whole(numbers[at.TOWER_X] + numbers[at.TOWER_Y] + numbers[at.TORSION] + numbers[at.DRIVEN])
+    middle = jib + whole(numbers[at.LATERAL])
     head, tilt = move_top(d, t, y, inputs, numbers, vectors)
     rotation = head[0]
 
@@ -231,7 +233,7 @@ def structure(
     trolley, place = numbers[at.TROLLEY_MASS], (x, left[0], up[0])
     pull = carry_trolley(d, head, x, xd, xdd, left, up, trolley, numbers[at.GRAVITY], work)
     mass, first, inertia, push, moment = with_trolley(weigh_head(head, left, up, numbers), trolley, place, pull)
-    if numbers[at.WIND_CHANNEL] >= 0.0:
+    if whole(numbers[at.WIND_CHANNEL]) >= 0:
         side, rolling, turning, wind_power = press_wind(d, t, y, head, inputs, numbers, vectors, work)
         push = (push[0], push[1] + side, push[2])
         moment = (moment[0] + rolling, moment[1], moment[2] + turning)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba import types
 
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.drive_kernel import coupling_torque
 from towercrane.cranes.flexible_kernel import structure
+from towercrane.lane_choices import whole
 from towercrane.payload import ACCELERATION, DIRECTION, FORCE, HINGE, MASS, hang_load
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
@@ -18,10 +18,8 @@ from towercrane.system import rhs_signature
 if TYPE_CHECKING:
     from towercrane.cranes.projection_kernel import SlewingRow
 
-_one, _two = types.float64[::1], types.float64[:, ::1]
 
-
-@kernel(types.UniTuple(types.float64, 3)(types.float64, _one, _two, _one, _two))
+@kernel()
 def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> tuple[float, float, float]:
     """Add the drive's torque to the slewing coordinate's force.
 
@@ -32,7 +30,7 @@ def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> tuple[float
         coupling's corner [rad].
     """
     rates = (y.size - 1) // 2
-    turned = int(numbers[at.TOWER_X] + numbers[at.TOWER_Y] + numbers[at.TORSION])
+    turned = whole(numbers[at.TOWER_X] + numbers[at.TOWER_Y] + numbers[at.TORSION])
     shaft, shaft_rate, _ = polynomial(inputs, at.SLEWING, t)
     angle, rate = y[turned], y[rates + turned]
     slip = rate - shaft_rate
@@ -52,9 +50,9 @@ def holding_torque(
     """Torque that the prescribed slewing takes: the equation of the coordinate that is not free."""
     n = vectors.shape[1]
     rates = n + d
-    to_y = int(numbers[at.TOWER_X])
-    to_turn = to_y + int(numbers[at.TOWER_Y])
-    to_jib = to_turn + int(numbers[at.TORSION]) + int(numbers[at.DRIVEN])
+    to_y = whole(numbers[at.TOWER_X])
+    to_turn = to_y + whole(numbers[at.TOWER_Y])
+    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
     column_x, column_y, column_z, with_x, with_y, with_tilt_x, with_tilt_y, own, moment = slewing
     torque = -moment
     for i in range(to_y):
@@ -64,7 +62,7 @@ def holding_torque(
     for i in range(to_turn, to_jib):
         torque += own * vectors[at.TWIST, i] * dy[rates + i]
     hung = numbers[at.TROLLEY_MASS] * x
-    for i in range(to_jib, to_jib + int(numbers[at.LATERAL])):
+    for i in range(to_jib, to_jib + whole(numbers[at.LATERAL])):
         torque += (vectors[at.JIB_MOMENT, i] + hung * work[MASS + n + at.SHAPE, i]) * dy[rates + i]
     torque -= column_x * (tension * work[DIRECTION, 0] - work[HINGE, 0])
     torque -= column_y * (tension * work[DIRECTION, 1] - work[HINGE, 1])
@@ -90,7 +88,7 @@ def rhs(
     structured = structure(d, t, y, inputs, numbers, vectors, matrices, tables, work)
     x, xd, tilt, power, path_x, path_y, path_z = structured[:7]
     torque, beyond = 0.0, 0.0
-    if numbers[at.DRIVEN] > 0.0:
+    if whole(numbers[at.DRIVEN]) > 0:
         torque, drive_power, beyond = drive(t, y, inputs, numbers, work)
         power += drive_power
     length, rate, acceleration = polynomial(inputs, at.ROPE, t)
@@ -99,9 +97,9 @@ def rhs(
         y, dy, n, d, length, rate, acceleration,
         numbers[at.LOAD_MASS], gravity, numbers[at.DRAG], numbers[at.HINGE_DAMPING], 0.0, 0.0, work,
     )  # fmt: skip
-    if numbers[at.DRIVEN] == 0.0 and d == 3:
+    if whole(numbers[at.DRIVEN]) == 0 and d == 3:
         torque = holding_torque(d, tension, x, structured[7:], dy, numbers, vectors, work)
-        if numbers[at.SLEWING_CHANNEL] >= 0.0:
+        if whole(numbers[at.SLEWING_CHANNEL]) >= 0:
             _, turning, _ = polynomial(inputs, at.SLEWING, t)
             power += torque * turning
     # The trolley's drive acts along the deflected jib.

@@ -14,6 +14,7 @@ import numpy as np
 from numba import types
 
 from modal.compiled import kernel
+from towercrane.lane_choices import below, choose, everywhere
 
 Vector = tuple[float, float, float]
 
@@ -37,22 +38,27 @@ def tilt_functions(square: float) -> tuple[float, float, float, float, float]:
     square : float
         Squared tilt, f^2.
     """
-    if square < NEARLY_UPRIGHT:
-        c0 = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)))
-        c1 = 0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0)))
-        c2 = (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0 * (1.0 - square / 110.0)))) / 6.0
-        d1 = (
-            -1.0
-            + square / 15.0 * (1.0 - 3.0 * square / 112.0 * (1.0 - 2.0 * square / 135.0 * (1.0 - square / 105.6)))
-        ) / 12.0
-        d2 = (
-            -1.0 + square / 21.0 * (1.0 - square / 48.0 * (1.0 - 2.0 * square / 165.0 * (1.0 - square / 124.8)))
-        ) / 60.0
+    near = below(square, NEARLY_UPRIGHT)
+    c0 = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)))
+    c1 = 0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0)))
+    c2 = (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0 * (1.0 - square / 110.0)))) / 6.0
+    d1 = (
+        -1.0 + square / 15.0 * (1.0 - 3.0 * square / 112.0 * (1.0 - 2.0 * square / 135.0 * (1.0 - square / 105.6)))
+    ) / 12.0
+    d2 = (-1.0 + square / 21.0 * (1.0 - square / 48.0 * (1.0 - 2.0 * square / 165.0 * (1.0 - square / 124.8)))) / 60.0
+    if everywhere(near):
         return c0, c1, c2, d1, d2
     f = np.sqrt(square)
     s, c = np.sin(f), np.cos(f)
-    c1, c2 = (1.0 - c) / square, (f - s) / (square * f)
-    return s / f, c1, c2, (s / f - 2.0 * c1) / square, (c1 - 3.0 * c2) / square
+    far1, far2 = (1.0 - c) / square, (f - s) / (square * f)
+    e1, e2 = (s / f - 2.0 * far1) / square, (far1 - 3.0 * far2) / square
+    return (
+        choose(near, c0, s / f),
+        choose(near, c1, far1),
+        choose(near, c2, far2),
+        choose(near, d1, e1),
+        choose(near, d2, e2),
+    )
 
 
 @kernel(inline=True)
@@ -61,7 +67,8 @@ def move_head(
     ty: float,
     txd: float,
     tyd: float,
-    turn: float,
+    c: float,
+    s: float,
     turning: float,
     acceleration: float,
     ud_x: float,
@@ -73,13 +80,12 @@ def move_head(
     ----------
     tx, ty, txd, tyd : float
         Tilt vector and its rate [rad, rad/s].
-    turn, turning, acceleration : float
-        Psi, its rate, and the part of its second derivative that is prescribed.
+    c, s, turning, acceleration : float
+        Cosine and sine of Psi, its rate, and the part of its second derivative that is prescribed.
     ud_x, ud_y : float
         Velocity of the tower's top [m/s].
     """
     c0, c1, c2, d1, d2 = tilt_functions(tx * tx + ty * ty)
-    c, s = np.cos(turn), np.sin(turn)
     kappa = tx * tyd - ty * txd
     xx, xy, yy = 1.0 - c1 * ty * ty, c1 * tx * ty, 1.0 - c1 * tx * tx
     r00, r01, r02 = xx * c + xy * s, xy * c - xx * s, c0 * ty
@@ -100,11 +106,14 @@ def move_head(
 
 @kernel(types.void(types.float64[:, ::1], types.float64[:, ::1]))
 def move_heads(motions: Any, heads: Any) -> None:
-    """:func:`move_head` over time: a row of nine motions, in its order, for each row of ``heads`` (p, SIZE)."""
+    """:func:`move_head` over time, for each row of ``heads`` (p, SIZE).
+
+    A row of motions holds its nine parameters, Psi instead of cosine and sine.
+    """
     for row in range(motions.shape[0]):
         rotation, turn_x, turn_y, spin, bias, top = move_head(
-            motions[row, 0], motions[row, 1], motions[row, 2], motions[row, 3], motions[row, 4], motions[row, 5],
-            motions[row, 6], motions[row, 7], motions[row, 8],
+            motions[row, 0], motions[row, 1], motions[row, 2], motions[row, 3], np.cos(motions[row, 4]),
+            np.sin(motions[row, 4]), motions[row, 5], motions[row, 6], motions[row, 7], motions[row, 8],
         )  # fmt: skip
         for k in range(9):
             heads[row, ROTATION + k] = rotation[k]

@@ -12,6 +12,7 @@ from typing import Any
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.head_kernel import Head, Vector
+from towercrane.lane_choices import whole
 from towercrane.payload import FORCE, JACOBIAN, MASS
 
 Body = tuple[float, Vector, tuple[float, ...], Vector, Vector]
@@ -31,9 +32,9 @@ def project_head(
     ``place`` is where the rope's upper end is in the head's axes.
     """
     up = d - 1
-    to_y = int(numbers[at.TOWER_X])
-    to_turn = to_y + int(numbers[at.TOWER_Y])
-    to_jib = to_turn + int(numbers[at.TORSION]) + int(numbers[at.DRIVEN])
+    to_y = whole(numbers[at.TOWER_X])
+    to_turn = to_y + whole(numbers[at.TOWER_Y])
+    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
     r00, r01, r02, r10, r11, r12, r20, r21, r22 = head[0]
     j1x, j1y, j1z = head[1]
     j2x, j2y, j2z = head[2]
@@ -111,10 +112,10 @@ def project_jib(
     n = vectors.shape[1]
     up, rotation, turn_x, turn_y = d - 1, head[0], head[1], head[2]
     shapes, across = MASS + n + at.SHAPE, MASS + n + at.ACROSS
-    to_y = int(numbers[at.TOWER_X])
-    to_turn = to_y + int(numbers[at.TOWER_Y])
-    to_jib = to_turn + int(numbers[at.TORSION]) + int(numbers[at.DRIVEN])
-    to_vertical = to_jib + int(numbers[at.LATERAL])
+    to_y = whole(numbers[at.TOWER_X])
+    to_turn = to_y + whole(numbers[at.TOWER_Y])
+    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
+    to_vertical = to_jib + whole(numbers[at.LATERAL])
     trolley, x = numbers[at.TROLLEY_MASS], place[0]
     for i in range(to_jib, n):
         shape = work[shapes, i]

@@ -6,12 +6,13 @@ along the jib only and whose jib bends up and down only.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.flexible import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB, FlexibleModel, ModalDamping
 from towercrane.cranes.flexible_constants import geometric_stiffness
 from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
@@ -136,6 +137,20 @@ class RadialModel:
     def system(self) -> System:
         """The model as the solver sees it."""
         return self.scene.system
+
+    @property
+    def tip_shapes(self) -> Floats:
+        """Displacement of the tower top and deflection of the jib tip per coordinate; shape (2, coordinates)."""
+        shapes = np.zeros((2, self.coordinates))
+        shapes[0] = self.system.vectors[layout.TIP]
+        shapes[1, self.tower_modes :] = self.scene.crane.tip_shapes[:, 0]
+        return shapes
+
+    def with_load(self, load: Load) -> RadialModel:
+        """The same crane with another load, see :meth:`towercrane.cranes.flexible.FlexibleModel.with_load`."""
+        other = replace(self, load=load)
+        vars(other)["scene"] = self.scene.with_load(load)
+        return other
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at rest at the start, see :meth:`towercrane.cranes.flexible.FlexibleModel.start`."""

@@ -1,0 +1,243 @@
+"""Lane vectors: a type for compiled code that holds one number of each of several runs.
+
+An operation on a lane vector is one instruction of the processor's vector unit (or a few, where its registers are
+shorter) and rounds in every lane as the same operation on a single number does. Equations that are written for
+numbers compile for lane vectors as they stand and give every lane the bits that a single run would get.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.core.typeconv.castgraph import Conversion
+from numba.extending import lower_builtin, lower_cast, models, register_model, type_callable
+from numba.np.arrayobj import make_array
+
+LANES = 8
+"""Runs side by side; eight doubles fill a register of AVX-512."""
+
+
+class LaneVector(types.Type):
+    """A double in every lane."""
+
+    def __init__(self) -> None:
+        super().__init__(name=f"LaneVector[{LANES}]")
+
+    def can_convert_from(self, _context: Any, other: Any) -> Any:
+        """Numbers become the same number in every lane."""
+        return Conversion.safe if isinstance(other, types.Float | types.Integer) else None
+
+
+class LaneIndex(types.Type):
+    """An index in every lane."""
+
+    def __init__(self) -> None:
+        super().__init__(name=f"LaneIndex[{LANES}]")
+
+
+VECTOR, INDEX = LaneVector(), LaneIndex()
+
+DOUBLES, INTEGERS = ir.VectorType(ir.DoubleType(), LANES), ir.VectorType(ir.IntType(64), LANES)
+TABLE = types.Array(types.float64, 3, "C")
+
+
+@register_model(LaneVector)
+class _LaneVectorModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, kind: Any) -> None:
+        super().__init__(manager, kind, DOUBLES)
+
+
+@register_model(LaneIndex)
+class _LaneIndexModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, kind: Any) -> None:
+        super().__init__(manager, kind, INTEGERS)
+
+
+def _spread(builder: Any, value: Any, kind: Any) -> Any:
+    """The same value in every lane."""
+    first = builder.insert_element(ir.Constant(kind, ir.Undefined), value, ir.Constant(ir.IntType(32), 0))
+    zeros = ir.Constant(ir.VectorType(ir.IntType(32), LANES), [0] * LANES)
+    return builder.shuffle_vector(first, ir.Constant(kind, ir.Undefined), zeros)
+
+
+def _doubles(context: Any, builder: Any, value: Any, kind: Any) -> Any:
+    """A number or lane vector as a lane vector."""
+    if kind == VECTOR:
+        return value
+    return _spread(builder, context.cast(builder, value, kind, types.float64), DOUBLES)
+
+
+@lower_cast(types.Float, VECTOR)
+@lower_cast(types.Integer, VECTOR)
+def _from_number(context: Any, builder: Any, kind: Any, _target: Any, value: Any) -> Any:
+    return _doubles(context, builder, value, kind)
+
+
+def _is_number(kind: Any) -> bool:
+    return isinstance(kind, types.Float | types.Integer)
+
+
+def _pairs(function: Any, build: Any) -> None:
+    """Give a function of two numbers its meaning for a lane vector and a number, lane vector or both."""
+
+    @type_callable(function)
+    def typed(_context: Any) -> Any:
+        def typer(a: Any, b: Any) -> Any:
+            if VECTOR in (a, b) and all(kind == VECTOR or _is_number(kind) for kind in (a, b)):
+                return VECTOR
+            return None
+
+        return typer
+
+    def lower(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        values = zip(arguments, signature.args, strict=True)
+        return build(builder, *(_doubles(context, builder, value, kind) for value, kind in values))
+
+    for other in (VECTOR, types.Float, types.Integer):
+        lower_builtin(function, VECTOR, other)(lower)
+        if other is not VECTOR:
+            lower_builtin(function, other, VECTOR)(lower)
+
+
+def _called(name: str) -> Any:
+    """Build a call of an LLVM intrinsic on one lane vector."""
+
+    def build(_context: Any, builder: Any, value: Any) -> Any:
+        kind = ir.FunctionType(DOUBLES, [DOUBLES])
+        function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{LANES}f64")
+        return builder.call(function, [value])
+
+    return build
+
+
+def _single(function: Any, build: Any) -> None:
+    """Give a function of one number its meaning for a lane vector."""
+
+    @type_callable(function)
+    def typed(_context: Any) -> Any:
+        return lambda a: VECTOR if a == VECTOR else None
+
+    @lower_builtin(function, VECTOR)
+    def lower(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+        return build(context, builder, arguments[0])
+
+
+def _chosen(comparison: str) -> Any:
+    """Build the choice that Python's min or max makes: the second value where it compares, else the first."""
+
+    def build(builder: Any, a: Any, b: Any) -> Any:
+        return builder.select(builder.fcmp_ordered(comparison, b, a), b, a)
+
+    return build
+
+
+for _function, _name in (
+    (operator.add, "fadd"),
+    (operator.sub, "fsub"),
+    (operator.mul, "fmul"),
+    (operator.truediv, "fdiv"),
+):
+    for _form in (_function, getattr(operator, f"i{_function.__name__}")):
+        _pairs(_form, lambda builder, a, b, name=_name: getattr(builder, name)(a, b))
+
+
+def _signed(_context: Any, builder: Any, value: Any) -> Any:
+    """Build -1, 0 or 1."""
+    zero, one = (ir.Constant(DOUBLES, [number] * LANES) for number in (0.0, 1.0))
+    positive = builder.select(builder.fcmp_ordered(">", value, zero), one, value)
+    return builder.select(builder.fcmp_ordered("<", value, zero), builder.fneg(one), positive)
+
+
+def _lane_by_lane(function: Any) -> Any:
+    """Build the calls of a function of one number for every lane."""
+
+    def build(context: Any, builder: Any, value: Any) -> Any:
+        called = context.get_function(function, types.float64(types.float64))
+        found = ir.Constant(DOUBLES, ir.Undefined)
+        for lane in range(LANES):
+            place = ir.Constant(ir.IntType(32), lane)
+            found = builder.insert_element(found, called(builder, [builder.extract_element(value, place)]), place)
+        return found
+
+    return build
+
+
+_pairs(min, _chosen("<"))
+_pairs(max, _chosen(">"))
+_single(operator.neg, lambda _context, builder, a: builder.fneg(a))
+_single(abs, _called("fabs"))
+_single(np.sqrt, _called("sqrt"))
+_single(np.sin, _called("sin"))
+_single(np.cos, _called("cos"))
+_single(np.sign, _signed)
+_single(np.tanh, _lane_by_lane(math.tanh))
+
+
+@type_callable(int)
+def _type_of_index(_context: Any) -> Any:
+    return lambda a: INDEX if a == VECTOR else None
+
+
+@lower_builtin(int, VECTOR)
+def _to_index(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+    return builder.fptosi(arguments[0], INTEGERS)
+
+
+def _bounded(function: Any, comparison: str) -> None:
+    """Give min or max its meaning for an index in every lane and one number."""
+
+    @type_callable(function)
+    def typed(_context: Any) -> Any:
+        return lambda a, b: INDEX if a == INDEX and isinstance(b, types.Integer) else None
+
+    @lower_builtin(function, INDEX, types.Integer)
+    def lower(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        index = arguments[0]
+        bound = _spread(builder, context.cast(builder, arguments[1], signature.args[1], types.int64), INTEGERS)
+        return builder.select(builder.icmp_signed(comparison, bound, index), bound, index)
+
+
+_bounded(min, "<")
+_bounded(max, ">")
+
+
+@type_callable(operator.add)
+def _type_of_sum(_context: Any) -> Any:
+    return lambda a, b: VECTOR if a == INDEX and isinstance(b, types.Float) else None
+
+
+@lower_builtin(operator.add, INDEX, types.Float)
+def _sum(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    number = _doubles(context, builder, arguments[1], signature.args[1])
+    return builder.fadd(builder.sitofp(arguments[0], DOUBLES), number)
+
+
+_PLACE = types.Tuple([INDEX, types.int64, types.int64])
+
+
+@type_callable(operator.getitem)
+def _type_of_item(_context: Any) -> Any:
+    return lambda table, place: VECTOR if table == TABLE and place == _PLACE else None
+
+
+@lower_builtin(operator.getitem, TABLE, _PLACE)
+def _item(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+    """In every lane table[cell, i, j] with the lane's own cell."""
+    table = make_array(TABLE)(context, builder, arguments[0])
+    cells, i, j = cgutils.unpack_tuple(builder, arguments[1])
+    _, rows, columns = cgutils.unpack_tuple(builder, table.shape)
+    offset = builder.add(builder.mul(i, columns), j)
+    stride = _spread(builder, builder.mul(rows, columns), INTEGERS)
+    offsets = builder.add(builder.mul(cells, stride), _spread(builder, offset, INTEGERS))
+    found = ir.Constant(DOUBLES, ir.Undefined)
+    for lane in range(LANES):
+        place = ir.Constant(ir.IntType(32), lane)
+        value = builder.load(builder.gep(table.data, [builder.extract_element(offsets, place)]))
+        found = builder.insert_element(found, value, place)
+    return found

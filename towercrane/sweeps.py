@@ -1,0 +1,240 @@
+"""The command that runs a case over a grid of values."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from towercrane.terminal import (
+    INTERRUPTED,
+    AsJson,
+    CaseName,
+    Changes,
+    announce_compilation,
+    compile_beside,
+    fail,
+    folder_for_results,
+    load,
+    options_of,
+    say,
+    suggest,
+    write,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from towercrane.case import Case
+
+INTERRUPTED_RUN = "interrupted"
+"""Outcome of runs that Ctrl-C did not let end."""
+
+MOST_RUNS = 1_000_000
+"""Runs beyond which a grid is more likely a slip."""
+
+
+def sweep(
+    case: CaseName,
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            "--vary",
+            metavar="KEY=FROM:TO:COUNT",
+            help="Values of a key, e.g. --vary payload.mass=100kg:2000kg:20 or --vary model.jib_modes=1,2,3; "
+            "with several keys all combinations.",
+        ),
+    ],
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    threads: Annotated[int | None, typer.Option("--threads", min=1, help="Threads; all cores by default.")] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+    pictures: Annotated[bool, typer.Option(help="Draw the picture.")] = True,
+) -> None:
+    """Run a case over a grid of values; write sweep.nc, sweep.csv and a picture."""
+    loaded = load(case, changes)
+    folder = out if out is not None else Path("results") / f"{loaded.name}-sweep"
+    folder_for_results(folder)
+    values = _values(loaded, vary)
+    from modal.compiled import is_compiled
+    from towercrane.variations import grid
+
+    if loaded.kind == "radial" and not is_compiled("towercrane.cranes.radial_lanes"):
+        say("compiling for many runs at once, about half a minute; later sweeps start at once ...")
+        compile_beside("towercrane.cranes.radial_lane_rhs", "towercrane.cranes.radial_lanes")
+    else:
+        announce_compilation(loaded.kind, "towercrane.stepper")
+    began = time.perf_counter()
+    data = _with_progress(loaded, grid(values), threads)
+    summary = report(data, time.perf_counter() - began)
+    files: dict[str, Any] = {"sweep.nc": data, "sweep.csv": runs_csv(data)}
+    if pictures:
+        from towercrane.plots import sweep as pictured
+
+        files |= pictured.extremes(data)
+    write(folder, files)
+    if as_json:
+        typer.echo(json.dumps(summary, indent=2, allow_nan=False))
+    else:
+        from towercrane.tables import sweep_tables
+
+        sweep_tables(summary)
+        typer.echo(f"written to {folder}: {', '.join(files)}")
+        suggest("run", case, *options_of([*(changes or []), *_worst(data)]))
+    if INTERRUPTED_RUN in summary["outcomes"]:
+        raise typer.Exit(INTERRUPTED)
+
+
+def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
+    """Largest and smallest value of every output over all runs and where they occur, ready for JSON."""
+    import numpy as np
+
+    from towercrane.drift import notice
+    from towercrane.summary import assumed
+
+    varied = {key: data[key.replace(".", "_")] for key in json.loads(data.attrs["varied"])}
+
+    def at(name: str, place: int) -> dict[str, Any]:
+        where = {key: values.values[place].item() for key, values in varied.items()}
+        return {"value": float(data[name].values[place]), "at": where}
+
+    extremes = {}
+    for name in json.loads(data.attrs["outputs"]):
+        largest, smallest = data[f"{name}_max"].values, data[f"{name}_min"].values
+        if np.any(np.isfinite(largest)):
+            high, low = int(np.nanargmax(largest)), int(np.nanargmin(smallest))
+            units = data[f"{name}_max"].attrs["units"]
+            extremes[name] = {"largest": at(f"{name}_max", high), "smallest": at(f"{name}_min", low), "units": units}
+    runs = len(data["run"])
+    said = notice(data.attrs["method"], data.attrs["rtol"], data.attrs["atol"])
+    return {
+        "case": data.attrs["case"],
+        "title": data.attrs["title"],
+        "crane": data.attrs["crane"],
+        "changes": json.loads(data.attrs["changes"]),
+        "runs": runs,
+        "outcomes": dict(Counter(data["outcome"].values.tolist()).most_common()),
+        "varied": [
+            {"key": key, "units": values.attrs["units"], "values": sorted(set(values.values.tolist()))}
+            for key, values in varied.items()
+        ],
+        "extremes": extremes,
+        "notices": [said] if said else [],
+        "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(data)],
+        "seconds": seconds,
+        "runs_per_second": runs / seconds,
+    }
+
+
+def runs_csv(data: xr.Dataset) -> str:
+    """A line per run: the varied values, then everything that is known of it."""
+    import csv
+    import io
+
+    keys = [key.replace(".", "_") for key in json.loads(data.attrs["varied"])]
+    names = ["run", *keys, *(str(name) for name, variable in data.data_vars.items() if variable.dims == ("run",))]
+    units = (data[name].attrs.get("units") for name in names)
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)])
+    columns = [data[name].values.tolist() for name in names]
+    for row in zip(*columns, strict=True):
+        writer.writerow([f"{value:.12g}" if isinstance(value, float) else value for value in row])
+    return text.getvalue()
+
+
+def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
+    """The values of every key that is varied."""
+    from math import prod
+
+    from towercrane.case import load_case
+    from towercrane.kinds import unit_of
+    from towercrane.units import UnitError, to_si
+
+    values: dict[str, list[Any]] = {}
+    for option in vary:
+        key, sign, written = option.partition("=")
+        key = key.strip()
+        if not (key and sign and written.strip()):
+            fail(f"--vary {option}: wanted KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,..., such as rope.length=5m:20m:16")
+        if key in values:
+            fail(f"--vary {option}: the key stands in two options")
+        unit, parts = unit_of(case.kind, key), [part.strip() for part in written.split(":")]
+        # The case itself tells best what is wrong with a key or its first value.
+        load_case(case.path, [*case.changes, f"{key}={parts[0].partition(',')[0]}"])
+        try:
+            if len(parts) == 1:
+                given = [part.strip() for part in written.split(",")]
+                values[key] = [_number(part) if unit is None else to_si(_number(part), unit) for part in given]
+            else:
+                values[key] = _steps(option, parts, None if unit is None else (to_si, unit))
+        except UnitError as error:
+            fail(f"--vary {option}: {error}")
+    if (runs := prod(len(given) for given in values.values())) > MOST_RUNS:
+        fail(f"--vary: wanted at most {MOST_RUNS} runs, got {runs}")
+    return values
+
+
+def _steps(option: str, parts: list[str], quantity: Any) -> list[Any]:
+    """Equal steps from one value to another."""
+    import numpy as np
+
+    if len(parts) != 3 or not parts[2].isdecimal() or int(parts[2]) < 2:
+        fail(f"--vary {option}: wanted FROM:TO:COUNT with a count of two or more, got {':'.join(parts)}")
+    ends, count = [_number(part) for part in parts[:2]], int(parts[2])
+    if count > MOST_RUNS:
+        fail(f"--vary {option}: wanted at most {MOST_RUNS} values, got {count}")
+    if quantity is not None:
+        read, unit = quantity
+        return list(np.linspace(read(ends[0], unit), read(ends[1], unit), count).tolist())
+    if not all(isinstance(end, int) for end in ends):
+        fail(f"--vary {option}: wanted whole numbers, or single values such as {option.partition('=')[0]}=a,b")
+    steps = np.linspace(ends[0], ends[1], count)
+    if not np.all(steps == np.round(steps)):
+        fail(f"--vary {option}: wanted steps that are whole numbers, got {(ends[1] - ends[0]) / (count - 1):g}")
+    return [int(step) for step in steps]
+
+
+def _number(text: str) -> Any:
+    """A number if the text is one, else the text."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
+
+
+def _worst(data: xr.Dataset) -> list[str]:
+    """The varied values of the first run that ended early, or else of that with the largest first output."""
+    import numpy as np
+
+    outcomes, first = data["outcome"].values, json.loads(data.attrs["outputs"])[:1]
+    early = np.flatnonzero(~np.isin(outcomes, ["finished", INTERRUPTED_RUN]))
+    if len(early):
+        run = int(early[0])
+    elif first and np.any(np.isfinite(data[f"{first[0]}_max"].values)):
+        run = int(np.nanargmax(data[f"{first[0]}_max"].values))
+    else:
+        run = 0
+    return [f"{key}={data[key.replace('.', '_')].values[run].item()}" for key in json.loads(data.attrs["varied"])]
+
+
+def _with_progress(case: Case, values: dict[str, list[Any]], threads: int | None) -> xr.Dataset:
+    """Run with a progress bar if somebody is looking."""
+    from towercrane.variations import sweep as run_all
+
+    if not sys.stderr.isatty():
+        return run_all(case, values, threads=threads)
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        count = len(next(iter(values.values())))
+        task = bar.add_task(f"{count} runs", total=count)
+        return run_all(case, values, threads=threads, progress=lambda done: bar.update(task, completed=done))
