@@ -205,11 +205,12 @@ class Case:
 
     def tower(self) -> Beam | Chain:
         """The tower: a beam where it is uniform and clamped, else a chain; without what the tolerance leaves out."""
-        if self.kind == "space":
-            from towercrane.towers import tower_of
-
-            return tower_of(self._tower_crane)
         from towercrane.effects import kept_tower
+        from towercrane.towers import tower_of
+
+        crane = self._tower_crane
+        if self.kind == "space":
+            return tower_of(crane)
 
         return kept_tower(self)
 
@@ -343,6 +344,7 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     tree, assumed, faults = split_provenance(text.tree)
     kind, kind_faults = kind_of(tree)
     faults += kind_faults
+    tree.pop("kind", None)
     crane_unread = not isinstance(text.tree.get("crane", {}), dict)
     if isinstance(tree.get("crane"), dict):
         tree["crane"]["kind"] = kind
