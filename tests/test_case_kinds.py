@@ -63,14 +63,16 @@ def copied(tmp_path):
 
 
 def test_every_kind_ships_and_loads():
-    kinds = {name: load_case(name).kind for name, _ in list_cases()}
-    radial = {name for name in kinds if name.startswith(("qtz5613/", "towers/"))}
-    assert {name: kind for name, kind in kinds.items() if name not in radial and "hard/" not in name} == {
+    kinds = {name: load_case(name).kind for name, _ in list_cases() if not name.startswith("hard/")}
+    tower_cranes = {name: kind for name, kind in kinds.items() if name.startswith(("qtz5613/", "towers/"))}
+    assert {name: kind for name, kind in kinds.items() if name not in tower_cranes} == {
         **{f"slewing/{kind}/example-{n}": kind for kind, n, _, _ in EXAMPLES},
         **{f"slewing/{kind}/cycle": kind for kind, _, _, _ in EXAMPLES},
         **dict.fromkeys((PLAN, HEAVY, COMBINED), "jib"),
     }
-    assert {kinds[name] for name in radial} == {"radial"}
+    in_space = {"manoeuvre", "slewing", "gentle", "soft-drive", "gusts-parked", "gusts-working"}
+    assert {name for name, kind in tower_cranes.items() if kind != "radial"} == {f"qtz5613/{n}" for n in in_space}
+    assert {tower_cranes[f"qtz5613/{name}"] for name in in_space} == {"space"}
 
 
 @pytest.mark.parametrize(("kind", "number", "ramp", "hold"), EXAMPLES)
@@ -364,11 +366,11 @@ MEND = [
     (ENHANCED, "crane.mass.counterweight=2", "crane.mass.counterweight", ['cranes of kind "multi-mass"']),
     (MULTI, "crane.trolley.mass=2", "crane.trolley", ['cranes of kind "radial"', '"multi-mass"']),
     (MULTI, "crane.post.inertia=2", "crane.post", ['cranes of kind "jib"']),
-    (RADIAL, "crane.drive.corner=2", "crane.drive", ['"multi-mass", "basic" or "enhanced"; this crane']),
+    (RADIAL, "crane.mass.jib_tip=2", "crane.mass", ['"multi-mass", "basic" or "enhanced"; this crane']),
     (MULTI, "model.jib_modes=2", "model", ['cranes of kind "radial"']),
     (PLAN, "modes.count=2", "modes", ['cranes of kind "radial"']),
     (MULTI, "motion.trolley.start=2", "motion.trolley", ["one of the keys shaft, hoist", '"radial"']),
-    (PLAN, "motion.shaft.start=2", "motion.shaft", ['"multi-mass", "basic" or "enhanced"']),
+    (PLAN, "motion.shaft.start=2", "motion.shaft", ['"multi-mass", "basic", "enhanced" or "space"']),
     (RADIAL, "motion.luff.start=2", "motion.luff", ['cranes of kind "jib"']),
     (MULTI, "motion.shaft.speed=0.7 m/s", "motion.shaft.speed", ["a rotary speed", '"7 rpm"', "is a speed"]),
     (MULTI, "motion.shaft.ramp=0 s", "motion.shaft.ramp", ["a time", "above 0"]),
@@ -480,7 +482,7 @@ def test_missing_tables_and_keys_are_named(copied):
 def test_an_unknown_kind_is_one_fault_and_the_rest_is_still_checked(kind, hint):
     fault = only_fault(MULTI, f"crane.kind={kind}")
     assert (fault.key, fault.got) == ("crane.kind", kind)
-    assert fault.wanted == 'one of "radial", "multi-mass", "basic", "enhanced", "jib"'
+    assert fault.wanted == 'one of "radial", "multi-mass", "basic", "enhanced", "jib", "space"'
     assert fault.hint == hint
     faults = faults_of(MULTI, f"crane.kind={kind}", "crane.mass.tower_topp=3")
     assert [f.key for f in faults] == ["crane.kind", "crane.mass.tower_topp"]

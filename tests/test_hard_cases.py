@@ -17,6 +17,7 @@ ENDS = {
     "hard/buckled": "tower buckled",
     "hard/slack-above-the-horizontal": "slack rope",
     "hard/slack-while-lowering": "slack rope",
+    "hard/space-gust-slackens-the-rope": "slack rope",
     "hard/zero-start-slack": "slack rope",
 }
 

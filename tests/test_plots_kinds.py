@@ -7,7 +7,8 @@ import pytest
 from lab_crane import crane, motions
 
 from towercrane.case import load_case
-from towercrane.plots import jib, sensitivity, slewing
+from towercrane.folder import RUN_FILES
+from towercrane.plots import jib, sensitivity, slewing, space
 from towercrane.simulate import run_case, simulate
 
 NOTE = json.dumps([["crane.mass.jib_tip", "14 kg", "not printed"]])
@@ -62,3 +63,15 @@ def test_surface_shows_every_output_over_time_and_percent(turned):
     figure.canvas.draw()
     assert figure.axes[0].get_ylabel() == "value [% of nominal]"
     assert "[deg]" in figure.axes[1].get_ylabel()
+
+
+@pytest.mark.parametrize("name", ["soft-drive", "gusts-working"])
+def test_pictures_of_runs_in_space(name):
+    figures = space.run_pictures(run_case(load_case(f"qtz5613/{name}", ["run.duration=4 s"])))
+    drawn = {"overview", "sway", "torque", "tower", "jib", "base", "path"} | ({"wind"} if "gusts" in name else set())
+    assert set(figures) == {f"{picture}.png" for picture in drawn}
+    check(figures)
+    assert set(figures) <= set(RUN_FILES)
+    shaft = [line.get_label() for line in figures["overview.png"].axes[0].get_lines()]
+    assert shaft == (["head", "shaft of its drive"] if name == "soft-drive" else ["head"])
+    assert "assumed" in figures["sway.png"]._supxlabel.get_text()

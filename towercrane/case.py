@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,7 @@ from towercrane.shipped import case_folder, case_name, find_case, list_cases
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     from modal.beam import Beam
     from modal.chain import Chain
@@ -159,44 +159,17 @@ class Case:
     @property
     def rests_on(self) -> tuple[Assumption, ...]:
         """Assumptions that enter the equations of motion, without those of a check beside them."""
-        return tuple(a for a in self.assumed if not a.key.startswith(tuple(self._idle_keys())))
+        from towercrane.idle import idle_keys
+
+        unused = tuple(idle_keys(self))
+        return tuple(a for a in self.assumed if not a.key.startswith(unused))
 
     @property
     def idle(self) -> tuple[str, ...]:
         """Tables and keys of a tower crane's file that only other cases use."""
-        from towercrane.casefile import leaves
+        from towercrane.idle import idle_in_file
 
-        unused = tuple(self._idle_keys())
-        keys = [key for key, _ in leaves({"crane": self.as_written["crane"]}) if key.startswith(unused)]
-        found = (next(name for name in unused if key.startswith(name)).rstrip(".") for key in keys)
-        return tuple(dict.fromkeys(found))
-
-    def _idle_keys(self) -> Iterator[str]:
-        """Beginnings of keys of a tower crane that do not enter the equations of motion."""
-        if self.kind not in ("radial", "space"):
-            return
-        from towercrane.towers import beam_choice
-
-        yield from ("crane.counter_jib.youngs_modulus", "crane.counter_jib.second_moment_of_area")
-        tower = self._tower_crane.tower
-        if not tower.segments:
-            stated = beam_choice(tower, tower) == "stated"
-            yield "crane.tower.lattice." if stated else "crane.tower.second_moment_of_area"
-        yield from self._idle_in_space()
-
-    def _idle_in_space(self) -> Iterator[str]:
-        """Of what only motion in space needs, that which the case leaves out."""
-        space = self.space if self.kind == "space" else None
-        if space is None or not space.model.torsion_modes:
-            yield "crane.tower.torsional_"
-        if space is None or not space.model.jib_lateral_modes:
-            yield "crane.jib.lateral_second_moment_of_area"
-        if space is None or space.motion.shaft is None:
-            yield from ("crane.drive.", "crane.friction.")
-        if space is None or space.wind is None:
-            yield "crane.wind_areas."
-        if space is None:
-            yield "crane.roll_inertia"
+        return idle_in_file(self)
 
     @property
     def _radial(self) -> schema_cases.RadialCase:
@@ -221,13 +194,11 @@ class Case:
 
     def tower(self) -> Beam | Chain:
         """The tower: a beam where it is uniform and clamped, else a chain; without what the tolerance leaves out."""
-        if self.kind == "space":
-            from towercrane.towers import tower_of
-
-            return tower_of(self._tower_crane)
         from towercrane.effects import kept_tower
+        from towercrane.towers import tower_of
 
-        return kept_tower(self, self._radial.crane)
+        crane = self._tower_crane
+        return tower_of(crane) if self.kind == "space" else kept_tower(self, crane)
 
     def tower_beam(self) -> Beam:
         """The tower as a uniform Euler beam, clamped at its foot.
@@ -284,17 +255,9 @@ class Case:
 
     def space_crane(self) -> TowerCrane:
         """The crane in space: with its torsion, its jib's bending to the sides and its roll inertia where given."""
-        from modal.beam import Beam
-        from modal.torsion import Shaft
+        from towercrane.towers import in_space
 
-        plane, crane = self.crane_on(self.tower()), self._tower_crane
-        tower, jib = crane.tower, crane.jib
-        lateral, shaft = None, None
-        if jib.lateral_second_moment_of_area is not None:
-            lateral = Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.lateral_second_moment_of_area)
-        if tower.torsional_stiffness is not None and tower.torsional_inertia_per_length is not None:
-            shaft = Shaft(plane.tower.length, tower.torsional_inertia_per_length, tower.torsional_stiffness)
-        return replace(plane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
+        return in_space(self.crane_on(self.tower()), self._tower_crane)
 
     def lumped_parameters(self) -> SlewingParameters:
         """Parameters of a slewing crane, of its kind's class; each is named by its table and its key."""
@@ -359,6 +322,7 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     tree, assumed, faults = split_provenance(text.tree)
     kind, kind_faults = kind_of(tree)
     faults += kind_faults
+    tree.pop("kind", None)
     crane_unread = not isinstance(text.tree.get("crane", {}), dict)
     if isinstance(tree.get("crane"), dict):
         tree["crane"]["kind"] = kind

@@ -114,7 +114,9 @@ def copy_cases(
     from towercrane.case import case_folder
 
     source = case_folder()
-    clashes = [folder / path.relative_to(source) for path in sorted(source.rglob("*.toml"))]
+    clashes = [
+        folder / path.relative_to(source) for path in sorted([*source.rglob("*.toml"), *source.rglob("*.csv")])
+    ]
     if existing := [str(path) for path in clashes if path.exists()]:
         fail(f"{folder}: nothing copied, {existing[0]} and {len(existing) - 1} more would be overwritten")
     try:

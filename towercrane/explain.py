@@ -6,7 +6,7 @@ from types import UnionType
 from typing import TYPE_CHECKING, Any, Literal, Union, get_args, get_origin
 
 from towercrane.faults import Fault, closest, shown
-from towercrane.kinds import known_keys, known_to, of_kinds, plain_key
+from towercrane.kinds import TOWER_CRANES, known_keys, known_to, of_kinds, plain_key
 from towercrane.schema import Quantity, Table, tables
 from towercrane.schema_cases import KINDS
 
@@ -68,6 +68,9 @@ def _unknown(key: str, detail: ErrorDetails, kind: str) -> tuple[Fault, str]:
         hint = f'closest known key: "{meant}"'
     elif elsewhere and kind not in elsewhere:
         hint = f'a key of {of_kinds(elsewhere)}; this crane is of kind "{kind}"'
+        other = next((k for k in TOWER_CRANES if k in elsewhere), None)
+        if other and kind in TOWER_CRANES:
+            hint += f', and kind = "{other}" at the top of the case makes it the other'
     else:
         places = sorted({k for k in known_keys(KINDS[kind]) if k.rpartition(".")[2] == name})
         hint = f'"{name}" is known as {" or ".join(places)}' if places else ""

@@ -220,10 +220,10 @@ AnyCase = RadialCase | SpaceCase | SlewingCase | JibCase
 
 KINDS: dict[str, type[RadialCase] | type[SpaceCase] | type[SlewingCase] | type[JibCase]] = {
     "radial": RadialCase,
-    "space": SpaceCase,
     "multi-mass": MultiMassCase,
     "basic": BasicCase,
     "enhanced": EnhancedCase,
     "jib": JibCase,
+    "space": SpaceCase,
 }
 """Case table of each kind of crane; the first is the kind where a crane file states none."""

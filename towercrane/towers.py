@@ -49,6 +49,19 @@ def tower_of(crane: Crane) -> Beam | Chain:
     return Beam(segments[0].length, segments[0].mass_per_length, modulus, stiffness / modulus)
 
 
+def in_space(plane: TowerCrane, crane: Crane) -> TowerCrane:
+    """A crane of the plane with the torsion, the lateral bending and the roll inertia that its file gives."""
+    from modal.torsion import Shaft
+
+    tower, jib = crane.tower, crane.jib
+    lateral, shaft = None, None
+    if jib.lateral_second_moment_of_area is not None:
+        lateral = Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.lateral_second_moment_of_area)
+    if tower.torsional_stiffness is not None and tower.torsional_inertia_per_length is not None:
+        shaft = Shaft(plane.tower.length, tower.torsional_inertia_per_length, tower.torsional_stiffness)
+    return replace(plane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
+
+
 def beam_choice(tower: Tower, section: Section) -> BeamChoice:
     """Where the beam of a section comes from.
 

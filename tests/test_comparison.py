@@ -1,0 +1,162 @@
+"""Models of a case from rigid to rich: which there are, what each costs, which kinds of modes a target needs."""
+
+import json
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from typer.testing import CliRunner
+
+from towercrane.case import load_case
+from towercrane.cli import app
+from towercrane.comparison import ONE_OF_EACH, OWN, RICHEST, compare, departures, gaps, slowest, variants
+from towercrane.plots.comparison import paths
+from towercrane.simulate import run_case
+
+NAME, RADIAL = "qtz5613/manoeuvre", "qtz5613/condition-3"
+SHORT = ["run.duration=12 s", "run.output_step=0.1 s", "motion.trolley.start=30 m"]
+
+
+@pytest.fixture(scope="module")
+def compared():
+    return compare(load_case(NAME, SHORT), 0.02)
+
+
+def row_of(report, name):
+    return next(row for row in report["rows"] if row["name"] == name)
+
+
+def test_variants_are_every_choice_of_kinds():
+    found = variants(load_case(NAME))
+    assert len(found) == 16 + 2
+    assert [found[0].name, *(v.name for v in found[-3:])] == ["rigid", ONE_OF_EACH, OWN, RICHEST]
+    assert len({v.kinds for v in found}) == 16
+    own = {"tower_modes": 2, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2}
+    assert found[-2].counts == own
+    assert found[-1].counts == {"tower_modes": 3, "torsion_modes": 2, "jib_lateral_modes": 4, "jib_vertical_modes": 4}
+    model = found[5].model(load_case(NAME))
+    assert (found[5].name, model.counts["tower_y"], model.counts["torsion"]) == ("tower + torsion", 2, 1)
+    assert model.counts["jib_lateral"] == model.counts["jib_vertical"] == 0
+
+
+def test_variants_leave_out_what_the_case_does():
+    names = [v.name for v in variants(load_case(NAME, ["model.torsion_modes=0", "model.tower_modes=14"]))]
+    assert len(names) == 8 + 2
+    assert not any("torsion" in name for name in names)
+    assert variants(load_case(NAME, ["model.tower_modes=14"]))[-1].counts["tower_modes"] == 14
+    assert [v.name for v in variants(load_case(RADIAL))] == ["rigid", "tower", "jib", ONE_OF_EACH, OWN, RICHEST]
+    one = ["model.tower_modes=1", "model.jib_modes=1"]
+    assert [v.name for v in variants(load_case(RADIAL, one))] == ["rigid", "tower", "jib", OWN, RICHEST]
+
+
+def test_errors_are_distances_from_the_richest(compared):
+    report, results = compared
+    richest = results[RICHEST]
+    assert report["rows"][-1]["relative_error"] == 0.0
+    for row in report["rows"]:
+        gap = results[row["name"]]["payload_position"].values - richest["payload_position"].values
+        assert row["horizontal_error_m"] == pytest.approx(np.linalg.norm(gap[:, :2], axis=1).max())
+        assert row["vertical_error_m"] == pytest.approx(abs(gap[:, 2]).max())
+        assert row["relative_error"] == pytest.approx(np.linalg.norm(gap, axis=1).max() / report["departure_m"])
+        assert row["slewing_torque_nm"] == pytest.approx(float(abs(results[row["name"]].slewing_torque).max()))
+    own = run_case(load_case(NAME, SHORT))
+    assert_allclose(results[OWN]["payload_position"], own["payload_position"], rtol=0.0, atol=1e-12)
+    errors = [row_of(report, name)["relative_error"] for name in ("rigid", ONE_OF_EACH, OWN)]
+    assert errors == sorted(errors, reverse=True)
+
+
+def test_departure_counts_from_where_the_load_would_hang_on_a_rigid_crane():
+    still = load_case(
+        "qtz5613/slewing", ["motion.slewing.end=0.001 deg", "run.duration=5 s", "motion.slewing.delay=4 s"]
+    )
+    counts = dict.fromkeys(("tower_modes", "torsion_modes", "jib_lateral_modes", "jib_vertical_modes"), 0)
+    from towercrane.models import space_model
+
+    rigid = run_case(still, model=space_model(still, **counts))
+    assert np.linalg.norm(departures(rigid)[:70], axis=1).max() < 1e-9
+    # The elastic crane has sunk by the tilt of its tower and its jib's sag.
+    assert departures(run_case(still))[0, 2] == pytest.approx(-1.2, abs=0.3)
+
+
+def test_target_decides_which_kinds_are_needed(compared):
+    report, _ = compared
+    best = row_of(report, report["recommended"])
+    assert best["relative_error"] <= 0.02
+    kept = {name for name, count in zip(report["kinds_of_modes"], best["modes"].values(), strict=True) if count}
+    assert set(report["needed"]) == kept
+    # No other model with as few kinds is within the target at fewer calls.
+    for row in report["rows"][:-1]:
+        if row["relative_error"] <= 0.02:
+            kinds = sum(count > 0 for count in row["modes"].values())
+            assert (len(kept), best["evaluations"]) <= (kinds, row["evaluations"])
+    assert len(report["reasons"]) == 4
+    torsion = next(reason for reason in report["reasons"] if reason.startswith("torsion"))
+    without = row_of(report, "tower + lateral + vertical")
+    assert f"{without['relative_error']:.2g}" in torsion
+    assert "slowest motion across the jib" in torsion
+    assert "needed" in torsion
+
+
+def test_the_slowest_motions_are_those_of_the_pendulum_on_a_rigid_crane(compared):
+    report, results = compared
+    case = load_case(NAME, SHORT)
+    rigid = slowest(case, variants(case)[0], results["rigid"])
+    pendulum = np.sqrt(9.81 / float(results["rigid"].rope_length[-1])) / (2 * np.pi)
+    assert_allclose([rigid["along"], rigid["across"]], pendulum, rtol=1e-9)
+    rich = row_of(report, RICHEST)["slowest_hz"]
+    assert rich["along"] == pytest.approx(pendulum, rel=2e-3)
+    assert rich["across"] < 0.9 * pendulum
+
+
+def test_a_model_that_ends_early_has_no_error():
+    # The heavy zero start lets the rope go slack once the jib is flexible.
+    case = load_case("qtz5613/condition-4-zero", ["rope.slack=stop", "run.duration=20 s"])
+    report, results = compare(case, 0.01)
+    assert results[RICHEST].attrs["outcome"] == "slack rope"
+    assert all(row["relative_error"] is None for row in report["rows"])
+    assert (report["recommended"], report["needed"]) == (None, ["tower", "jib"])
+    assert any("slack rope" in reason or "finished" in reason for reason in report["reasons"])
+    assert len(gaps(results["rigid"], results[RICHEST])) <= len(results["rigid"].time)
+    paths(report, results).canvas.draw()
+
+
+def test_what_cannot_be_compared_is_refused():
+    with pytest.raises(ValueError, match="wanted a case of kind space or radial, got 'jib'"):
+        compare(load_case("jib-crane/plan"), 0.01)
+    with pytest.raises(ValueError, match="wanted one mode or more"):
+        compare(load_case(RADIAL, ["model.tower_modes=0", "model.jib_modes=0"]), 0.01)
+
+
+def test_picture_shows_paths_and_distances_with_units(compared):
+    report, results = compared
+    figure = paths(report, results)
+    figure.canvas.draw()
+    assert all("[" in axes.get_xlabel() for axes in figure.axes)
+    assert [axes.get_ylabel() for axes in figure.axes[-2:]] == ["horizontal distance [m]", "vertical distance [m]"]
+    named = {text.get_text() for text in figure.subfigs[1].legends[0].get_texts()}
+    assert {"rigid", OWN} <= named
+    assert "assumed" in figure._supxlabel.get_text()
+
+
+def test_command_answers_for_space_and_for_the_plane(tmp_path):
+    runner = CliRunner()
+    options = [part for change in SHORT for part in ("--set", change)]
+    done = runner.invoke(app, ["compare", NAME, "--out", str(tmp_path), *options])
+    assert done.exit_code == 0, done.output
+    assert {path.name for path in tmp_path.iterdir()} == {"compare.json", "paths.png"}
+    # The case's own target.
+    assert "for an error of 0.05 it needs" in done.output
+    report = json.loads((tmp_path / "compare.json").read_text("utf-8"))
+    assert report["target"] == 0.05
+    plane = ["compare", RADIAL, "--out", str(tmp_path), "--no-pictures", "--json", "--set", "run.duration=20 s"]
+    report = json.loads(runner.invoke(app, [*plane, "--target", "0.1"]).stdout)
+    assert (report["target"], report["kinds_of_modes"]) == (0.1, ["tower", "jib"])
+    assert json.loads(runner.invoke(app, plane).stdout)["target"] == 0.01
+    for wrong, words in (
+        (["compare", "jib-crane/plan"], "wanted a case of kind 'radial' or 'space'"),
+        (["compare", NAME, "--target", "3"], "wanted a fraction between 0 and 1"),
+        (["compare", RADIAL, "--set", "model.tower_modes=0", "--set", "model.jib_modes=0"], "one mode or more"),
+    ):
+        refused = runner.invoke(app, [*wrong, "--out", str(tmp_path)])
+        assert refused.exit_code == 2
+        assert words in refused.output

@@ -1,0 +1,164 @@
+"""Natural modes of cases in space: known frequencies, lines of the deformed crane, tables, pictures, command."""
+
+import json
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from typer.testing import CliRunner
+
+from towercrane.case import load_case
+from towercrane.cli import app
+from towercrane.models import space_model
+from towercrane.plots import space_modes as pictured
+from towercrane.space_modes import Place, drawn_sweeps, modes_at, modes_rest_on, place_at, space_frequencies
+from towercrane.space_shapes import crane_lines
+
+NAME = "qtz5613/manoeuvre"
+# Two lateral modes on either side of the pendulum, of an independent program [Hz].
+LATERAL = {
+    (10.0, 20.0): (0.1094, 0.1319),
+    (25.0, 15.0): (0.1100, 0.1499),
+    (40.0, 12.0): (0.1020, 0.1770),
+    (40.0, 20.0): (0.0927, 0.1511),
+    (50.0, 15.0): (0.0915, 0.1729),
+}
+
+
+@pytest.fixture(scope="module")
+def case():
+    return load_case(NAME)
+
+
+@pytest.fixture(scope="module")
+def report(case):
+    return space_frequencies(case)
+
+
+def in_plane(shares):
+    return shares["radial"] + shares["radial sway"]
+
+
+@pytest.mark.parametrize(("place", "expected"), LATERAL.items())
+def test_lateral_pair_is_that_of_another_program(case, place, expected):
+    modes = modes_at(space_model(case), Place(*place), 6)
+    lateral = [mode.frequency_hz for mode in modes if in_plane(mode.shares) < 0.5]
+    assert_allclose(lateral[:2], expected, atol=1e-4)
+    radial = next(mode.frequency_hz for mode in modes if in_plane(mode.shares) > 0.5)
+    assert radial == pytest.approx(np.sqrt(9.81 / place[1]) / (2 * np.pi), rel=1e-3)
+
+
+def test_report_sweeps_each_drive_by_itself(case, report):
+    assert report["at"] == {"trolley_position_m": 10.0, "rope_length_m": 20.0, "slewing_angle_rad": 0.0}
+    assert report["pendulum_hz"] == pytest.approx(np.sqrt(9.81 / 20.0) / (2 * np.pi))
+    assert [row["value"] for row in report["sweeps"]["trolley_position"]] == [10.0, 25.0, 40.0, 55.0]
+    assert len(report["modes"]) == 8
+    first = [mode["frequency_hz"] for mode in report["modes"]]
+    assert_allclose(report["sweeps"]["trolley_position"][0]["frequencies_hz"], first, rtol=1e-12)
+    assert_allclose(report["sweeps"]["rope_length"][-1]["frequencies_hz"], first, rtol=1e-12)
+    # An equal tower in all directions: turning the head changes nothing.
+    for row in report["sweeps"]["slewing_angle"]:
+        assert_allclose(row["frequencies_hz"], first, rtol=1e-9)
+        assert row["kinds"] == [mode["kind"] for mode in report["modes"]]
+    for mode in report["modes"]:
+        assert sum(mode["energy_shares"].values()) == pytest.approx(1.0)
+    # What the case's modes leave out of the lowest six.
+    assert 1e-8 < max(abs(mode["relative_difference"]) for mode in report["modes"][:6]) < 1e-4
+    keys = {entry["key"] for entry in report["assumed"]}
+    assert "crane.tower.torsional_stiffness" in keys
+    assert not any(key.startswith(("motion.", "crane.drive.", "crane.wind_areas.")) for key in keys)
+
+
+def test_places_default_to_the_ends_of_the_ways():
+    sweeps = space_frequencies(load_case("qtz5613/gentle"))["sweeps"]
+    assert [row["value"] for row in sweeps["trolley_position"]] == [10.0, 40.0]
+    assert [row["value"] for row in sweeps["rope_length"]] == pytest.approx([12.0, 20.0])
+    assert [row["value"] for row in sweeps["slewing_angle"]] == pytest.approx([0.0, np.pi / 2])
+
+
+def test_a_tower_that_buckles_is_an_outcome(case):
+    weak = ["model.weight_softening=true", 'crane.tower.second_moment_of_area="0.0002 m^4"']
+    found = space_frequencies(load_case(NAME, weak))
+    assert (found["outcome"], found["modes"]) == ("tower buckled", [])
+    assert {row["outcome"] for row in found["sweeps"]["rope_length"]} == {"tower buckled"}
+
+
+def test_lines_of_the_undeformed_crane(case):
+    model, place = space_model(case), Place(30.0, 15.0, 1.0)
+    mode = modes_at(model, place, 1)[0]
+    lines = crane_lines(model, mode, place, 12.3)
+    assert_allclose(lines["tower"][[0, -1]], [[0, 0, 0], [0, 0, 23.8]], atol=1e-12)
+    assert_allclose(lines["jib"][[0, -1]], [[0, 0, 23.8], [55.6, 0, 23.8]], atol=1e-12)
+    assert_allclose(lines["counter-jib"], [[-12.3, 0, 23.8], [0, 0, 23.8]], atol=1e-12)
+    assert_allclose(lines["rope"], [[30, 0, 23.8], [30, 0, 8.8]], atol=1e-12)
+
+
+@pytest.mark.parametrize("driven", [False, True])
+@pytest.mark.parametrize("heading", [0.0, 2.1])
+def test_lines_join_and_do_not_depend_on_the_heading(driven, heading):
+    model = space_model(load_case("qtz5613/soft-drive" if driven else NAME))
+    moved, straight = [], []
+    for angle, found in ((heading, moved), (0.0, straight)):
+        place = Place(30.0, 15.0, angle)
+        for mode in modes_at(model, place, 6):
+            found.append(crane_lines(model, mode, place, 12.3, 1.0))
+    for lines, same in zip(moved, straight, strict=True):
+        for name, line in lines.items():
+            # Shapes come with either sign.
+            mirrored = 2.0 * crane_lines(model, mode, place, 12.3)[name] - line
+            gap = min(abs(line - same[name]).max(), abs(mirrored - same[name]).max())
+            assert gap < 1e-6 * max(1.0, abs(line).max()), name
+        assert_allclose(lines["tower"][-1], lines["jib"][0], atol=1e-12)
+        assert_allclose(lines["counter-jib"][-1], lines["jib"][0], atol=1e-12)
+        # The trolley stays on the jib, whose points keep their distance from the axis.
+        out = lines["jib"][:, 0] - lines["tower"][-1, 0]
+        for axis in (1, 2):
+            on_jib = np.interp(30.0, out, lines["jib"][:, axis])
+            assert lines["rope"][0, axis] == pytest.approx(on_jib, abs=2e-3 * abs(lines["jib"] - 23.8).max())
+
+
+def test_jib_leaves_the_head_along_its_slope(case):
+    # A clamped jib: next to the head it goes on where the rigid counter-jib points.
+    model, place = space_model(case), Place(30.0, 15.0, 0.7)
+    for mode in modes_at(model, place, 8):
+        lines = crane_lines(model, mode, place, 12.3, 1.0)
+        jib, counter = lines["jib"], lines["counter-jib"]
+        still = crane_lines(model, mode, place, 12.3)
+        behind = (counter[1] - counter[0] - (still["counter-jib"][1] - still["counter-jib"][0])) / 12.3
+        step = still["jib"][1, 0]
+        ahead = (jib[1] - jib[0] - (still["jib"][1] - still["jib"][0])) / step
+        size = abs(jib - still["jib"]).max() / 55.6
+        assert_allclose(ahead[1:], behind[1:], atol=0.6 * size)
+
+
+def test_pictures_show_units_kinds_and_assumptions(case):
+    model, place = space_model(case), place_at(case)
+    notes = [(a.key, str(a.value), a.why) for a in modes_rest_on(case)]
+    figure = pictured.shapes(model, modes_at(model, place, 3), place, 12.3, "title", notes)
+    figure.canvas.draw()
+    shown = [axes for axes in figure.axes if axes.get_visible()]
+    assert len(shown) == 6
+    assert all("[m]" in axes.get_ylabel() and "Hz" in shown[0].get_title() for axes in shown)
+    assert "energy" in shown[1].get_title()
+    sweeps = {name: rows[::8] for name, rows in drawn_sweeps(case).items()}
+    figure = pictured.frequencies(sweeps, "title", notes)
+    figure.canvas.draw()
+    assert [axes.get_xlabel().rpartition(" ")[2] for axes in figure.axes] == ["[m]", "[m]", "[deg]"]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == list(pictured.KINDS)
+    assert "torsional" in figure._supxlabel.get_text()
+
+
+def test_command_prints_tables_or_json_and_draws(tmp_path):
+    runner = CliRunner()
+    done = runner.invoke(app, ["modes", NAME, "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    assert "lateral sway" in done.output
+    assert "the rope by itself swings at 0.111465 Hz" in done.output
+    assert f"next: towercrane run {NAME}" in done.output
+    assert {path.name for path in tmp_path.iterdir()} == {"modes.png", "frequencies.png"}
+    report = json.loads(runner.invoke(app, ["modes", NAME, "--json", "--set", "modes.count=2"]).stdout)
+    assert len(report["modes"]) == 2
+    for command in ("map", "lattice"):
+        refused = runner.invoke(app, [command, NAME])
+        assert refused.exit_code == 2
+        assert "towercrane modes" in refused.output
