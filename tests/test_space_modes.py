@@ -9,7 +9,9 @@ from typer.testing import CliRunner
 
 from towercrane.case import load_case
 from towercrane.cli import app
+from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.models import space_model
+from towercrane.motion import rest
 from towercrane.plots import space_modes as pictured
 from towercrane.space_modes import Place, drawn_sweeps, modes_at, modes_rest_on, place_at, space_frequencies
 from towercrane.space_shapes import crane_lines
@@ -162,3 +164,26 @@ def test_command_prints_tables_or_json_and_draws(tmp_path):
         refused = runner.invoke(app, [command, NAME])
         assert refused.exit_code == 2
         assert "towercrane modes" in refused.output
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.9])
+def test_lines_move_as_the_model_does(case, heading):
+    # Trolley and load of the model itself, moved a little along the mode from the undeformed crane.
+    model, place = space_model(case), Place(30.0, 15.0, heading)
+    motions = {"trolley": rest(30.0), "rope": rest(15.0), "slewing": rest(heading)}
+    turn = np.array([[np.cos(heading), np.sin(heading)], [-np.sin(heading), np.cos(heading)]])
+    n = model.coordinates
+    for mode in modes_at(model, place, 8):
+        lines, still = (crane_lines(model, mode, place, 12.3, scale) for scale in (1.0, 0.0))
+        small = 1e-5 / abs(lines["rope"] - still["rope"]).max()
+        states = np.zeros((2, model.size))
+        # Both ways: what is of second order cancels.
+        states[:, :n] = np.outer([-small, small], mode.shape[:n])
+        states[:, n : n + 2] = np.outer([-small, small], mode.shape[n:] / 15.0)
+        states[:, n + 2] = -1.0
+        motion = FlexibleMotion(model, motions, np.zeros(2), states)
+        for end, (place_in_space, _) in enumerate((motion.trolley_in_space, motion.load_in_space)):
+            moved = np.diff(place_in_space, axis=0)[0] / (2.0 * small)
+            moved[:2] = turn @ moved[:2]
+            wanted = (lines["rope"] - still["rope"])[end]
+            assert_allclose(moved, wanted, atol=1e-4 * abs(wanted).max())
