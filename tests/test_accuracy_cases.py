@@ -16,7 +16,7 @@ from towercrane.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, st
 from towercrane.scene import Setting
 from towercrane.simulate import run_case
 from towercrane.summary import summarise
-from towercrane.tables import run_tables, verification_tables
+from towercrane.tables.runs import run_tables, verification_tables
 
 OPEN, STATED = "qtz5613/within-1e-3", "qtz5613/condition-3"
 SHORT = ["run.duration=60 s"]

@@ -18,7 +18,7 @@ from towercrane.motion import rest, trapezoid
 from towercrane.natural import natural_frequencies
 from towercrane.simulate import simulate
 from towercrane.summary import summarise
-from towercrane.tables import modes_tables
+from towercrane.tables.modes import modes_tables
 from towercrane.towers import crane_frame
 
 TOWERS = ("towers/laced", "towers/stepped", "towers/tapered")

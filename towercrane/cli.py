@@ -155,7 +155,7 @@ def modes(
     if as_json:
         typer.echo(json.dumps(report, indent=2))
     else:
-        from towercrane.tables import modes_tables
+        from towercrane.tables.modes import modes_tables
 
         modes_tables(report)
         if out is not None:
@@ -205,7 +205,7 @@ def run(
     if as_json:
         typer.echo(text)
     else:
-        from towercrane.tables import run_tables, verification_tables
+        from towercrane.tables.runs import run_tables, verification_tables
 
         run_tables(summary)
         if "verification" in summary:

@@ -61,7 +61,7 @@ def compare(
     if as_json:
         typer.echo(json.dumps(report, indent=2, allow_nan=False))
         return
-    from towercrane.space_tables import comparison_tables
+    from towercrane.tables.space import comparison_tables
 
     comparison_tables(report)
     typer.echo(f"written to {folder}: {', '.join(files)}")

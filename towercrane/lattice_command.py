@@ -31,7 +31,7 @@ def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) ->
     if as_json:
         typer.echo(json.dumps(report, indent=2))
         return
-    from towercrane.tables import lattice_tables
+    from towercrane.tables.modes import lattice_tables
 
     lattice_tables(report)
     suggest("modes", case, *options_of(changes), "--actual")

@@ -105,7 +105,7 @@ def frequency_map(
     if as_json:
         typer.echo(json.dumps(report, indent=2))
     else:
-        from towercrane.tables import map_tables
+        from towercrane.tables.modes import map_tables
 
         map_tables(report)
         typer.echo(f"written to {folder}: {', '.join(files)}")

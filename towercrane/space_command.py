@@ -39,7 +39,7 @@ def space_modes(case: Case, name: str, changes: list[str] | None, out: Path | No
     if as_json:
         typer.echo(json.dumps(report, indent=2))
     else:
-        from towercrane.space_tables import space_modes_tables
+        from towercrane.tables.space import space_modes_tables
 
         space_modes_tables(report)
         if out is not None:

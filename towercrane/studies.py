@@ -77,7 +77,7 @@ def sensitivity(
     if as_json:
         typer.echo(json.dumps(summary, indent=2))
         return
-    from towercrane.tables import sensitivity_tables
+    from towercrane.tables.studies import sensitivity_tables
 
     sensitivity_tables(summary)
     typer.echo(f"written to {folder}: {len(files)} files")
@@ -121,7 +121,7 @@ def linearise(
     if as_json:
         typer.echo(json.dumps(report, indent=2, allow_nan=False))
         return
-    from towercrane.tables import linear_tables
+    from towercrane.tables.modes import linear_tables
 
     linear_tables(report, tuple(loaded.motions))
     if out is not None:
@@ -196,7 +196,7 @@ def shape(
     if as_json:
         typer.echo(json.dumps(summary, indent=2, allow_nan=False))
         return
-    from towercrane.tables import shape_tables
+    from towercrane.tables.studies import shape_tables
 
     shape_tables(summary)
     typer.echo(f"written to {folder}: {', '.join(files)}")
@@ -267,7 +267,7 @@ def bench(
     if as_json:
         typer.echo(json.dumps(_finite(report), indent=2, allow_nan=False))
     else:
-        from towercrane.tables import bench_tables
+        from towercrane.tables.studies import bench_tables
 
         bench_tables(report)
         if out is not None:

@@ -81,7 +81,7 @@ def sweep(
     if as_json:
         typer.echo(json.dumps(summary, indent=2, allow_nan=False))
     else:
-        from towercrane.tables import sweep_tables
+        from towercrane.tables.studies import sweep_tables
 
         sweep_tables(summary)
         typer.echo(f"written to {folder}: {', '.join(files)}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from towercrane.report_tables import assumed_values, console_of_reports, report_table
+from towercrane.tables.layout import assumed_values, console_of_reports, report_table
 
 
 def space_modes_tables(report: dict[str, Any]) -> None:
