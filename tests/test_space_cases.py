@@ -10,12 +10,15 @@ from numpy.testing import assert_allclose, assert_array_equal
 from modal import Chain
 from towercrane.case import CaseError, case_folder, load_case
 from towercrane.cranes.lumped_data import Drive
+from towercrane.cranes.small_motions import natural_modes
 from towercrane.cranes.wind import WindAreas
+from towercrane.linear_report import linear_model
 from towercrane.models import model_of
 from towercrane.simulate import run_case, simulate
 from towercrane.summary import summarise
 
 MANOEUVRE, SLEWING, DRIVEN = "qtz5613/manoeuvre", "qtz5613/slewing", "qtz5613/soft-drive"
+DAMPED = ("tower", "torsion", "jib_lateral", "jib_vertical")
 PARKED, WORKING, RADIAL = "qtz5613/gusts-parked", "qtz5613/gusts-working", "qtz5613/condition-3"
 WIND = ["wind.speed=10 m/s", "wind.direction=90 deg"]
 
@@ -249,3 +252,13 @@ def test_every_space_key_is_shown_in_a_shipped_crane():
         assert plain[table].items() <= crane[table].items()
     del plain["tower"]["lattice"], plain["tower"]["published_roots"]
     assert plain["tower"].items() <= crane["tower"].items()
+
+
+def test_linear_model_of_a_case_is_named_and_has_the_cranes_frequencies():
+    case = load_case(SLEWING, [f"model.{kind}_damping_ratio=0" for kind in DAMPED])
+    linear = linear_model(case, 0.0)
+    assert [signal.name for signal in linear.inputs] == [f"{name}_acceleration" for name in model_of(case).channels]
+    assert {"torsion_mode_1", "jib_lateral_mode_2", "sway_sideways"} <= {signal.name for signal in linear.states}
+    assert {"slewing_torque", "tower_tip_twist", "payload_position_up"} & {signal.name for signal in linear.outputs}
+    modes = natural_modes(model_of(case), 30.0, 15.0)
+    assert_allclose(linear.frequencies, [mode.frequency_hz for mode in modes], rtol=2e-6)
