@@ -12,7 +12,13 @@ from towercrane.simulate import run_case
 from towercrane.summary import expected, summarise
 
 NAMES = [name for name, _ in list_cases() if name.startswith(hard.FOLDER)]
-LONG = {"hard/one-hour", "hard/stiff-drive", "hard/friction-as-a-jump", "hard/modes-8-14"}
+LONG = {
+    "hard/one-hour",
+    "hard/stiff-drive",
+    "hard/friction-as-a-jump",
+    "hard/modes-8-14",
+    "hard/springs-a-thousandfold",
+}
 ENDS = {
     "hard/buckled": "tower buckled",
     "hard/slack-above-the-horizontal": "slack rope",
