@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple
 
 import numpy as np
 
 from towercrane.indicators import drift, vibration
 from towercrane.nodes import OUTPUTS, RICHEST, SWING, TENSION, nodes_of
-from towercrane.scene import Setting
+from towercrane.scene import AnySetting, Setting
 from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from numpy.typing import NDArray
 
@@ -88,12 +88,12 @@ class Estimate:
 
 
 @dataclass(frozen=True, eq=False)
-class Choice:
+class Choice(Generic[AnySetting]):
     """A setting and what is expected of it.
 
     Parameters
     ----------
-    setting : Setting
+    setting : Setting or SpaceSetting
     estimate : Estimate
     peaks : ndarray, shape (outputs,)
         Expected.
@@ -105,15 +105,18 @@ class Choice:
         Settings that were looked at.
     cpu_seconds : float
         What the choice took.
+    left_out : tuple of str
+        What the richest model has and this has not, and why, in sentences.
     """
 
-    setting: Setting
+    setting: AnySetting
     estimate: Estimate
     peaks: Floats
     kept: bool
     doubts: tuple[str, ...]
     tried: int
     cpu_seconds: float
+    left_out: tuple[str, ...]
 
 
 class Indicators:
@@ -213,7 +216,9 @@ class Indicators:
         return tuple(found)
 
 
-def choose(scene: RadialScene, targets: Mapping[str, Tolerance], stated: Mapping[str, Any] | None = None) -> Choice:
+def choose(
+    scene: RadialScene, targets: Mapping[str, Tolerance], stated: Mapping[str, Any] | None = None
+) -> Choice[Setting]:
     """The cheapest setting that is expected to keep all targets, or where none does the one that comes nearest.
 
     Parameters
@@ -237,7 +242,7 @@ def choose(scene: RadialScene, targets: Mapping[str, Tolerance], stated: Mapping
     indicators = Indicators(scene)
     softening = stated.get("weight_softening", True)
     peaks = np.maximum(indicators.rich(softening).peaks, SMALLEST_PEAK)
-    allowed = limits(targets, peaks)
+    allowed = limits(OUTPUTS, targets, peaks)
     wanted = np.isfinite(allowed)
     best, nearest, tried = None, np.inf, 0
     for candidate in candidates(indicators, set(targets), {"weight_softening": softening, **stated}):
@@ -254,14 +259,15 @@ def choose(scene: RadialScene, targets: Mapping[str, Tolerance], stated: Mapping
             break
     assert best is not None
     doubts = indicators.doubts(softening)
-    return Choice(*best, peaks, nearest <= 1.0, doubts, tried, time.process_time() - began)
+    spent = time.process_time() - began
+    return Choice(*best, peaks, nearest <= 1.0, doubts, tried, spent, tuple(_left_out(indicators, best[0])))
 
 
-def limits(targets: Mapping[str, Tolerance], peaks: Floats) -> Floats:
+def limits(outputs: Iterable[str], targets: Mapping[str, Tolerance], peaks: Floats) -> Floats:
     """Largest allowed errors in the outputs' units, infinite where none is set; shape (outputs,)."""
-    found = np.full(len(OUTPUTS), np.inf)
+    found, names = np.full(len(peaks), np.inf), list(outputs)
     for name, (value, relative) in targets.items():
-        index = OUTPUTS.index(name)
+        index = names.index(name)
         found[index] = value * max(peaks[index], SMALLEST_PEAK) if relative else value
     return found
 
@@ -301,3 +307,31 @@ def cost(setting: Setting, highest: float) -> float:
     """Time for a run, up to a factor, with modes up to a frequency [Hz]; steps follow the fastest mode."""
     n = setting.tower_modes + setting.jib_modes
     return (highest + 1.0) * (0.45 + 0.09 * n + 0.0035 * n**2)
+
+
+def _left_out(indicators: Indicators, setting: Setting) -> list[str]:
+    """What a setting has not that the richest model has, and why not, in sentences."""
+    rigid = [part for part, count in (("tower", setting.tower_modes), ("jib", setting.jib_modes)) if not count]
+    found = [f"bending of the {part}: what is asked for hardly feels it" for part in rigid]
+    if setting.tower_modes < RICHEST.tower_modes or setting.jib_modes < RICHEST.jib_modes:
+        found.append(
+            f"modes beyond {setting.tower_modes} of the tower and {setting.jib_modes} of the jib: "
+            "their flexibility and ringing are in the estimate"
+        )
+    if np.isfinite(setting.cap):
+        found.append(f"vibration above {setting.cap:.3g} Hz: faster modes are slowed to it and keep their stiffness")
+    found.append("motion out of the jib's plane: nothing drives the load out of it")
+    if not setting.weight_softening:
+        found.append(f"the weight's softening of the tower, as the case states: {_softening(indicators)}")
+    return found
+
+
+def _softening(indicators: Indicators) -> str:
+    """What the weight's softening would do, in words."""
+    try:
+        changes = indicators.softening() / np.maximum(indicators.rich(True).peaks, SMALLEST_PEAK)
+    except NoEquilibrium:
+        return "with it the tower buckles"
+    # Two models that have lost each other's phase differ by twice the peak at most.
+    shares = zip(OUTPUTS, np.minimum(changes, 2.0), strict=True)
+    return "it would change " + ", ".join(f"{n.replace('_', ' ')} by {s:.1%}" for n, s in shares) + " of the peak"

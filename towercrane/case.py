@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from towercrane.motion import Motion
     from towercrane.payload import Load
     from towercrane.plans import Plan
-    from towercrane.schema_accuracy import Accuracy
+    from towercrane.schema_accuracy import Asked
     from towercrane.schema_tower_cranes import Crane
 
 __all__ = ["Assumption", "Case", "CaseError", "Fault", "case_folder", "list_cases", "load_case"]
@@ -152,9 +152,14 @@ class Case:
         return asked.model_copy(update={"trolley_positions": positions, "payload_masses": masses})
 
     @property
-    def accuracy(self) -> Accuracy:
-        """Errors that are asked for; for a crane in radial motion."""
-        return self._radial.accuracy
+    def accuracy(self) -> Asked:
+        """Errors that are asked for; for a tower crane."""
+        return self.space.accuracy if self.kind == "space" else self._radial.accuracy
+
+    @property
+    def frequency_tolerance(self) -> float | None:
+        """Relative error that is accepted of frequencies; for a crane in radial motion."""
+        return self._radial.accuracy.frequency
 
     @property
     def rests_on(self) -> tuple[Assumption, ...]:

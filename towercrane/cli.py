@@ -179,8 +179,8 @@ def run(
 ) -> None:
     """Simulate a case; write result.nc, summary.json and pictures."""
     loaded = load(case, changes)
-    if verify and loaded.kind != "radial":
-        fail(f"--verify: wanted a crane of kind 'radial', got {loaded.kind!r}")
+    if verify and loaded.kind not in ("radial", "space"):
+        fail(f"--verify: wanted a case of kind 'radial' or 'space', got {loaded.kind!r}")
     folder = out if out is not None else Path("results") / loaded.name
     folder_for_results(folder)
     announce_compilation(loaded.kind, "towercrane.stepper")

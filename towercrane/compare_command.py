@@ -75,8 +75,6 @@ def compare(
 
 def _asked(case: Case) -> float | None:
     """Relative error that the case asks for, the least of its outputs'."""
-    if case.kind == "space":
-        return case.space.accuracy.target
     return min((one.value for one in case.accuracy.targets.values() if one.relative), default=None)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from towercrane.integrate import FINISHED, INTERRUPTED
 from towercrane.models import radial_model, space_model
+from towercrane.readings import departures
 from towercrane.simulate import run_case
 from towercrane.system import NoEquilibrium
 
@@ -153,14 +154,6 @@ def compare(
         "assumed": [{"key": a.key, "value": str(a.value), "why": a.why} for a in case.rests_on],
     }
     return report, results
-
-
-def departures(result: xr.Dataset) -> Floats:
-    """Way of the load from where it would hang on a rigid crane at rest [m], shape (times, 3)."""
-    trolley, rope = result["trolley_position"].values, result["rope_length"].values
-    heading = result["slewing_angle"].values if "slewing_angle" in result else np.zeros_like(trolley)
-    hung = np.stack([trolley * np.cos(heading), trolley * np.sin(heading), -rope], axis=1)
-    return np.asarray(result["payload_position"].values - hung)
 
 
 def gaps(result: xr.Dataset, richest: xr.Dataset) -> Floats:

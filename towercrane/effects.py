@@ -67,7 +67,7 @@ def effects_in(case: Case) -> Effects:
     Without ``accuracy.frequency`` the results hold what the case describes, and the weight's softening where
     ``model.weight_softening`` asks for it. With it, of those and the weight, what is negligible is left out.
     """
-    crane, tolerance = case.crane, case.accuracy.frequency
+    crane, tolerance = case.crane, case.frequency_tolerance
     written = tower_of(crane)
     described, head = as_chain(written), case.crane_on(written).end_body
     known = replace(with_end_body(_with_lattice(case, described), head), gravity=crane.gravity)
@@ -90,7 +90,7 @@ def effects_in(case: Case) -> Effects:
 def kept_tower(case: Case, crane: Crane) -> Beam | Chain:
     """The tower of a case, without the slewing part and without weight, as the case's tolerance keeps it."""
     tower = tower_of(crane)
-    if isinstance(tower, Beam) or case.accuracy.frequency is None:
+    if isinstance(tower, Beam) or case.frequency_tolerance is None:
         return tower
     return keeping(tower, effects_in(case).kept)
 

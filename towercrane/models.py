@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -78,48 +79,17 @@ def radial_model(case: Case, **changes: Any) -> RadialModel:
     return RadialModel(case.radial_crane(), case.load(), **{**chosen, **changes})
 
 
-def space_model(case: Case, **counts: int) -> FlexibleModel:
-    """Model of a case in space; keyword arguments replace its numbers of modes, named as in the case."""
-    from towercrane.cranes.flexible import FlexibleModel, ModalDamping
-    from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
-    from towercrane.cranes.lumped_data import Drive
-    from towercrane.cranes.wind import WindAreas
+def space_model(case: Case, **changes: Any) -> FlexibleModel:
+    """Model of a case in space; keyword arguments replace what the case chose."""
+    from towercrane.space_scene import space_scene_of, space_setting_of
 
-    space, crane = case.space, case.space.crane
-    chosen = space.model.model_copy(update=counts)
-    modes = ModeCounts(
-        chosen.tower_modes, chosen.torsion_modes, chosen.jib_lateral_modes, chosen.jib_vertical_modes
-    )  # fmt: skip
-    damping = ModalDamping(
-        chosen.tower_damping_ratio,
-        chosen.torsion_damping_ratio,
-        chosen.jib_lateral_damping_ratio,
-        chosen.jib_vertical_damping_ratio,
-    )
-    drive = None
-    if crane.drive is not None and space.motion.shaft is not None:
-        coupling, friction = crane.drive, crane.friction
-        drive = Drive(
-            "slewing", coupling.soft_stiffness, coupling.stiff_stiffness, coupling.corner, coupling.damping,
-            friction.law, friction.torque, friction.rate,
-        )  # fmt: skip
-    areas = WindAreas(**dict(crane.wind_areas)) if space.wind is not None else None
-    return FlexibleModel(
-        flexible_crane(case.space_crane(), modes, areas),
-        case.load(),
-        slewing="prescribed" if drive is None else drive,
-        drive_inertia=crane.drive.inertia if drive is not None and crane.drive is not None else 0.0,
-        damping=damping,
-        weight_softening=chosen.weight_softening,
-        self_weight=space.start.state != "zero-no-self-weight",
-        rope_as_rod=case.rope.slack == "rod",
-        wind=areas is not None,
-    )
+    # Its motions may be waiting for the frequencies of this very model.
+    return space_scene_of(case, {}).model(replace(space_setting_of(case), **changes))
 
 
 def _softened(case: Case) -> bool:
     """Whether the weight softens the tower: as the case says, or by its tolerance on frequencies."""
-    if case.accuracy.frequency is None:
+    if case.frequency_tolerance is None:
         return case.model.weight_softening
     from towercrane.effects import effects_in
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from towercrane.cranes.flexible_constants import geometric_stiffness
 from towercrane.motion import phases
+from towercrane.readings import RADIAL
 from towercrane.scene import Setting
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 RICHEST = Setting(6, 14)
 """What coarser models are compared with."""
 
-OUTPUTS = ("tower_tip_displacement", "jib_tip_deflection", "swing_angle", "rope_tension")
+OUTPUTS = tuple(RADIAL)
 """Outputs whose error is estimated, in the order of all arrays here."""
 
 SWING, TENSION = 2, 3

@@ -7,18 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy import SMALLEST_PEAK, Choice, Estimate, Indicators, choose, limits
+from towercrane.accuracy import Choice, Estimate, Indicators, Tolerance, choose, limits
 from towercrane.integrate import FINISHED
-from towercrane.nodes import OUTPUTS, RICHEST
+from towercrane.nodes import RICHEST
+from towercrane.readings import RADIAL, SPACE, gap, peak, picked_in
 from towercrane.scene import Setting, provenance, scene_of, setting_of
-from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import xarray as xr
 
-    from towercrane.accuracy import Tolerance
     from towercrane.case import Case
-    from towercrane.scene import RadialScene
+    from towercrane.integrate import Progress
+    from towercrane.space_scene import SpaceSetting
 
 KEPT = "promised"
 OUT_OF_REACH = "out of reach"
@@ -27,28 +29,51 @@ CANNOT_BE_PROMISED = "cannot be promised"
 FINER = 1e-2
 """Rtol of the run that verifies, over that of the run."""
 
+MORE = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2}
+"""Modes that the model of such a run in space has more."""
+
+
+def outputs_of(case: Case) -> dict[str, str]:
+    """Outputs of a case whose error can be asked for, and their units."""
+    return SPACE if case.kind == "space" else RADIAL
+
 
 def stated(case: Case) -> dict[str, Any]:
     """Fields of the setting that the case's author wrote: they are not chosen, only checked."""
+    from towercrane.space_scene import SpaceSetting
+
+    in_space = case.kind == "space"
+    model = case.space.model if in_space else case.model
     written = {
-        **{key: getattr(case.model, key) for key in case.model.model_fields_set},
+        **{key: getattr(model, key) for key in model.model_fields_set},
         **{key: getattr(case.solver, key) for key in case.solver.model_fields_set},
     }
-    return {key: value for key, value in written.items() if key in Setting.__dataclass_fields__}
+    fields = (SpaceSetting if in_space else Setting).__dataclass_fields__
+    return {key: value for key, value in written.items() if key in fields}
 
 
-def chosen(case: Case, scene: RadialScene) -> Choice:
-    """Setting for the error that a case asks for."""
-    return choose(scene, case.accuracy.targets, stated(case))
+def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice[Any], xr.Dataset]:
+    """Setting for the error that a case asks for, and the run in it.
+
+    Raises
+    ------
+    NoEquilibrium
+        If the tower buckles.
+    KeyboardInterrupt
+        If one of the runs that a choice in space needs was interrupted.
+    """
+    targets = case.accuracy.targets
+    if case.kind == "space":
+        from towercrane.ladders import measured_choice
+        from towercrane.space_scene import space_scene_of
+
+        return measured_choice(space_scene_of(case), targets, stated(case), progress)
+    scene = scene_of(case)
+    choice = choose(scene, targets, stated(case))
+    return choice, scene.run(choice.setting, progress=progress)
 
 
-def judged(scene: RadialScene, setting: Setting) -> tuple[Estimate, tuple[str, ...]]:
-    """Estimate of a setting that nobody chose by its error, and why it may not hold."""
-    indicators = Indicators(scene)
-    return indicators.estimate(setting), indicators.doubts(setting.weight_softening)
-
-
-def promise(case: Case, choice: Choice, result: xr.Dataset) -> dict[str, Any]:
+def promise(case: Case, choice: Choice[Any], result: xr.Dataset) -> dict[str, Any]:
     """What was asked for, chosen and is expected, ready for JSON.
 
     Returns
@@ -58,9 +83,9 @@ def promise(case: Case, choice: Choice, result: xr.Dataset) -> dict[str, Any]:
         ``allowed``, ``estimated``, ``peak`` in ``units``), ``setting``, ``stated``, ``left_out`` in sentences,
         ``tried``, ``choice_cpu_seconds``.
     """
-    names, targets = list(case.accuracy.targets), case.accuracy.targets
-    estimated, allowed, peaks = _figures(choice.estimate, targets, result)
-    over = [name for name in names if not estimated[name] <= allowed[name]]
+    targets = case.accuracy.targets
+    estimated, allowed, peaks = _figures(outputs_of(case), choice.estimate, targets, result)
+    over = [name for name in targets if not estimated[name] <= allowed[name]]
     reasons = list(choice.doubts)
     if result.attrs["outcome"] != FINISHED:
         reasons.append(f"the run ended early: {result.attrs['outcome']}")
@@ -82,43 +107,14 @@ def promise(case: Case, choice: Choice, result: xr.Dataset) -> dict[str, Any]:
                 "peak": peaks[name],
                 "units": result[name].attrs["units"],
             }
-            for name in names
+            for name in targets
         },
         "setting": provenance(choice.setting),
         "stated": sorted(given),
-        "left_out": left_out(case, choice.setting),
+        "left_out": list(choice.left_out),
         "tried": choice.tried,
         "choice_cpu_seconds": choice.cpu_seconds,
     }
-
-
-def left_out(case: Case, setting: Setting) -> list[str]:
-    """What a setting has not that the richest model has, and why not, in sentences."""
-    rigid = [part for part, count in (("tower", setting.tower_modes), ("jib", setting.jib_modes)) if not count]
-    found = [f"bending of the {part}: what is asked for hardly feels it" for part in rigid]
-    if setting.tower_modes < RICHEST.tower_modes or setting.jib_modes < RICHEST.jib_modes:
-        found.append(
-            f"modes beyond {setting.tower_modes} of the tower and {setting.jib_modes} of the jib: "
-            "their flexibility and ringing are in the estimate"
-        )
-    if np.isfinite(setting.cap):
-        found.append(f"vibration above {setting.cap:.3g} Hz: faster modes are slowed to it and keep their stiffness")
-    found.append("motion out of the jib's plane: nothing drives the load out of it")
-    if not setting.weight_softening:
-        found.append(f"the weight's softening of the tower, as the case states: {_softening(scene_of(case))}")
-    return found
-
-
-def _softening(scene: RadialScene) -> str:
-    """What the weight's softening would do, in words."""
-    indicators = Indicators(scene)
-    try:
-        changes = indicators.softening() / np.maximum(indicators.rich(True).peaks, SMALLEST_PEAK)
-    except NoEquilibrium:
-        return "with it the tower buckles"
-    # Two models that have lost each other's phase differ by twice the peak at most.
-    shares = zip(OUTPUTS, np.minimum(changes, 2.0), strict=True)
-    return "it would change " + ", ".join(f"{n.replace('_', ' ')} by {s:.1%}" for n, s in shares) + " of the peak"
 
 
 def finer(setting: Setting) -> Setting:
@@ -133,6 +129,13 @@ def finer(setting: Setting) -> Setting:
     )
 
 
+def finer_in_space(setting: SpaceSetting, described: tuple[str, ...]) -> SpaceSetting:
+    """The next richer model of a crane with data for these kinds of modes, with a tighter tolerance."""
+    counts = {kind: getattr(setting, kind) + MORE[kind] for kind in described}
+    rtol, atol = max(FINER * setting.rtol, 1e-12), max(FINER * setting.atol, 1e-14)
+    return replace(setting.with_counts(counts), planar=False, rtol=rtol, atol=atol)
+
+
 def verification(case: Case, result: xr.Dataset) -> dict[str, Any]:
     """Estimated errors of a run beside its differences from a richer model's.
 
@@ -142,37 +145,60 @@ def verification(case: Case, result: xr.Dataset) -> dict[str, Any]:
         ``setting``, ``finer`` (the richer one), ``outcome`` of its run, ``doubts``, ``outputs`` (by output:
         ``estimated``, ``actual``, ``peak``, ``units``), over the time that both runs reached.
     """
-    import json
-
-    scene = scene_of(case)
-    picked = json.loads(result.attrs["accuracy"])["setting"] if "accuracy" in result.attrs else None
-    setting = setting_of(case) if picked is None else Setting(**{**picked, "cap": picked["cap"] or np.inf})
-    estimate, doubts = judged(scene, setting)
-    richer = scene.run(finer(setting))
-    estimated, _, peaks = _figures(estimate, {}, result)
-    rows = min(result.sizes["time"], richer.sizes["time"])
+    units = outputs_of(case)
+    setting, better, estimate, doubts, richer = (_in_space if case.kind == "space" else _in_plane)(case, result)
+    estimated, _, peaks = _figures(units, estimate, {}, result)
     return {
         "setting": provenance(setting),
-        "finer": provenance(finer(setting)),
+        "finer": provenance(better),
         "outcome": richer.attrs["outcome"],
         "doubts": list(doubts),
         "outputs": {
             name: {
                 "estimated": estimated[name] if np.isfinite(estimated[name]) else None,
-                "actual": float(abs(result[name].values[:rows] - richer[name].values[:rows]).max()),
+                "actual": gap(result, richer, name),
                 "peak": peaks[name],
-                "units": result[name].attrs["units"],
+                "units": unit,
             }
-            for name in OUTPUTS
+            for name, unit in units.items()
         },
     }
 
 
+Verified = tuple[Any, Any, Estimate, tuple[str, ...], "xr.Dataset"]
+"""Setting of a run and a finer one, estimate of the first and doubts of it, run of the second."""
+
+
+def _in_plane(case: Case, result: xr.Dataset) -> Verified:
+    scene, picked = scene_of(case), picked_in(result)
+    setting = Setting(**{**picked, "cap": picked["cap"] or np.inf}) if picked else setting_of(case)
+    indicators, better = Indicators(scene), finer(setting)
+    return (
+        setting,
+        better,
+        indicators.estimate(setting),
+        indicators.doubts(setting.weight_softening),
+        scene.run(better),
+    )
+
+
+def _in_space(case: Case, result: xr.Dataset) -> Verified:
+    from towercrane.ladders import measured_choice
+    from towercrane.space_scene import SpaceSetting, space_scene_of, space_setting_of
+
+    scene, picked = space_scene_of(case), picked_in(result)
+    setting = SpaceSetting(**picked) if picked else space_setting_of(case)
+    anything = dict.fromkeys(scene.outputs, Tolerance(1e-3, relative=True))
+    checked, _ = measured_choice(scene, anything, vars(setting))
+    better = finer_in_space(setting, scene.described)
+    return setting, better, checked.estimate, checked.doubts, scene.run(better)
+
+
 def _figures(
-    estimate: Estimate, targets: dict[str, Tolerance], result: xr.Dataset
+    units: dict[str, str], estimate: Estimate, targets: Mapping[str, Tolerance], result: xr.Dataset
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
     """Estimated and allowed errors and the run's peaks, by output, in the output's unit."""
-    peaks = np.array([float(abs(result[name].values).max()) for name in OUTPUTS])
-    found = (estimate.errors(peaks), limits(targets, peaks), peaks)
-    estimated, allowed, largest = (dict(zip(OUTPUTS, values.tolist(), strict=True)) for values in found)
+    peaks = np.array([peak(result, name) for name in units])
+    found = (estimate.errors(peaks), limits(units, targets, peaks), peaks)
+    estimated, allowed, largest = (dict(zip(units, values.tolist(), strict=True)) for values in found)
     return estimated, allowed, largest

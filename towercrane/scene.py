@@ -1,12 +1,15 @@
-"""A radial scene: a crane, its load, what drives it and how it starts; all but the choice of the model."""
+"""Scenes: a crane, its load, what drives it and how it starts; all but the choice of the model. The radial one."""
 
 from __future__ import annotations
 
 import warnings
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 import numpy as np
+
+from towercrane.readings import RADIAL
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -17,6 +20,88 @@ if TYPE_CHECKING:
     from towercrane.integrate import Progress
     from towercrane.motion import Motion
     from towercrane.payload import Load
+    from towercrane.system import Model
+
+
+class Solved(Protocol):
+    """What a setting says of the solver, see :func:`towercrane.integrate.integrate`."""
+
+    @property
+    def method(self) -> str:
+        """Its name."""
+
+    @property
+    def rtol(self) -> float:
+        """Relative tolerance."""
+
+    @property
+    def atol(self) -> float:
+        """Absolute tolerance."""
+
+
+AnySetting = TypeVar("AnySetting", bound=Solved)
+
+
+@dataclass(frozen=True, eq=False)
+class Scene(ABC, Generic[AnySetting]):
+    """What happens to a crane.
+
+    Parameters
+    ----------
+    crane : TowerCrane
+    load : Load
+    motions : dict of str to Motion
+        "trolley" and "rope" [m].
+    duration : float
+        [s]
+    output_step : float
+        [s]
+    state : {"equilibrium", "zero"}
+    swing_angle : float
+        At the start [rad].
+    self_weight, rope_as_rod : bool
+        As in :class:`towercrane.cranes.flexible.FlexibleModel`.
+    """
+
+    crane: TowerCrane
+    load: Load
+    motions: dict[str, Motion]
+    duration: float
+    output_step: float = 0.05
+    state: str = "equilibrium"
+    swing_angle: float = 0.0
+    self_weight: bool = True
+    rope_as_rod: bool = False
+
+    @property
+    @abstractmethod
+    def outputs(self) -> dict[str, str]:
+        """Outputs whose error can be asked for, and their units."""
+
+    @abstractmethod
+    def model(self, setting: AnySetting) -> Model:
+        """The crane in the setting's coordinates."""
+
+    def run(self, setting: AnySetting, *, progress: Progress | None = None) -> xr.Dataset:
+        """Simulate the scene, see :func:`towercrane.simulate.simulate`."""
+        from towercrane.drift import EnergyDriftWarning
+        from towercrane.simulate import simulate
+
+        with warnings.catch_warnings():
+            # What a loose tolerance damps is in the estimate.
+            warnings.simplefilter("ignore", EnergyDriftWarning)
+            return simulate(
+                self.model(setting),
+                self.motions,
+                self.duration,
+                output_step=self.output_step,
+                state=self.state,
+                swing_angle=self.swing_angle,
+                method=setting.method,
+                rtol=setting.rtol,
+                atol=setting.atol,
+                progress=progress,
+            )
 
 
 @dataclass(frozen=True)
@@ -46,38 +131,24 @@ class Setting:
 
 
 @dataclass(frozen=True, eq=False)
-class RadialScene:
+class RadialScene(Scene[Setting]):
     """What happens to a crane in radial motion.
 
     Parameters
     ----------
-    crane : TowerCrane
-    load : Load
-    motions : dict of str to Motion
-        "trolley" and "rope" [m].
-    duration : float
-        [s]
-    output_step : float
-        [s]
-    state : {"equilibrium", "zero"}
-    swing_angle : float
-        At the start [rad].
+    crane, load, motions, duration, output_step, state, swing_angle, self_weight, rope_as_rod
+        As of :class:`Scene`.
     tower_damping_ratio, jib_damping_ratio : float
-    self_weight, rope_as_rod : bool
         As in :class:`towercrane.cranes.radial.RadialModel`.
     """
 
-    crane: TowerCrane
-    load: Load
-    motions: dict[str, Motion]
-    duration: float
-    output_step: float = 0.05
-    state: str = "equilibrium"
-    swing_angle: float = 0.0
     tower_damping_ratio: float = 0.0
     jib_damping_ratio: float = 0.0
-    self_weight: bool = True
-    rope_as_rod: bool = False
+
+    @property
+    def outputs(self) -> dict[str, str]:
+        """Outputs whose error can be asked for, and their units."""
+        return RADIAL
 
     def model(self, setting: Setting) -> RadialModel:
         """The crane in the setting's coordinates."""
@@ -95,27 +166,6 @@ class RadialScene:
             rope_as_rod=self.rope_as_rod,
             cap=setting.cap,
         )
-
-    def run(self, setting: Setting, *, progress: Progress | None = None) -> xr.Dataset:
-        """Simulate the scene, see :func:`towercrane.simulate.simulate`."""
-        from towercrane.drift import EnergyDriftWarning
-        from towercrane.simulate import simulate
-
-        with warnings.catch_warnings():
-            # What a loose tolerance damps is in the estimate.
-            warnings.simplefilter("ignore", EnergyDriftWarning)
-            return simulate(
-                self.model(setting),
-                self.motions,
-                self.duration,
-                output_step=self.output_step,
-                state=self.state,
-                swing_angle=self.swing_angle,
-                method=setting.method,
-                rtol=setting.rtol,
-                atol=setting.atol,
-                progress=progress,
-            )
 
 
 def scene_of(case: Case) -> RadialScene:
@@ -142,6 +192,6 @@ def setting_of(case: Case) -> Setting:
     return replace(setting, method=solver.method, rtol=solver.rtol, atol=solver.atol)
 
 
-def provenance(setting: Setting) -> dict[str, Any]:
+def provenance(setting: Solved) -> dict[str, Any]:
     """A setting for JSON; no cap is null."""
-    return {**vars(setting), "cap": setting.cap if np.isfinite(setting.cap) else None}
+    return {key: None if value == np.inf else value for key, value in vars(setting).items()}

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import GetCoreSchemaHandler, model_validator
 from pydantic_core import CoreSchema, core_schema
 
 from towercrane.accuracy import Tolerance
 from towercrane.faults import did_you_mean, shown
-from towercrane.nodes import OUTPUTS
+from towercrane.readings import MOTIONS, RADIAL, SPACE
 from towercrane.schema import Table, ToleranceIfAny, refusal
 from towercrane.units import UnitError, split, to_si
 
-UNITS = dict(zip(OUTPUTS, ("m", "m", "rad", "N"), strict=True))
-"""Unit of each output."""
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 LARGEST = 0.5
 """Error over an output's peak that may be asked for, at most."""
@@ -29,62 +29,83 @@ Targets = dict[str, Tolerance]
 
 
 class TargetField:
-    """Annotation of the field that takes a target, alone or by output."""
+    """Annotation of the field that takes a target, alone or by output.
+
+    Parameters
+    ----------
+    units : dict of str to str
+        Unit of each output that may have a target.
+    every : iterable of str
+        Outputs that a target has where none is named.
+    """
+
+    def __init__(self, units: dict[str, str], every: Iterable[str]) -> None:
+        self.units, self.every = units, tuple(every)
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(read)
+        return core_schema.with_info_plain_validator_function(self.read)
+
+    def read(self, value: object, info: core_schema.ValidationInfo) -> Targets:
+        """Tolerances by output; where none is named one for all of its dimension, or for those in the list."""
+        if not isinstance(value, dict):
+            every = info.data.get("outputs") or self.every
+            fitting = {name: _tolerance(value, self.units[name], self.units) for name in every}
+            return {name: tolerance for name, tolerance in fitting.items() if tolerance is not None} or _nothing(
+                value
+            )
+        targets: Targets = {}
+        for name, inner in value.items():
+            if name not in self.units:
+                hint = did_you_mean(str(name), self.units)
+                raise refusal(f"one of the outputs {', '.join(self.units)}", f'the unknown output "{name}"', hint)
+            found = _tolerance(inner, self.units[name], self.units)
+            if found is None:
+                raise refusal(f"an error of {name} in {self.units[name]} or over its peak", shown(inner), "")
+            targets[name] = found
+        return targets or _nothing(value)
 
 
 class OutputsField:
-    """Annotation of the field that takes names of outputs."""
+    """Annotation of the field that takes names of outputs.
+
+    Parameters
+    ----------
+    known : iterable of str
+    """
+
+    def __init__(self, known: Iterable[str]) -> None:
+        self.known = tuple(known)
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(names)
+        return core_schema.no_info_plain_validator_function(self.names)
+
+    def names(self, value: object) -> tuple[str, ...]:
+        """Names of outputs."""
+        wanted = f"a list of some of {', '.join(self.known)}"
+        if not isinstance(value, list | tuple) or not value:
+            raise refusal(wanted, shown(value), "")
+        for name in value:
+            if name not in self.known:
+                raise refusal(wanted, shown(name), did_you_mean(str(name), self.known))
+        return tuple(value)
 
 
-def names(value: object) -> tuple[str, ...]:
-    """Names of outputs."""
-    wanted = f"a list of some of {', '.join(OUTPUTS)}"
-    if not isinstance(value, list | tuple) or not value:
-        raise refusal(wanted, shown(value), "")
-    for name in value:
-        if name not in OUTPUTS:
-            raise refusal(wanted, shown(name), did_you_mean(str(name), OUTPUTS))
-    return tuple(value)
-
-
-def read(value: object) -> Targets:
-    """Tolerances by output; one for all of its dimension where none is named."""
-    if not isinstance(value, dict):
-        return {name: found for name in OUTPUTS if (found := _tolerance(value, name)) is not None} or _nothing(value)
-    targets: Targets = {}
-    for name, inner in value.items():
-        if name not in OUTPUTS:
-            hint = did_you_mean(str(name), OUTPUTS)
-            raise refusal(f"one of the outputs {', '.join(OUTPUTS)}", f'the unknown output "{name}"', hint)
-        found = _tolerance(inner, name)
-        if found is None:
-            raise refusal(f"an error of {name} in {UNITS[name]} or over its peak", shown(inner), "")
-        targets[name] = found
-    return targets or _nothing(value)
-
-
-def _tolerance(value: object, output: str) -> Tolerance | None:
-    """Tolerance for an output, or None for a quantity of another dimension."""
+def _tolerance(value: object, unit: str, units: dict[str, str]) -> Tolerance | None:
+    """Tolerance for an output in a unit, or None for a quantity that fits another output's."""
     try:
-        relative, unit = to_si(value, "1"), "1"
+        number, relative = to_si(value, "1"), True
     except UnitError:
-        relative, unit = 0.0, UNITS[output]
+        relative = False
     try:
-        number = relative if unit == "1" else to_si(value, unit)
+        number = number if relative else to_si(value, unit)
     except UnitError as error:
-        if isinstance(value, str) and any(_fits(value, other) for other in UNITS.values()):
+        if isinstance(value, str) and any(_fits(value, other) for other in set(units.values())):
             return None
         raise refusal(WANTED, shown(value), error.hint) from None
-    if not number > 0.0 or (unit == "1" and number > LARGEST):
+    if not number > 0.0 or (relative and number > LARGEST):
         hint = f"{100 * LARGEST:g} % of the peak at most" if number > 0.0 else ""
         raise refusal(WANTED, shown(value), hint)
-    return Tolerance(number, relative=unit == "1")
+    return Tolerance(number, relative)
 
 
 def _fits(value: str, unit: str) -> bool:
@@ -99,15 +120,14 @@ def _nothing(value: object) -> Targets:
     raise refusal(WANTED, shown(value), "")
 
 
-class Accuracy(Table):
-    """Errors that are asked for: of frequencies, relative; of a run's outputs, without a list all with a target."""
+class Asked(Table):
+    """Errors that are asked for of a run's outputs."""
 
-    frequency: ToleranceIfAny = None
-    target: Annotated[Targets, TargetField()] | None = None
-    outputs: Annotated[tuple[str, ...], OutputsField()] = ()
+    outputs: tuple[str, ...] = ()
+    target: Targets | None = None
 
     @model_validator(mode="after")
-    def _every_output_has_a_target(self) -> Accuracy:
+    def _every_output_has_a_target(self) -> Self:
         if missing := [name for name in self.outputs if name not in (self.target or {})]:
             raise refusal("a target that fits every output", f"none for {', '.join(missing)}", "")
         return self
@@ -117,3 +137,18 @@ class Accuracy(Table):
         """Tolerance of every output that is asked for; empty without a target."""
         target = self.target or {}
         return {name: target[name] for name in self.outputs} if self.outputs else target
+
+
+class Accuracy(Asked):
+    """For a crane in radial motion, without a list all outputs with a target; relative for frequencies."""
+
+    outputs: Annotated[tuple[str, ...], OutputsField(RADIAL)] = ()
+    target: Annotated[Targets, TargetField(RADIAL, RADIAL)] | None = None
+    frequency: ToleranceIfAny = None
+
+
+class SpaceAccuracy(Asked):
+    """For a crane in space, without a list all motions with a target."""
+
+    outputs: Annotated[tuple[str, ...], OutputsField(SPACE)] = ()
+    target: Annotated[Targets, TargetField(SPACE, MOTIONS)] | None = None

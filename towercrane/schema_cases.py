@@ -21,9 +21,8 @@ from towercrane.schema import (
     Solver,
     SpeedIfAny,
     Table,
-    ToleranceIfAny,
 )
-from towercrane.schema_accuracy import Accuracy
+from towercrane.schema_accuracy import Accuracy, SpaceAccuracy
 from towercrane.schema_cranes import (  # noqa: TC001 - pydantic reads annotations when the class is made
     BasicCrane,
     EnhancedCrane,
@@ -70,12 +69,6 @@ class MapRequest(Table):
     position_count: Annotated[StrictInt, Field(ge=2, le=2000)] = 50
     trolley_positions: tuple[Position, ...] = ()
     payload_masses: tuple[Mass, ...] = ()
-
-
-class SpaceAccuracy(Table):
-    """Error of the load's place, relative, for which ``towercrane compare`` names the modes needed."""
-
-    target: ToleranceIfAny = None
 
 
 class RadialCase(Table):

@@ -6,13 +6,13 @@ import json
 import platform
 import time
 import warnings
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from towercrane import __version__, drift
 from towercrane.integrate import FINISHED, Trajectory, evaluate, integrate
+from towercrane.kinds import TOWER_CRANES
 from towercrane.models import model_of
 from towercrane.motion import Motion, phases
 from towercrane.results import dataset
@@ -153,19 +153,16 @@ def run_case(case: Case, *, model: Model | None = None, progress: Progress | Non
 
 
 def _to_target(case: Case, progress: Progress | None) -> xr.Dataset | None:
-    """The run of a case that asks for an error; None for one that does not."""
-    if case.kind != "radial" or not case.accuracy.targets:
+    """The run of a case that asks for an error; None for one that does not, or whose tower its weight buckles."""
+    if case.kind not in TOWER_CRANES or not case.accuracy.targets:
         return None
     from towercrane.promise import chosen, promise
-    from towercrane.scene import scene_of, setting_of
 
-    scene = scene_of(case)
     try:
-        choice = chosen(case, scene)
+        choice, result = chosen(case, progress)
     except NoEquilibrium:
-        # Nothing can be chosen for a tower that its weight buckles; the run says so at its start.
-        return scene.run(replace(setting_of(case), weight_softening=True), progress=progress)
-    result = scene.run(choice.setting, progress=progress)
+        # Nothing can be chosen; the run says so at its start.
+        return None
     result.attrs["accuracy"] = json.dumps(promise(case, choice, result))
     return result
 

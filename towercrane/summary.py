@@ -12,6 +12,7 @@ from towercrane.cranes.small_motions import natural_modes
 from towercrane.integrate import FINISHED
 from towercrane.kinds import TOWER_CRANES
 from towercrane.models import model_of, radial_model, space_model
+from towercrane.readings import picked_in
 from towercrane.spectrum import spectrum_peaks, swing_period
 from towercrane.system import NoEquilibrium
 
@@ -242,14 +243,16 @@ def _parametric(result: xr.Dataset, frequencies: list[float], signal: str, swing
 
 def _natural(case: Case, result: xr.Dataset) -> Natural:
     """Natural frequencies where the run ended; nothing for a tower that buckles."""
+    picked = picked_in(result)
     try:
         if case.kind not in TOWER_CRANES:
             return Natural(_linearised(case), [], {})
         position, length = float(result["trolley_position"][-1]), float(result["rope_length"][-1])
         if case.kind == "space":
             angle = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"][-1])
-            return _in_space(natural_modes(space_model(case), position, length, angle))
-        picked = (accuracy(result) or {"setting": {}})["setting"]
+            # A load that only swings along the jib may swing across it.
+            model = space_model(case, **{**picked, "planar": False})
+            return _in_space(natural_modes(model, position, length, angle))
         chosen = {key: picked[key] for key in ("tower_modes", "jib_modes", "weight_softening") if key in picked}
         frequencies, swing = radial_model(case, **chosen).natural_modes(position, length)
     except NoEquilibrium:

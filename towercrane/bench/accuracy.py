@@ -132,7 +132,7 @@ def measured_scene(scene: RadialScene, target: float, outputs: tuple[str, ...]) 
 
 
 def _cheapest(
-    scene: RadialScene, choice: Choice, target: float, reference: xr.Dataset, outputs: tuple[str, ...]
+    scene: RadialScene, choice: Choice[Setting], target: float, reference: xr.Dataset, outputs: tuple[str, ...]
 ) -> float | None:
     """CPU time of the cheapest run that keeps the target, among all settings that are predicted to be cheaper."""
     chosen, best = choice.setting, None

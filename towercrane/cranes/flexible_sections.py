@@ -14,6 +14,8 @@ import numpy as np
 
 from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.head_kernel import SPIN_BIAS, TURN_X, TURN_Y
+from towercrane.integrate import evaluate
+from towercrane.motion import phases
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,6 +24,9 @@ if TYPE_CHECKING:
     from towercrane.cranes.mass_sums import MassSums
 
     Floats = NDArray[np.float64]
+
+SHORTEST = 1e-9
+"""Span [s] that stands for none, in a run that ended at its start."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,11 +47,11 @@ class SectionLoads:
     def accelerations(self) -> Floats:
         """Second derivatives of the structural coordinates, shape (p, n)."""
         motion, model = self.motion, self.motion.model
-        drives = [[motion.drive(c), motion.drive(c, 1), 0.5 * motion.drive(c, 2)] for c in model.channels]
-        inputs = np.ascontiguousarray(np.moveaxis(np.array(drives), 2, 0))
-        system, n = model.system, model.coordinates
-        slopes = [system.slope(0.0, state, row)[0] for state, row in zip(motion.states, inputs, strict=True)]
-        return np.array(slopes).reshape(len(slopes), system.size)[:, n + model.axes : 2 * n + model.axes]
+        span = max(float(motion.times[-1]), SHORTEST)
+        driven = phases(tuple(motion.motions[channel] for channel in model.channels), span)
+        slopes, _ = evaluate(model.system, driven, motion.times, motion.states)
+        n, rates = model.coordinates, model.coordinates + model.axes
+        return slopes[:, rates : rates + n]
 
     @cached_property
     def head_acceleration(self) -> tuple[Floats, Floats]:

@@ -96,10 +96,13 @@ def _accuracy(console: Console, promised: dict[str, Any]) -> None:
 
 def setting_words(setting: dict[str, Any]) -> str:
     """Model and solver of a run in words, as :func:`towercrane.scene.provenance` gives them."""
-    cap = f" capped at {setting['cap']:.3g} Hz" if setting["cap"] else ""
+    counts = {key.removesuffix("_modes").replace("_", " "): n for key, n in setting.items() if key.endswith("_modes")}
+    modes = ", ".join(f"{count} {kind}" for kind, count in counts.items())
+    cap = f" capped at {setting['cap']:.3g} Hz" if setting.get("cap") else ""
+    planar = " in the plane," if setting.get("planar") else ""
     softening = "with" if setting["weight_softening"] else "without"
     return (
-        f"{setting['tower_modes']} tower and {setting['jib_modes']} jib modes{cap}, {softening} the weight's "
+        f"{modes} modes{cap},{planar} {softening} the weight's "
         f"softening, {setting['method']} at rtol {setting['rtol']:.1e}, atol {setting['atol']:.1e}"
     )
 
