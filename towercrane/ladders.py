@@ -36,7 +36,7 @@ MOST = {"tower_modes": 4, "torsion_modes": 3, "jib_lateral_modes": 7, "jib_verti
 REST = 2.0
 """What all modes beyond a rung matter, over what the next one does."""
 
-MODELLED, SOLVED = 0.7, 0.2
+MODELLED, SOLVED = 0.5, 0.2
 """Parts of an allowed error for what the model leaves out and for the solver."""
 
 PROBING = {"motions": 0.02, "forces": 2e-4}
@@ -44,6 +44,9 @@ PROBING = {"motions": 0.02, "forces": 2e-4}
 
 LOOSEST, TIGHTEST = 1e-5, 1e-9
 """Range of rtol."""
+
+STALLED = 0.7
+"""More modes of a kind that leave more than this of what one mode less left tell of the solver, not of the model."""
 
 TIGHTER = 0.1
 """Rtol of a run, over that of the run which tells its error."""
@@ -135,22 +138,33 @@ def measured_choice(
     """
     if not targets or not set(targets) <= set(scene.outputs):
         raise ValueError(f"targets: wanted some of {', '.join(scene.outputs)}, got {', '.join(targets) or 'none'}")
-    began, stated = time.process_time(), dict(stated or {})
+    began, stated, tried = time.process_time(), dict(stated or {}), 0
     ladders = Ladders(scene, _base(scene, targets, stated))
-    allowed = limits(scene.outputs, targets, ladders.peaks(ladders.base))
     kinds = [kind for kind in scene.described if not ladders.base.planar or kind in IN_PLANE]
     free = [kind for kind in kinds if kind not in stated]
-    counts, truncation = _counts(ladders, kinds, free, allowed)
+    patient, before = not {"rtol", "atol"}.isdisjoint(stated), np.inf
+    while True:
+        allowed = limits(scene.outputs, targets, ladders.peaks(ladders.base))
+        counts, truncation = _counts(ladders, kinds, free, allowed, patient)
+        excess = _excess(truncation, MODELLED * allowed)
+        if patient or excess <= 1.0:
+            break
+        patient = excess > STALLED * before or ladders.base.rtol <= 10.0 * TIGHTEST
+        before = excess
+        if not patient:
+            tried += len(ladders.runs)
+            ladders = Ladders(scene, ladders.base.tightened(TIGHTER))
     setting = ladders.base.with_counts(counts)
     setting, result, stepping = _solved(ladders, setting, allowed, stated, progress)
     peaks = np.maximum([peak(result, name) for name in scene.outputs], SMALLEST_PEAK)
     estimate = Estimate(truncation, stepping / peaks)
+    tried += len(ladders.runs)
     excess = _excess(estimate.errors(peaks), limits(scene.outputs, targets, peaks))
     doubts = [f"a model beside it ends early: {outcome}" for outcome in ladders.ended_early()]
     spent = time.process_time() - began - result.attrs["solver_cpu_seconds"]
     left_out = tuple(_left_out(ladders, kinds, free, counts, np.isfinite(allowed)))
     choice = Choice(
-        setting, estimate, peaks, excess <= 1.0, tuple(doubts), len(ladders.runs), spent, left_out
+        setting, estimate, peaks, excess <= 1.0, tuple(doubts), tried, spent, left_out
     )  # fmt: skip
     return choice, result
 
@@ -166,9 +180,14 @@ def _base(scene: SpaceScene, targets: Mapping[str, Tolerance], stated: dict[str,
     return replace(plain.with_counts(counts), **stated)
 
 
-def _counts(ladders: Ladders, kinds: list[str], free: list[str], allowed: Floats) -> tuple[dict[str, int], Floats]:
-    """Fewest modes whose errors add up to no more than the model's part, and these errors."""
-    counts = {kind: getattr(ladders.base, kind) for kind in kinds}
+def _counts(
+    ladders: Ladders, kinds: list[str], free: list[str], allowed: Floats, patient: bool
+) -> tuple[dict[str, int], Floats]:
+    """Fewest modes whose errors add up to no more than the model's part, and these errors.
+
+    Without patience it ends where more modes do not help: then the solver's tolerances may be too loose to tell.
+    """
+    counts, before = {kind: getattr(ladders.base, kind) for kind in kinds}, dict[str, float]()
 
     def lost() -> dict[str, Floats]:
         return {kind: ladders.left(kind, count) for kind, count in counts.items()}
@@ -179,8 +198,10 @@ def _counts(ladders: Ladders, kinds: list[str], free: list[str], allowed: Floats
         if _excess(sum(by_kind.values()), MODELLED * allowed) <= 1.0 or not higher:
             break
         worst = max(higher, key=lambda kind: _excess(by_kind[kind], allowed))
-        if _excess(by_kind[worst], allowed) < 0.1 * MODELLED / len(kinds):
+        now = _excess(by_kind[worst], allowed)
+        if now < 0.1 * MODELLED / len(kinds) or not (patient or now <= STALLED * before.get(worst, np.inf)):
             break
+        before[worst] = now
         counts[worst] += 1
     dearest = sorted(
         free, key=lambda kind: -ladders.run(ladders.base.with_counts({kind: counts[kind]})).attrs["evaluations"]
@@ -198,10 +219,10 @@ def _solved(
 ) -> tuple[SpaceSetting, xr.Dataset, Floats]:
     """A setting with tolerances for the solver's part, the run, and what its steps cost; shape (outputs,)."""
     if "rtol" in stated or "atol" in stated:
-        tighter = replace(setting, rtol=TIGHTER * setting.rtol, atol=TIGHTER * setting.atol)
+        tighter = setting.tightened(TIGHTER)
         return setting, ladders.run(setting, progress), ladders.apart(setting, tighter)
     while True:
-        tighter = replace(setting, rtol=TIGHTER * setting.rtol, atol=TIGHTER * setting.atol)
+        tighter = setting.tightened(TIGHTER)
         result = ladders.run(tighter, progress)
         lost = GAIN * ladders.apart(setting, tighter)
         if _excess(lost, SOLVED * allowed) <= 1.0 or tighter.rtol <= TIGHTEST:

@@ -132,8 +132,7 @@ def finer(setting: Setting) -> Setting:
 def finer_in_space(setting: SpaceSetting, described: tuple[str, ...]) -> SpaceSetting:
     """The next richer model of a crane with data for these kinds of modes, with a tighter tolerance."""
     counts = {kind: getattr(setting, kind) + MORE[kind] for kind in described}
-    rtol, atol = max(FINER * setting.rtol, 1e-12), max(FINER * setting.atol, 1e-14)
-    return replace(setting.with_counts(counts), planar=False, rtol=rtol, atol=atol)
+    return replace(setting.with_counts(counts).tightened(FINER), planar=False)
 
 
 def verification(case: Case, result: xr.Dataset) -> dict[str, Any]:

@@ -65,6 +65,10 @@ class SpaceSetting:
         changes: dict[str, Any] = dict(counts)
         return replace(self, **changes)
 
+    def tightened(self, factor: float) -> SpaceSetting:
+        """The same with tolerances times a factor below 1, as far down as they make sense."""
+        return replace(self, rtol=max(factor * self.rtol, 1e-12), atol=max(factor * self.atol, 1e-14))
+
 
 @dataclass(frozen=True, eq=False)
 class SpaceScene(Scene[SpaceSetting]):
