@@ -65,8 +65,10 @@ def test_a_target_that_makes_no_sense(text, words):
 
 
 def test_outputs_without_a_target():
-    with pytest.raises(CaseError, match="none for swing_angle"):
+    with pytest.raises(CaseError, match=r"(?s)accuracy\.target.*an error of swing_angle in rad"):
         load_case(STATED, ['accuracy.target="1 mm"', 'accuracy.outputs=["swing_angle"]'])
+    with pytest.raises(CaseError, match="none for swing_angle"):
+        load_case(STATED, ["accuracy.target={ rope_tension = 0.1 }", 'accuracy.outputs=["swing_angle"]'])
     with pytest.raises(CaseError, match=r'(?s)accuracy\.outputs.*got:    "swing".*did you mean "swing_angle"'):
         load_case(STATED, ["accuracy.target=1e-3", 'accuracy.outputs=["swing"]'])
 
@@ -140,7 +142,7 @@ def test_verify_on_the_command_line(tmp_path):
     assert json.loads((tmp_path / "summary.json").read_text())["verification"] == report
 
 
-def test_verify_knows_radial_cranes_only(tmp_path, capsys):
+def test_verify_knows_flexible_cranes_only(tmp_path, capsys):
     done = CliRunner().invoke(app, ["run", "jib-crane/plan", "--verify", "--out", str(tmp_path)])
     assert done.exit_code == 2
-    assert "--verify: wanted a crane of kind 'radial', got 'jib'" in done.stderr
+    assert "--verify: wanted a case of kind 'radial' or 'space', got 'jib'" in done.stderr

@@ -175,7 +175,7 @@ FAULTS = [
     (MANOEUVRE, ["motion.slewing.speed=90"], "motion.slewing.speed", ["not plausible", "deg/s meant?"]),
     (MANOEUVRE, ["modes.rope_lengths=[30]"], "modes.rope_lengths.0", ["rope lengths above 0 and up to 23.8 m"]),
     (MANOEUVRE, ["modes.trolley_positions=[60]"], "modes.trolley_positions.0", ["the trolley leaves the jib"]),
-    (MANOEUVRE, ["accuracy.target=5"], "accuracy.target", ["from 1e-09 to 0.1"]),
+    (MANOEUVRE, ["accuracy.target=5"], "accuracy.target", ["above 0 to 0.5", "50 % of the peak at most"]),
     (RADIAL, ["motion.slewing.shape=rest"], "motion.slewing", ['kind = "space" at the top']),
     (RADIAL, ["kind=radial", "motion.slewing.shape=rest"], "motion.slewing", ['cranes of kind "space"']),
 ]  # fmt: skip

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.integrate import FINISHED, INTERRUPTED
-from towercrane.models import radial_model, space_model
+from towercrane.models import flexible_model
 from towercrane.readings import departures
 from towercrane.simulate import run_case
 from towercrane.system import NoEquilibrium
@@ -76,7 +76,7 @@ class Variant:
 
     def model(self, case: Case) -> FlexibleModel | RadialModel:
         """The model."""
-        return space_model(case, **self.counts) if case.kind == "space" else radial_model(case, **self.counts)
+        return flexible_model(case, **self.counts)
 
 
 def variants(case: Case) -> list[Variant]:

@@ -17,6 +17,7 @@ from towercrane.accuracy import SMALLEST_PEAK, Choice, Estimate, limits
 from towercrane.integrate import FINISHED, INTERRUPTED
 from towercrane.readings import MOTIONS, gap, peak
 from towercrane.space_scene import IN_PLANE, KINDS, SpaceSetting
+from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -75,13 +76,17 @@ class Ladders:
 
         Raises
         ------
+        NoEquilibrium
+            If it has no start.
         KeyboardInterrupt
             If the run was interrupted.
         """
         if setting not in self.runs:
-            self.runs[setting] = self.scene.run(setting, progress=progress)
-            if self.runs[setting].attrs["outcome"] == INTERRUPTED:
+            found = self.runs[setting] = self.scene.run(setting, progress=progress)
+            if found.attrs["outcome"] == INTERRUPTED:
                 raise KeyboardInterrupt
+            if found.attrs["end_time"] == 0.0:
+                raise NoEquilibrium(found.attrs["outcome"], found.attrs["message"])
         return self.runs[setting]
 
     def apart(self, one: SpaceSetting, other: SpaceSetting) -> Floats:

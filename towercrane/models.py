@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from towercrane.kinds import TOWER_CRANES
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -27,7 +29,7 @@ def model_of(case: Case) -> Model:
         from towercrane.cranes.jib_crane import JibCrane, PlannedJibCrane
 
         return PlannedJibCrane(JibCrane(**case.jib_parameters()), case.load(), rope_as_rod=case.rope.slack == "rod")
-    return space_model(case) if case.kind == "space" else radial_model(case)
+    return flexible_model(case)
 
 
 def motions_of(case: Case) -> dict[str, Motion]:
@@ -52,15 +54,11 @@ def motions_of(case: Case) -> dict[str, Motion]:
         raise CaseError([Fault(str(case.path), f"{key}.frequencies", wanted, str(failure), hint)]) from failure
 
 
-def flexible_model(case: Case) -> FlexibleModel | RadialModel:
-    """Model of a case of a flexible crane."""
-    from towercrane.cranes.flexible import FlexibleModel
-    from towercrane.cranes.radial import RadialModel
-
-    model = model_of(case)
-    if not isinstance(model, FlexibleModel | RadialModel):
+def flexible_model(case: Case, **changes: Any) -> FlexibleModel | RadialModel:
+    """Model of a case of a flexible crane; keyword arguments replace what the case chose."""
+    if case.kind not in TOWER_CRANES:
         raise ValueError(f"flexible_model: wanted a case of a flexible crane, got kind {case.kind!r}")
-    return model
+    return space_model(case, **changes) if case.kind == "space" else radial_model(case, **changes)
 
 
 def radial_model(case: Case, **changes: Any) -> RadialModel:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import GetCoreSchemaHandler, model_validator
-from pydantic_core import CoreSchema, core_schema
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from towercrane.accuracy import Tolerance
 from towercrane.faults import did_you_mean, shown
@@ -48,21 +48,43 @@ class TargetField:
     def read(self, value: object, info: core_schema.ValidationInfo) -> Targets:
         """Tolerances by output; where none is named one for all of its dimension, or for those in the list."""
         if not isinstance(value, dict):
-            every = info.data.get("outputs") or self.every
-            fitting = {name: _tolerance(value, self.units[name], self.units) for name in every}
-            return {name: tolerance for name, tolerance in fitting.items() if tolerance is not None} or _nothing(
-                value
-            )
-        targets: Targets = {}
+            asked = info.data.get("outputs")
+            fitting = {name: self._tolerance(value, name) for name in asked or self.every}
+            targets = {name: found for name, found in fitting.items() if found is not None}
+            if asked and len(targets) < len(asked):
+                raise self._unfit(next(name for name in asked if name not in targets), value)
+            return targets or _nothing(value)
+        targets = {}
         for name, inner in value.items():
             if name not in self.units:
                 hint = did_you_mean(str(name), self.units)
                 raise refusal(f"one of the outputs {', '.join(self.units)}", f'the unknown output "{name}"', hint)
-            found = _tolerance(inner, self.units[name], self.units)
+            found = self._tolerance(inner, name)
             if found is None:
-                raise refusal(f"an error of {name} in {self.units[name]} or over its peak", shown(inner), "")
+                raise self._unfit(name, inner)
             targets[name] = found
         return targets or _nothing(value)
+
+    def _tolerance(self, value: object, output: str) -> Tolerance | None:
+        """Tolerance for an output, or None for a quantity that fits another."""
+        unit = self.units[output]
+        try:
+            number, relative = to_si(value, "1"), True
+        except UnitError:
+            relative = False
+        try:
+            number = number if relative else to_si(value, unit)
+        except UnitError as error:
+            if isinstance(value, str) and any(_fits(value, other) for other in set(self.units.values())):
+                return None
+            raise refusal(WANTED, shown(value), error.hint) from None
+        if not number > 0.0 or (relative and number > LARGEST):
+            hint = f"{100 * LARGEST:g} % of the peak at most" if number > 0.0 else ""
+            raise refusal(WANTED, shown(value), hint)
+        return Tolerance(number, relative)
+
+    def _unfit(self, output: str, value: object) -> PydanticCustomError:
+        return refusal(f"an error of {output} in {self.units[output]} or over its peak", shown(value), "")
 
 
 class OutputsField:
@@ -88,24 +110,6 @@ class OutputsField:
             if name not in self.known:
                 raise refusal(wanted, shown(name), did_you_mean(str(name), self.known))
         return tuple(value)
-
-
-def _tolerance(value: object, unit: str, units: dict[str, str]) -> Tolerance | None:
-    """Tolerance for an output in a unit, or None for a quantity that fits another output's."""
-    try:
-        number, relative = to_si(value, "1"), True
-    except UnitError:
-        relative = False
-    try:
-        number = number if relative else to_si(value, unit)
-    except UnitError as error:
-        if isinstance(value, str) and any(_fits(value, other) for other in set(units.values())):
-            return None
-        raise refusal(WANTED, shown(value), error.hint) from None
-    if not number > 0.0 or (relative and number > LARGEST):
-        hint = f"{100 * LARGEST:g} % of the peak at most" if number > 0.0 else ""
-        raise refusal(WANTED, shown(value), hint)
-    return Tolerance(number, relative)
 
 
 def _fits(value: str, unit: str) -> bool:

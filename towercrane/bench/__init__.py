@@ -12,6 +12,7 @@ from towercrane.bench.radial import modes_left_out, right_hand_side
 from towercrane.bench.roots import roots
 from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene
 from towercrane.bench.slewing import right_hand_sides
+from towercrane.bench.space_accuracy import error_controlled_in_space
 from towercrane.bench.structure import crane_map, stepped_tower
 from towercrane.bench.workprecision import work_precision
 from towercrane.simulate import versions
@@ -34,6 +35,10 @@ SUBJECTS: dict[str, tuple[str, Subject]] = {
     "basic": ("slewing crane, basic", lambda repeats, quick: _lumped("basic", repeats, quick)),
     "jib": ("jib crane", lambda repeats, quick: work_precision(jib_scene(), repeats, quick=quick)),
     "accuracy": ("error-controlled runs of drawn scenes", lambda repeats, quick: error_controlled(repeats)),
+    "space-accuracy": (
+        "error-controlled runs of drawn scenes in space",
+        lambda repeats, quick: error_controlled_in_space(quick),
+    ),
     "many": ("many runs at once", lambda repeats, quick: _many(repeats)),
     "growth": ("growth of the cost", lambda repeats, quick: growth(repeats)),
 }

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-SHORTEST = 1e-9
+SHORTEST = 1e-6
 """Span [s] that stands for none, in a run that ended at its start."""
 
 
