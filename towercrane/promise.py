@@ -26,8 +26,8 @@ KEPT = "promised"
 OUT_OF_REACH = "out of reach"
 CANNOT_BE_PROMISED = "cannot be promised"
 
-FINER = 1e-2
-"""Rtol of the run that verifies, over that of the run."""
+FINER, FINE = 1e-2, 1e-8
+"""Rtol of the run that verifies: over that of the run, and at most; fast modes that only it has need the latter."""
 
 MORE = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2}
 """Modes that the model of such a run in space has more."""
@@ -124,15 +124,20 @@ def finer(setting: Setting) -> Setting:
         tower_modes=min(setting.tower_modes + 2, RICHEST.tower_modes),
         jib_modes=min(setting.jib_modes + 4, RICHEST.jib_modes),
         cap=np.inf,
-        rtol=max(FINER * setting.rtol, 1e-12),
-        atol=max(FINER * setting.atol, 1e-14),
+        rtol=max(_fine(setting.rtol) * setting.rtol, 1e-12),
+        atol=max(_fine(setting.rtol) * setting.atol, 1e-14),
     )
+
+
+def _fine(rtol: float) -> float:
+    """Tolerances of a run that verifies, over those of the run."""
+    return min(FINER, FINE / rtol)
 
 
 def finer_in_space(setting: SpaceSetting, described: tuple[str, ...]) -> SpaceSetting:
     """The next richer model of a crane with data for these kinds of modes, with a tighter tolerance."""
     counts = {kind: getattr(setting, kind) + MORE[kind] for kind in described}
-    return replace(setting.with_counts(counts).tightened(FINER), planar=False)
+    return replace(setting.with_counts(counts).tightened(_fine(setting.rtol)), planar=False)
 
 
 def verification(case: Case, result: xr.Dataset) -> dict[str, Any]:
