@@ -138,8 +138,10 @@ def sampled(result: xr.Dataset, name: str, times: Floats) -> Floats:
     if name not in result:
         raise ValueError(f"wanted a result with {name}, got one without")
     rows, values = result["time"].values, result[name].values
-    columns = [np.interp(times, rows, column) for column in values.reshape(len(rows), -1).T]
-    return np.stack(columns, axis=-1).reshape(len(times), *values.shape[1:])
+    found = np.empty((len(times), *values.shape[1:]))
+    for entry in np.ndindex(values.shape[1:]):
+        found[:, *entry] = np.interp(times, rows, values[:, *entry])
+    return found
 
 
 def _towards(azimuth: Floats, elevation: Floats) -> Floats:
