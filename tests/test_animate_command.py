@@ -68,6 +68,11 @@ def test_film_of_a_run_that_ends_early_ends_there(tmp_path):
     assert late.exit_code == 3
     assert "no film: nothing was left to show" in late.output
     assert not (tmp_path / "late.gif").exists()
+    case = load_case("hard/buckled")
+    results.save(run_case(case), tmp_path / "buckled.nc")
+    at_once = animate(tmp_path / "buckled.nc")
+    assert at_once.exit_code == 3
+    assert "no film" in at_once.output
 
 
 def test_run_that_is_not_what_its_case_expects_is_filmed_and_named(tmp_path):
@@ -85,7 +90,7 @@ def test_run_that_is_not_what_its_case_expects_is_filmed_and_named(tmp_path):
         (["--speed", "nan"], "--speed: wanted"),
         (["--frames-per-second", 0], "--frames-per-second: wanted 1 to 100, got 0"),
         (["--frames-per-second", 60], "wanted at most 50 frames per second in a .gif, got 60"),
-        (["--magnify", 0], "--magnify: wanted more than 0 and at most 10000, got 0"),
+        (["--magnify", 0], "--magnify: wanted more than 0 and at most 100000, got 0"),
         (["--magnify", "nan"], "--magnify: wanted"),
         (["--from", "10 s", "--to", "5 s"], "--to: wanted more than 10 s, the start, got 5 s"),
         (["--from", "10 m"], '--from: wanted a time, such as "120 s" (a plain number is in s), got "10 m"'),

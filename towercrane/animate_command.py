@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from math import pi, sqrt
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from towercrane.playback import Playback
     from towercrane.plots.film import Film
 
-MOST_MAGNIFIED = 1e4
+MOST_MAGNIFIED = 1e5
 
 OPTIONS = {"start": "--from", "end": "--to", "speed": "--speed", "frames_per_second": "--frames-per-second"}
 """Where the parts of a playback come from."""
@@ -70,16 +70,17 @@ def animate(
     _check_film(out, frames_per_second)
     if magnify is not None and not 0.0 < magnify <= MOST_MAGNIFIED:
         fail(f"--magnify: wanted more than 0 and at most {MOST_MAGNIFIED:g}, got {magnify:g}")
+    if finished is not None and len(finished["time"]) == 1:
+        _nothing(loaded, finished)
     duration = loaded.run.duration if finished is None else float(finished["time"][-1])
     playback = _playback(duration, start, end, speed, frames_per_second)
     announce_compilation(loaded.kind, "towercrane.stepper")
     result = _run(loaded) if finished is None else finished
-    if (over := float(result["time"][-1])) > playback.start:
-        playback = replace(playback, end=min(playback.end, over))
-        _film(loaded, result, playback, magnify, out)
-        suggest(*(("run", case, *options_of(changes)) if finished is None else _slower(case, playback)))
-    else:
-        say("no film: nothing was left to show")
+    if (over := float(result["time"][-1])) <= playback.start:
+        _nothing(loaded, result)
+    playback = replace(playback, end=min(playback.end, over))
+    _film(loaded, result, playback, magnify, out)
+    suggest(*(("run", case, *options_of(changes)) if finished is None else _slower(case, playback)))
     _exit(loaded, result)
 
 
@@ -202,6 +203,13 @@ def _slower(path: str, playback: Playback) -> tuple[str, ...]:
     """The same film, half as fast."""
     span = ("--from", f"{playback.start:g}", "--to", f"{playback.end:g}")
     return ("animate", path, *span, "--speed", f"{0.5 * playback.speed:g}")
+
+
+def _nothing(case: Case, result: xr.Dataset) -> NoReturn:
+    """No film of a run that ended before it was to begin."""
+    say("no film: nothing was left to show")
+    _exit(case, result)
+    raise typer.Exit(ENDED_EARLY)
 
 
 def _exit(case: Case, result: xr.Dataset) -> None:

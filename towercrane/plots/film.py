@@ -8,6 +8,7 @@ crane has no true rope, and a load that moved with it would swing as no load doe
 
 from __future__ import annotations
 
+from math import ceil, log10
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -59,15 +60,11 @@ class Film:
         corner: dict[str, Any] = {"transform": side.transAxes, "ha": "right", "va": "top", "animated": True}
         self._clock = side.text(0.985, 0.96, "", fontsize=12, family="monospace", **corner)
         self._ending = side.text(0.985, 0.86, "", fontsize=9, color=LOAD, **corner)
-        # Twelve digits stand for the step as it was meant.
-        self._decimals = max(1, len(f"{playback.step:.12f}".rstrip("0").partition(".")[2]))
-        self._decimals = min(self._decimals, 1 + max(1, int(np.ceil(-np.log10(playback.step)))))
+        self._decimals = _decimals(playback.step)
         early = result.attrs["outcome"] != "finished" and poses.times[-1] >= result["time"].values[-1]
         self._last_words = f"ended: {result.attrs['outcome']}" if early else ""
-        speed = f"{playback.speed:g} × real time" if playback.speed != 1.0 else "real time"
-        side.set_title(
-            f"played in {speed}" if playback.speed == 1.0 else f"played at {speed}", fontsize=8, loc="right"
-        )
+        speed = "in real time" if playback.speed == 1.0 else f"at {playback.speed:g} × real time"
+        side.set_title(f"played {speed}", fontsize=8, loc="right")
         _legend(self.figure, self._views[0], run_title([result]), None if poses.deformation == 0.0 else magnification)
         footnote(self.figure, assumed(result), "towercrane run")
         self.show(0)
@@ -103,6 +100,12 @@ class Film:
     def _moving(self) -> list[Artist]:
         artists = [artist for view in self._views for artist in view.moving]
         return [*artists, *self._sway.moving, self._clock, self._ending]
+
+
+def _decimals(step: float) -> int:
+    """Digits after the point that tell frames a step [s] apart."""
+    first = max(1, ceil(-log10(step)))
+    return first if (step * 10**first).is_integer() else first + 1
 
 
 def _panels(figure: Figure, planar: bool) -> tuple[Axes, Axes | None, Axes]:
