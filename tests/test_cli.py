@@ -38,6 +38,7 @@ def test_help_and_version_name_every_command():
     for command in (
         "modes",
         "run",
+        "animate",
         "linearise",
         "shape",
         "sweep",

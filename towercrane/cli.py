@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from towercrane.animate_command import animate
 from towercrane.compare_command import compare
 from towercrane.lattice_command import lattice
 from towercrane.map_command import frequency_map
@@ -29,12 +30,11 @@ from towercrane.terminal import (
     options_of,
     say,
     suggest,
+    with_progress,
     write,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import xarray as xr
 
     from towercrane.case import Case
@@ -188,7 +188,7 @@ def run(
     from towercrane.simulate import run_case
     from towercrane.summary import summarise
 
-    result = _with_progress(loaded, run_case)
+    result = with_progress(loaded, run_case)
     summary = summarise(loaded, result)
     if verify and summary["outcome"] == "finished":
         from towercrane.promise import verification
@@ -244,7 +244,7 @@ def figures(
 
     conditions = {}
     for number in (1, 2, 3, 4):
-        conditions[number] = _with_progress(load(f"qtz5613/condition-{number}", changes), run_case)
+        conditions[number] = with_progress(load(f"qtz5613/condition-{number}", changes), run_case)
         if conditions[number].attrs["outcome"] == "interrupted":
             raise KeyboardInterrupt
     drawn = radial.source_figures(conditions)
@@ -280,19 +280,7 @@ def _mode_picture(case: Case) -> Any:
     return radial.modes(crane.tower_modes(count), crane.jib_modes(count), notes)
 
 
-def _with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Dataset:
-    """Run with a progress bar if somebody is looking; Ctrl-C ends the run and keeps what is finished."""
-    if not sys.stderr.isatty():
-        return simulate(case)
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:.0f} s"))
-    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(case.name, total=case.run.duration)
-        return simulate(case, progress=lambda time: bar.update(task, completed=time))
-
-
+app.command()(animate)
 app.command()(lattice)
 app.command()(linearise)
 app.command("map")(frequency_map)

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
     from pathlib import Path
+
+    import xarray as xr
 
     from towercrane.case import Case
 
@@ -60,6 +62,19 @@ def compile_beside(here: str, *beside: str) -> None:
     finally:
         for process in others:
             process.wait()
+
+
+def with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Dataset:
+    """Run with a progress bar if somebody is looking; Ctrl-C ends the run and keeps what is finished."""
+    if not sys.stderr.isatty():
+        return simulate(case)
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:.0f} s"))
+    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(case.name, total=case.run.duration)
+        return simulate(case, progress=lambda time: bar.update(task, completed=time))
 
 
 def folder_for_results(folder: Path) -> None:

@@ -93,10 +93,10 @@ def titled(figure: Figure, title: str, results: list[xr.Dataset]) -> Figure:
     return figure
 
 
-def footnote(figure: Figure, notes: list[tuple[str, str, str]]) -> None:
-    """Name the assumed values that a picture rests on; many are counted, their list is in the files."""
+def footnote(figure: Figure, notes: list[tuple[str, str, str]], lists_them: str = "the JSON file") -> None:
+    """Name the assumed values that a picture rests on; many are counted, and it is said what lists them."""
     if len(notes) > MOST_NOTES:
-        text = f"{len(notes)} values that this rests on are assumed, given by no source; the JSON file lists them"
+        text = f"{len(notes)} values that this rests on are assumed, given by no source; {lists_them} lists them"
         figure.supxlabel(text, fontsize=6.5, color="0.35")
     elif notes:
         text = "assumed, given by no source: " + ", ".join(f"{key} = {value}" for key, value, _ in notes)

@@ -1,0 +1,42 @@
+"""The case that a result was computed from."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from towercrane.case import Case
+from towercrane.casefile import split_provenance
+from towercrane.kinds import kind_of
+from towercrane.schema_cases import KINDS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def case_of(result: xr.Dataset) -> Case:
+    """Case of a result of :func:`towercrane.simulate.run_case`, without its motions.
+
+    Raises
+    ------
+    ValueError
+        If the result does not hold its case, or holds one that this version cannot read.
+    """
+    from pydantic import ValidationError
+
+    if "case_text" not in result.attrs:
+        raise ValueError("wanted a result that holds its case, as `towercrane run` writes it, got one without")
+    written = json.loads(result.attrs["case_text"])
+    tree, assumed, _ = split_provenance(written)
+    kind, _ = kind_of(tree)
+    tree.pop("kind", None)
+    tree["crane"]["kind"] = kind
+    try:
+        checked = KINDS[kind].model_validate(tree)
+    except ValidationError as error:
+        first = ".".join(str(part) for part in error.errors()[0]["loc"])
+        raise ValueError(f"the result's case cannot be read by this version, at {first}") from error
+    changes = tuple(json.loads(result.attrs.get("changes", "[]")))
+    name = result.attrs["case"]
+    return Case(name, Path(name), checked.title or name, checked, {}, tuple(assumed), written, changes)
