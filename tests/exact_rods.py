@@ -65,18 +65,20 @@ class Rods:
             columns.append((self.accelerations(ahead, inputs) - self.accelerations(back, inputs)) / (2.0 * small))
         return np.array(columns).T
 
-    def at_rest(self, state, inputs, loads=8):
+    def at_rest(self, state, inputs, loads=4):
         """Equilibrium by Newton's method, gravity put on in as many steps."""
+        # Turns of the two points that hang mean nothing.
+        idle = np.array([-9, -8, -7, -3, -2, -1]) if self.rail >= 0 else np.array([], dtype=int)
         for share in np.arange(1, loads + 1) / loads:
             nodes = self.nodes.copy()
             nodes[:, at.GRAVITY] *= share
             part = replace(self, nodes=nodes)
             for _ in range(20):
                 slope, rest = part.gradient(state, inputs), part.accelerations(state, inputs)
-                # Nothing turns the points that hang: their columns are zero.
-                way = np.linalg.lstsq(slope, -rest, rcond=1e-14)[0]
+                slope[idle], slope[:, idle], slope[idle, idle] = 0.0, 0.0, 1.0
+                way = np.linalg.solve(slope, -rest)
                 state = part.moved(state, way.reshape(-1, 6))
-                if np.max(abs(way)) < 1e-9:
+                if np.max(abs(way)) < 1e-7:
                     break
             else:
                 raise RuntimeError(f"no equilibrium at {share:.0%} of the weight")
@@ -156,16 +158,20 @@ def inputs_at(motions, times):
     return np.stack([motions[name](times, derivative) for name, derivative in pairs], axis=1)
 
 
-def course(rods, motions, duration, every=0.25):
-    """From equilibrium at heading 0: times, and places of tower top, trolley and load from the undeformed top.
-
-    The places have the shape (3, times, 3); the step is 0.7 of the largest stable one.
-    """
-    start = inputs_at(motions, np.zeros(1))[0]
+def at_rest(rods, inputs):
+    """Equilibrium of a crane at heading 0, before the drives start."""
+    inputs = np.array([inputs[at.WAY], inputs[at.ROPE], 0.0, 0.0, 0.0])
     state = rods.undeformed()
-    state[-2:, at.PLACE] = start[at.WAY]
-    state[-1, at.PLACE + 2] = -start[at.ROPE]
-    state = rods.at_rest(state, start)
+    state[-2:, at.PLACE] = inputs[at.WAY]
+    # A taut rope.
+    state[-1, at.PLACE + 2] = -inputs[at.ROPE] - 1e-6
+    return rods.at_rest(state, inputs)
+
+
+def states(rods, motions, duration, every=0.25):
+    """Times and states from equilibrium at heading 0; the step is 0.7 of the largest stable one."""
+    start = inputs_at(motions, np.zeros(1))[0]
+    state = at_rest(rods, start)
     count = int(np.ceil(every / (0.7 * rods.step_limit(state, start))))
     times = np.arange(round(duration / every) + 1) * every
     seen = [state]
@@ -174,5 +180,11 @@ def course(rods, motions, duration, every=0.25):
         state = state.copy()
         at.march(state, rods.ends, rods.elements, rods.nodes, rods.rail, inputs, every / count)
         seen.append(state)
+    return times, np.array(seen)
+
+
+def course(rods, motions, duration):
+    """Times, and places of tower top, trolley and load from the undeformed top, (3, times, 3)."""
+    times, seen = states(rods, motions, duration)
     head = rods.ends[rods.rail, 0]
-    return times, np.array(seen)[:, [head, -2, -1], :3].transpose(1, 0, 2)
+    return times, seen[:, [head, -2, -1], :3].transpose(1, 0, 2)

@@ -12,11 +12,18 @@ import space_crane as space
 
 from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.integrate import integrate
-from towercrane.motion import phases, table
+from towercrane.motion import phases, speed_trapezoid, table, trapezoid
 
 LOAD = 1500.0
 ROLL = 620.0
 """Of the jib about its axis [kg m^2], a radius of gyration of 0.3 m: the rods need some, so both cranes have it."""
+
+BRISK = {
+    "slewing": speed_trapezoid(0.0, 0.08, 3.0, 4.0),
+    "trolley": trapezoid(36.0, 42.0, 0.8, 0.4),
+    "rope": trapezoid(15.0, 12.0, 0.4, 0.2),
+}
+"""Ten seconds in which everything moves."""
 
 
 def stiffer(factor):
