@@ -9,8 +9,10 @@ from functools import cached_property
 import exact_rods
 import numpy as np
 import space_crane as space
+from numpy.polynomial.legendre import leggauss
 
 from towercrane.cranes.flexible_motion import FlexibleMotion
+from towercrane.cranes.mass_sums import rigid_sums
 from towercrane.integrate import integrate
 from towercrane.motion import phases, speed_trapezoid, table, trapezoid
 
@@ -37,12 +39,12 @@ def stiffer(factor):
     return dataclasses.replace(crane, **members, shaft=shaft, roll_inertia=ROLL)
 
 
-def shortening(motion):
-    """By how much the bent jib brings the trolley inwards, the integral of slope^2 / 2; shape (times,)."""
-    reach, total = motion.trolley[0], 0.0
-    for point, weight in zip(*np.polynomial.legendre.leggauss(16), strict=True):
+def shortening(motion, reach):
+    """By how much the bent jib draws in what is ``reach`` (times,) along it: the integral of slope^2 / 2."""
+    total = np.zeros_like(reach)
+    for point, weight in zip(*leggauss(16), strict=True):
         slopes = motion.deflection(motion.model.crane.jib_shapes(0.5 * reach * (1.0 + point), 1), motion.coordinates)
-        total = total + 0.25 * weight * reach * (slopes**2).sum(axis=1)
+        total += 0.25 * weight * reach * (slopes**2).sum(axis=1)
     return total
 
 
@@ -63,9 +65,12 @@ class Comparison:
         """Times, and places of tower top, trolley and load."""
         return exact_rods.course(exact_rods.crane_rods(self.crane, LOAD), self.motions, self.duration)
 
-    def course(self, motions, **options):
-        """Motion of the flexible crane."""
+    def course(self, motions, change=None, **options):
+        """Motion of the flexible crane; ``change`` adds to the sums over the mass of what is rigid on the head."""
         scene = space.model(3, 2, 6, 6, LOAD, crane=self.crane, **options)
+        if change is not None:
+            crane = dataclasses.replace(scene.crane, counter=scene.crane.counter + change)
+            scene = dataclasses.replace(scene, crane=crane)
         cut = phases(tuple(motions[c] for c in scene.channels), self.duration)
         run = integrate(scene.system, cut, space.start(scene, motions), self.exact[0], rtol=1e-9, atol=1e-11)
         assert run.outcome == "finished"
@@ -80,11 +85,17 @@ class Comparison:
         """With the tower softened by the weight on it."""
         return self.course(self.motions, weight_softening=True)
 
-    @property
-    def drawn_in(self):
-        """With the trolley fed in where the shortening of the jib takes it."""
-        way = table(self.plain.times, self.plain.trolley[0] - shortening(self.plain))
-        return self.course(self.motions | {"trolley": way})
+    def drawn_in(self, jib=False, **options):
+        """With the trolley where the shortening of the jib takes it; with the jib's mass so, as it is on average."""
+        motion, change = self.plain, None
+        way = table(motion.times, motion.trolley[0] - shortening(motion, motion.trolley[0]))
+        if jib:
+            points, weights = leggauss(12)
+            reach = 0.5 * self.crane.jib.length * (1.0 + points)
+            inwards = [shortening(motion, np.full(len(motion.times), x)).mean() for x in reach] * weights
+            moved = 0.5 * self.crane.jib.mass * inwards
+            change = rigid_sums(0.0, -moved.sum(), -2.0 * float(moved @ reach), 12)
+        return self.course(self.motions | {"trolley": way}, change, **options)
 
     def gaps(self, motion):
         """Flexible crane less rods: of tower top, trolley, load; radial, lateral, vertical; (3, times, 3).
@@ -103,11 +114,16 @@ def print_table():
     print("| Largest difference, radial / lateral / vertical [mm] | trolley | load | tower top |")
     for factor in (1.0, 4.0):
         pair = Comparison(factor, space.manoeuvre(), 45.0)
-        ways = {"": pair.plain, ", weight softening": pair.softened, ", trolley drawn in": pair.drawn_in}
+        ways = {
+            "as it is": pair.plain,
+            "weight softening": pair.softened,
+            "trolley drawn in": pair.drawn_in(),
+            "trolley and jib drawn in": pair.drawn_in(jib=True),
+        }
         for way, motion in ways.items():
             largest = 1e3 * abs(pair.gaps(motion)).max(axis=1)
             cells = [" / ".join(f"{value:.1f}" for value in largest[i]) for i in (1, 2, 0)]
-            print(f"| stiffness x {factor:g}{way} | " + " | ".join(cells) + " |")
+            print(f"| stiffness x {factor:g}, {way} | " + " | ".join(cells) + " |")
 
 
 if __name__ == "__main__":
