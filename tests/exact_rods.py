@@ -65,7 +65,7 @@ class Rods:
             columns.append((self.accelerations(ahead, inputs) - self.accelerations(back, inputs)) / (2.0 * small))
         return np.array(columns).T
 
-    def at_rest(self, state, inputs, loads=4):
+    def at_rest(self, state, inputs, loads=1):
         """Equilibrium by Newton's method, gravity put on in as many steps."""
         # Turns of the two points that hang mean nothing.
         idle = np.array([-9, -8, -7, -3, -2, -1]) if self.rail >= 0 else np.array([], dtype=int)

@@ -41,7 +41,7 @@ def test_cantilever_under_a_dead_force_is_the_elastica(force):
     for count in (8, 16):
         bent = rod(count)
         bent.nodes[-1, at.GRAVITY] = force * BENDING / LENGTH**2 / bent.nodes[-1, at.MASS]
-        tip = bent.at_rest(bent.undeformed(), STILL)[-1, at.PLACE : at.PLACE + 3] / LENGTH
+        tip = bent.at_rest(bent.undeformed(), STILL, loads=8)[-1, at.PLACE : at.PLACE + 3] / LENGTH
         along, across = elastica(force)
         assert abs(tip[1]) < 1e-20
         errors.append(np.hypot(tip[0] - along, tip[2] + across))
@@ -93,17 +93,17 @@ def march(rods, state, duration, steps, inputs=STILL):
 
 
 def test_turned_and_moved_rods_carry_no_strain_and_turn_on_at_their_speed():
-    free = rod(4, clamped=False, stretch=1e11)
+    free = rod(4, clamped=False, inertias=(2.0, 0.1, 0.1))
     state, speed = free.undeformed(), 0.1
     state[:, at.SPEED + 1] = speed * (free.places[:, 0] - LENGTH / 2)
     state[:, at.SPIN + 2] = speed
-    turned = march(free, state, 2.0 * np.pi / 3.0 / speed, 500_000)
+    turned = march(free, state, 2.0 * np.pi / 3.0 / speed, 200_000)
     c, s = np.cos(2.0 * np.pi / 3.0), np.sin(2.0 * np.pi / 3.0)
     exact = np.column_stack([c * (free.places[:, 0] - 5.0) + 5.0, s * (free.places[:, 0] - 5.0), np.zeros(5)])
-    assert_allclose(turned[:, :3], exact, atol=2e-9)
-    assert_allclose(turned[:, at.TURN], np.cos(np.pi / 3.0), rtol=1e-9)
+    assert_allclose(turned[:, :3], exact, atol=2e-8)
+    assert_allclose(turned[:, at.TURN], np.cos(np.pi / 3.0), rtol=1e-8)
     # What strain there is, is centrifugal.
-    assert free.rates(turned, STILL)[1] < 1e-10 * kinetic_energy(free, turned)
+    assert free.rates(turned, STILL)[1] < 1e-9 * kinetic_energy(free, turned)
 
 
 def test_tumbling_rods_keep_energy_momentum_and_angular_momentum():
