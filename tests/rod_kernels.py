@@ -1,0 +1,199 @@
+"""Compiled equations of motion of geometrically exact rods in space, with a trolley and a load on a rope.
+
+Two-node elements after Reissner (1981) and Simo (1985): each node has a place and a quaternion, the strains are
+measured once per element, in the frame half-way between its nodes:
+
+    gamma = R_m^T (x_b - x_a) / h - e,      kappa = 4 tan(phi / 4) / h  along the axis of the rotation from a to b.
+
+Forces and moments are the derivatives of the strain energy, so energy and momenta are conserved.
+"""
+
+import numpy as np
+
+from modal.compiled import kernel
+
+PLACE, TURN, SPEED, SPIN = 0, 3, 7, 10
+"""Where a node's place, quaternion, velocity and angular velocity (in its own axes) begin in its row of the state."""
+
+MASS, INERTIA, MOMENT, SHAFT, GRAVITY = 0, 1, 4, 5, 6
+"""Where in a node's row are its mass (infinite: clamped), moments of inertia, first moment along its e1, what part of
+its inertia about e3 stays behind when the joint turns, and the gravity on it."""
+
+LENGTH, AXIS, STRETCH, BEND, JOINT = 0, 1, 4, 7, 10
+"""Where in an element's row are its length, axis, stiffness to strain and to curvature, and whether its second node
+is seen from below the slewing joint."""
+
+WAY, ROPE, ANGLE, RATE, ACCELERATION = range(5)
+"""Inputs: place of the trolley along the jib, length of the rope, slewing angle and its derivatives."""
+
+STIFF = 1e9
+"""Of the springs that stand for constraints [N/m]."""
+
+
+@kernel()
+def cross(a, b):
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@kernel()
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@kernel()
+def add(a, b, factor):
+    return a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]
+
+
+@kernel()
+def turn(scalar, vector, v):
+    """A vector turned by a unit quaternion."""
+    twice = cross(vector, v)
+    twice = (2.0 * twice[0], 2.0 * twice[1], 2.0 * twice[2])
+    return add(add(v, twice, scalar), cross(vector, twice), 1.0)
+
+
+@kernel()
+def vector(rows, i, first):
+    return rows[i, first], rows[i, first + 1], rows[i, first + 2]
+
+
+@kernel()
+def push(forces, node, first, v, factor):
+    for k in range(3):
+        forces[node, first + k] += factor * v[k]
+
+
+@kernel()
+def strain(state, ends, elements, inputs, forces):
+    """Add forces and moments (in the nodes' axes) of the elements; returns their energy."""
+    energy = 0.0
+    half = 0.5 * inputs[ANGLE]
+    c, s = np.cos(half), np.sin(half)
+    for i in range(len(elements)):
+        a, b, h, joint = ends[i, 0], ends[i, 1], elements[i, LENGTH], elements[i, JOINT] > 0.0
+        q0, q = state[a, TURN], vector(state, a, TURN + 1)
+        p0, p = state[b, TURN], vector(state, b, TURN + 1)
+        if joint:
+            p0, p = c * p0 + s * p[2], (c * p[0] - s * p[1], c * p[1] + s * p[0], c * p[2] - s * p0)
+        # From a to b in their own axes: 1 + cosine and sine of half the angle, along the axis.
+        u = add(add((q0 * p[0], q0 * p[1], q0 * p[2]), q, -p0), cross(q, p), -1.0)
+        cosine = q0 * p0 + dot(q, p)
+        w = 1.0 / (1.0 + cosine)
+        kappa = (4.0 * w / h * u[0], 4.0 * w / h * u[1], 4.0 * w / h * u[2])
+        # Frame half-way.
+        scale = np.sqrt(0.5 * w)
+        m0, m = -(q0 + p0) * scale, ((q[0] + p[0]) * scale, (q[1] + p[1]) * scale, (q[2] + p[2]) * scale)
+        chord = add(vector(state, b, PLACE), vector(state, a, PLACE), -1.0)
+        g = turn(m0, m, chord)
+        gamma = add((g[0] / h, g[1] / h, g[2] / h), vector(elements, i, AXIS), -1.0)
+        stretch, bend = vector(elements, i, STRETCH), vector(elements, i, BEND)
+        n = (stretch[0] * gamma[0], stretch[1] * gamma[1], stretch[2] * gamma[2])
+        moment = (bend[0] * kappa[0], bend[1] * kappa[1], bend[2] * kappa[2])
+        energy += 0.5 * h * (dot(n, gamma) + dot(moment, kappa))
+        pull = turn(-m0, m, n)
+        push(forces, a, 0, pull, 1.0)
+        push(forces, b, 0, pull, -1.0)
+        lever = cross(g, n)
+        tilt, bow = cross(lever, u), cross(moment, u)
+        on_a = add(add(lever, tilt, -w), moment, 4.0 * cosine * w)
+        on_b = add(add(lever, tilt, w), moment, -4.0 * cosine * w)
+        along = 4.0 * dot(moment, u) * w * w
+        on_a = add(add(on_a, bow, -4.0 * w), u, along)
+        on_b = add(add(on_b, bow, -4.0 * w), u, -along)
+        if joint:
+            cc, ss = np.cos(inputs[ANGLE]), np.sin(inputs[ANGLE])
+            on_b = (cc * on_b[0] + ss * on_b[1], cc * on_b[1] - ss * on_b[0], on_b[2])
+        push(forces, a, 3, on_a, 0.5)
+        push(forces, b, 3, on_b, 0.5)
+    return energy
+
+
+@kernel()
+def hang(state, ends, elements, rail, inputs, forces):
+    """Add the springs of trolley and rope, the last two nodes; returns their energy."""
+    trolley, load = len(state) - 2, len(state) - 1
+    h = elements[rail, LENGTH]
+    i = min(rail + int(inputs[WAY] / h), len(elements) - 1)
+    x = inputs[WAY] / h - (i - rail)
+    a, b, e = ends[i, 0], ends[i, 1], (1.0, 0.0, 0.0)
+    near, far = 1.0 - x * x * (3.0 - 2.0 * x), x * x * (3.0 - 2.0 * x)
+    slope_a, slope_b = h * x * (1.0 - x) * (1.0 - x), -h * x * x * (1.0 - x)
+    along_a = turn(state[a, TURN], vector(state, a, TURN + 1), e)
+    along_b = turn(state[b, TURN], vector(state, b, TURN + 1), e)
+    place = vector(state, trolley, PLACE)
+    gap = add((-place[0], -place[1], -place[2]), vector(state, a, PLACE), near)
+    gap = add(add(add(gap, vector(state, b, PLACE), far), along_a, slope_a), along_b, slope_b)
+    push(forces, trolley, 0, gap, STIFF)
+    push(forces, a, 0, gap, -STIFF * near)
+    push(forces, b, 0, gap, -STIFF * far)
+    push(forces, a, 3, cross(e, turn(-state[a, TURN], vector(state, a, TURN + 1), gap)), -STIFF * slope_a)
+    push(forces, b, 3, cross(e, turn(-state[b, TURN], vector(state, b, TURN + 1), gap)), -STIFF * slope_b)
+    rope = add(vector(state, load, PLACE), place, -1.0)
+    length = np.sqrt(dot(rope, rope))
+    pull = STIFF * (1.0 - inputs[ROPE] / length)
+    push(forces, trolley, 0, rope, pull)
+    push(forces, load, 0, rope, -pull)
+    return 0.5 * STIFF * (dot(gap, gap) + (length - inputs[ROPE]) ** 2)
+
+
+@kernel()
+def rates(state, ends, elements, nodes, rail, inputs, forces, out):
+    """Write the state's time derivative; returns the potential energy."""
+    forces[:] = 0.0
+    energy = strain(state, ends, elements, inputs, forces)
+    if rail >= 0:
+        energy += hang(state, ends, elements, rail, inputs, forces)
+    for i in range(len(nodes)):
+        mass, first, fixed = nodes[i, MASS], nodes[i, MOMENT], nodes[i, SHAFT]
+        if np.isinf(mass):
+            out[i] = 0.0
+            continue
+        q0, q, w = state[i, TURN], vector(state, i, TURN + 1), vector(state, i, SPIN)
+        energy += nodes[i, GRAVITY] * (mass * state[i, PLACE + 2] + first * turn(q0, q, (1.0, 0.0, 0.0))[2])
+        j = vector(nodes, i, INERTIA)
+        spin = (j[0] * w[0], j[1] * w[1], j[2] * w[2] - fixed * inputs[RATE])
+        moment = add(vector(forces, i, 3), cross(w, spin), -1.0)
+        # In the node's own axes, about its place: m a + S x'' and J w' + S x a, with S along e1.
+        f = turn(-q0, q, vector(forces, i, 0))
+        down = turn(-q0, q, (0.0, 0.0, -nodes[i, GRAVITY]))
+        fx = f[0] + mass * down[0] + first * (w[1] * w[1] + w[2] * w[2])
+        fy = f[1] + mass * down[1] - first * w[0] * w[1]
+        fz = f[2] + mass * down[2] - first * w[0] * w[2]
+        my = moment[1] - first * down[2]
+        mz = moment[2] + first * down[1] + fixed * inputs[ACCELERATION]
+        y, z = mass * j[1] - first * first, mass * j[2] - first * first
+        a = turn(q0, q, (fx / mass, (j[2] * fy - first * mz) / z, (j[1] * fz + first * my) / y))
+        for k in range(3):
+            out[i, PLACE + k] = state[i, SPEED + k]
+            out[i, SPEED + k] = a[k]
+        out[i, SPIN] = moment[0] / j[0]
+        out[i, SPIN + 1] = (mass * my + first * fz) / y
+        out[i, SPIN + 2] = (mass * mz - first * fy) / z
+        out[i, TURN] = -0.5 * dot(q, w)
+        turning = add(cross(q, w), w, q0)
+        for k in range(3):
+            out[i, TURN + 1 + k] = 0.5 * turning[k]
+    return energy
+
+
+@kernel()
+def march(state, ends, elements, nodes, rail, inputs, step):
+    """Steps of the classical Runge-Kutta method, in place; ``inputs`` (2 steps + 1, 5) at steps and half-way."""
+    forces = np.zeros((len(nodes), 6))
+    slope, stage, total = np.zeros_like(state), np.zeros_like(state), np.zeros_like(state)
+    for n in range(len(inputs) // 2):
+        total[:] = state
+        stage[:] = state
+        for leg in range(4):
+            rates(stage, ends, elements, nodes, rail, inputs[2 * n + (leg + 1) // 2], forces, slope)
+            ahead, share = step * (0.5 if leg < 2 else 1.0), step / (3.0 if leg in (1, 2) else 6.0)
+            for i in range(len(state)):
+                for k in range(13):
+                    total[i, k] += share * slope[i, k]
+                    stage[i, k] = state[i, k] + ahead * slope[i, k]
+        state[:] = total
+        for i in range(len(state)):
+            norm = np.sqrt(state[i, 3] ** 2 + state[i, 4] ** 2 + state[i, 5] ** 2 + state[i, 6] ** 2)
+            for k in range(TURN, TURN + 4):
+                state[i, k] /= norm
