@@ -226,7 +226,7 @@ def _refine(low: float, high: float, a_body: float, a_beam: float, j_body: float
     return b
 
 
-@kernel()
+@kernel(allocates=True)
 def _roots(a_body: float, a_beam: float, j_body: float, j_beam: float, h: float, count: int) -> NDArray[np.float64]:
     """First roots in ascending order."""
     roots = np.empty(count)

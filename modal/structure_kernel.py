@@ -74,7 +74,7 @@ def _segment_stiffness(
     return count
 
 
-@kernel(types.int64(types.float64, types.float64, *_structure, _two))
+@kernel(types.int64(types.float64, types.float64, *_structure, _two), allocates=True)
 def dynamic_stiffness(omega2: float, load: float, segments: Any, motions: Any, points: Any, out: Any) -> int:
     """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments."""
     series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
@@ -100,7 +100,7 @@ def dynamic_stiffness(omega2: float, load: float, segments: Any, motions: Any, p
     return count
 
 
-@kernel()
+@kernel(allocates=True)
 def _eigenvalues(matrix: Any, scale: Any, values: Any) -> None:
     """Eigenvalues (n,) of a symmetric matrix, scaled in place, into ``values``, ascending."""
     for i in range(matrix.shape[0]):
@@ -142,7 +142,7 @@ def _between(near: float, f_near: float, far: float, f_far: float, third: float,
     return min(max(x, near + margin), far - margin)
 
 
-@kernel(types.boolean(*_structure, types.boolean, types.float64, types.float64, _one))
+@kernel(types.boolean(*_structure, types.boolean, types.float64, types.float64, _one), allocates=True)
 def find_roots(
     segments: Any, motions: Any, points: Any, by_load: bool, guess: float, limit: float, roots: Any
 ) -> bool:
@@ -224,7 +224,7 @@ def piece_ends(segment: Any, omega2: float, load: float, out: Any) -> int:
     return total
 
 
-@kernel(types.void(_one, _one, types.float64, types.float64, _one, _three))
+@kernel(types.void(_one, _one, types.float64, types.float64, _one, _three), allocates=True)
 def segment_shape(segment: Any, ends: Any, omega2: float, load: float, held: Any, out: Any) -> None:
     """Taylor coefficients of (v, theta, V, M, v') in every piece of a segment, from (v, theta) at its two ends.
 

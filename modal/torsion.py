@@ -119,18 +119,13 @@ def torsion_modes(shaft: Shaft, count: int, end_inertia: float = 0.0) -> Torsion
     -----
     With a = end_inertia / (shaft's inertia) the roots solve cos y = a y sin y, one from each i pi to (i + 1/2) pi.
     """
-    from scipy.optimize import brentq
-
     if count < 0:
         raise ValueError(f"count: wanted zero or more, got {count!r}")
     if not 0.0 <= end_inertia < float("inf"):
         raise ValueError(f"end_inertia: wanted zero or more, got {end_inertia!r}")
     ratio = end_inertia / shaft.inertia
 
-    def excess(y: float) -> float:
-        return float(np.cos(y) - ratio * y * np.sin(y))
-
-    roots = np.array([brentq(excess, i * pi, (i + 0.75) * pi, xtol=1e-300, rtol=1e-15) for i in range(count)])
+    roots = np.array([_root(i, ratio) for i in range(count)])
     # The square of the norm over the shaft, int sin^2 = 1/2 - sin(2 y) / 4 y, and the body's share.
     share = 0.5 * (1.0 - np.sinc(2.0 * roots / pi)) + ratio * np.sin(roots) ** 2
     # Signs turn the end to the positive side.
@@ -138,3 +133,14 @@ def torsion_modes(shaft: Shaft, count: int, end_inertia: float = 0.0) -> Torsion
     roots.setflags(write=False)
     amplitudes.setflags(write=False)
     return TorsionModes(shaft, end_inertia, roots, amplitudes)
+
+
+def _root(index: int, ratio: float) -> float:
+    """Root of cos y = ratio y sin y above index pi."""
+    # Here, since most cranes keep no torsion: scipy.optimize takes a quarter of a second to import.
+    from scipy.optimize import brentq
+
+    def excess(y: float) -> float:
+        return float(np.cos(y) - ratio * y * np.sin(y))
+
+    return float(brentq(excess, index * pi, (index + 0.75) * pi, xtol=1e-300, rtol=1e-15))

@@ -60,6 +60,24 @@ def test_help_loads_nothing_heavy():
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.parametrize(
+    ("arguments", "idle"),
+    [
+        (("run", "qtz5613/condition-3", "--no-pictures"), {"pint", "matplotlib", "scipy.optimize", "scipy.sparse"}),
+        (("modes", "qtz5613/condition-3"), {"pint", "matplotlib", "scipy.optimize", "xarray", "pandas"}),
+    ],
+    ids=["run", "modes"],
+)
+def test_commands_load_only_what_they_use(arguments, idle, tmp_path):
+    check = f"""if True:
+        import atexit, sys, towercrane.cli
+        atexit.register(lambda: print(sorted({idle} & set(sys.modules)), file=sys.stderr))
+        towercrane.cli.main()"""
+    command = [sys.executable, "-c", check, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path)
+    assert done.stderr.splitlines()[-1] == "[]"
+
+
 def test_cases_are_listed_with_the_next_command():
     lines = towercrane("cases").stdout.splitlines()
     names = [line.split()[0] for line in lines[:-1]]

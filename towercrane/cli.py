@@ -50,7 +50,7 @@ cases_app = typer.Typer(help="List the cases that ship with the program, or copy
 app.add_typer(cases_app, name="cases")
 
 
-GARBAGE = 200_000
+GARBAGE = 500_000
 """New objects between two searches for garbage."""
 
 

@@ -67,16 +67,16 @@ def choose_steps(places: Any, clock: Any) -> bool:
 
 
 @kernel()
-def error_parts(error: Any, k: Any, y: Any, new: Any, rtol: float, atol: Any, unused: Any, norms: Any) -> None:
+def error_parts(error: Any, k: Any, y: Any, new: Any, rtol: float, atol: Any, limits: Any, norms: Any) -> None:
     """Sums of squares of the two error estimates in every lane, as in :func:`towercrane.stepper.advance`.
 
-    ``k``, ``y``, ``new``, ``atol`` and ``norms`` hold lane vectors; ``unused`` is true where a state steers no step.
+    ``k``, ``y``, ``new``, ``atol`` and ``norms`` hold lane vectors; ``limits`` is infinite where a state steers none.
     """
     rows, stages = error.shape
     norms[0] = 0.0
     norms[1] = 0.0
     for m in range(y.size):
-        if unused[m]:
+        if np.isinf(limits[m]):
             continue
         scale = atol[m] + rtol * max(abs(y[m]), abs(new[m]))
         for row in range(rows):

@@ -45,13 +45,15 @@ def dataset(
     times: NDArray[np.float64], quantities: Mapping[str, Quantity], provenance: Mapping[str, Any]
 ) -> xr.Dataset:
     """Labelled data set over time, with units on every variable and the provenance in its attributes."""
+    import pandas as pd
     import xarray as xr
 
-    coordinates: dict[str, Any] = {"time": ("time", times, {"units": "s", "long_name": "time"})}
+    # xarray would turn other sequences into an index itself, and import pint, dask and all for it where installed.
+    coordinates: dict[str, Any] = {"time": ("time", pd.Index(times), {"units": "s", "long_name": "time"})}
     variables = {}
     for name, quantity in quantities.items():
         for dimension, size in zip(quantity.dims, quantity.values.shape, strict=True):
-            coordinates.setdefault(dimension, labels(dimension, size))
+            coordinates.setdefault(dimension, pd.Index(labels(dimension, size)))
         variables[name] = (
             quantity.dims,
             quantity.values,

@@ -27,22 +27,22 @@ if TYPE_CHECKING:
 
 CASE = "qtz5613/condition-3"
 
-MANY, FEW = 10_000, 512
+MANY, FEW = 10_000, 256
 """Variations with all repeats, and with few."""
 
-ALONE = 48
-"""Runs of the plain loop, spread over the variations."""
+ALONE, ALONE_FEW = 200, 48
+"""Runs of the plain loop, spread over the variations, with all repeats and with few."""
 
 RTOL, TIGHT = 1e-4, 1e-11
 
 
 def many_runs(repeats: int) -> dict[str, Any]:
     """Variations of load and rope in condition 3 (2+3 modes, rtol 1e-4): runs per second."""
-    count = MANY if repeats > 3 else FEW
+    count, single = (MANY, ALONE) if repeats > 3 else (FEW, ALONE_FEW)
     case = load_case(CASE)
     runs, grid = _variations(count, case.run.duration), rows_of(case.run.duration, case.run.output_step)
     cores = available_cores()
-    some = list(range(0, count, count // ALONE))[:ALONE]
+    some = list(range(0, count, count // single))[:single]
     _lanes(runs[:LANES], grid, RTOL, 1)
     records: list[dict[str, Any]] = []
 

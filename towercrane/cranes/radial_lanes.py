@@ -142,8 +142,9 @@ def advance(
     a, c, error, dense = lent(a), lent(c), lent(error), lent(dense)
     size, n, rows = y.size, vectors.shape[1], error.shape[0]
     # The same state steers no step in every run: the work done.
-    unused = np.isinf(queue.atol[0])
-    active = size - np.sum(unused)
+    limits, active = queue.atol[0], 0
+    for m in range(size):
+        active += not np.isinf(limits[m])
     for _ in range(most_steps):
         if lane_stepper.wants_entry(places, queue.waiting.size - lanes.next_run[0]):
             for lane in range(LANES):
@@ -188,7 +189,7 @@ def advance(
         )
         for m in range(size):
             new[m] = trial[m]
-        lane_stepper.error_parts(error, k, y, new, rtol, atol, unused, norms)
+        lane_stepper.error_parts(error, k, y, new, rtol, atol, limits, norms)
         looking = lane_stepper.judge_steps(
             places, clock, lane_norms, lane_lowest, lane_floors, counts, smallest_steps, sample_times, stages, rows,
             error_order, active,
