@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.bench.accuracy import error_controlled
 from towercrane.bench.growth import growth
+from towercrane.bench.lattice import lattice
 from towercrane.bench.radial import modes_left_out, right_hand_side
 from towercrane.bench.roots import roots
 from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene
@@ -22,8 +23,12 @@ if TYPE_CHECKING:
     Subject = Callable[[int, bool], dict[str, Any]]
 
 SUBJECTS: dict[str, tuple[str, Subject]] = {
-    "roots": ("characteristic roots against finite elements", lambda repeats, quick: roots(repeats)),
+    "roots": (
+        "roots of the tower in closed form, by dynamic stiffness, by finite elements",
+        lambda repeats, quick: roots(repeats),
+    ),
     "tower": ("tower of three segments against finite elements", lambda repeats, quick: stepped_tower(repeats)),
+    "lattice": ("lattice tower as a truss and as beams", lambda repeats, quick: lattice(repeats)),
     "map": ("frequency map against finite elements", lambda repeats, quick: crane_map(repeats)),
     "radial-rhs": ("right-hand side of the radial crane", lambda repeats, quick: right_hand_side(repeats)),
     "radial": ("radial crane", lambda repeats, quick: work_precision(radial_scene(), repeats, quick=quick)),

@@ -67,6 +67,7 @@ def many_runs(repeats: int) -> dict[str, Any]:
     errors = _gaps(lanes.extremes[some], reference)
     loop = np.mean([r["runs_per_cpu_second"] for r in records if r["way"].startswith("plain")])
     return {
+        "name": "many",
         "title": f"{count} variations of load and rope, 120 s of condition 3, 2+3 modes, rtol 1e-4",
         "columns": ["way", "runs", "runs per second", "runs per CPU second", "of the plain loop"],
         "rows": [
