@@ -11,8 +11,9 @@ from towercrane.bench.growth import growth
 from towercrane.bench.lattice import lattice
 from towercrane.bench.radial import modes_left_out, right_hand_side
 from towercrane.bench.roots import roots
-from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene
+from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene, space_scene
 from towercrane.bench.slewing import right_hand_sides
+from towercrane.bench.space import space_right_hand_sides
 from towercrane.bench.structure import crane_map, stepped_tower
 from towercrane.bench.workprecision import work_precision
 from towercrane.simulate import versions
@@ -33,6 +34,8 @@ SUBJECTS: dict[str, tuple[str, Subject]] = {
     "radial-rhs": ("right-hand side of the radial crane", lambda repeats, quick: right_hand_side(repeats)),
     "radial": ("radial crane", lambda repeats, quick: work_precision(radial_scene(), repeats, quick=quick)),
     "radial-modes": ("modes left out", lambda repeats, quick: modes_left_out(repeats)),
+    "space-rhs": ("right-hand side of the crane in space", lambda repeats, quick: space_right_hand_sides(repeats)),
+    "space": ("crane in space", lambda repeats, quick: work_precision(space_scene(), repeats, quick=quick)),
     "slewing-rhs": ("right-hand sides of the slewing cranes", lambda repeats, quick: right_hand_sides(repeats)),
     "multi-mass": ("slewing crane, multi-mass", lambda repeats, quick: _lumped("multi-mass", repeats, quick)),
     "enhanced": ("slewing crane, enhanced", lambda repeats, quick: _lumped("enhanced", repeats, quick)),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.plots.bench_stability import drift, error_growth, failure_map
+from towercrane.plots.bench_stability import drift, error_growth, failure_map, one_hour
 from towercrane.plots.style import COLOURS, MARKERS, figure_of
 
 if TYPE_CHECKING:
@@ -24,7 +24,8 @@ def pictures(report: dict[str, Any]) -> dict[str, Figure]:
     """Figure of every subject that has one, by file name."""
     draw = {
         "roots": frequencies, "tower": frequencies, "map": frequencies, "lattice": lattice,
-        "growth": growth, "drift": drift, "error-growth": error_growth, "failure-map": failure_map,
+        "growth": growth, "drift": drift, "one-hour": one_hour,
+        "error-growth": error_growth, "failure-map": failure_map,
     }  # fmt: skip
     figures = {}
     for subject in report["subjects"]:

@@ -1,7 +1,8 @@
-"""Pictures of the long run: energy drift, error growth, failure map."""
+"""Pictures of the long run: energy drift, one hour, error growth, failure map."""
 
 from __future__ import annotations
 
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +13,9 @@ from towercrane.plots.style import COLOURS, MARKERS, figure_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+FLOOR = 1e-14
+"""What a smaller change is drawn as: the energy itself is rounded."""
 
 
 def drift(subject: dict[str, Any]) -> Figure:
@@ -44,6 +48,33 @@ def drift(subject: dict[str, Any]) -> Figure:
     figure.suptitle(
         "Energy of undamped free vibration; filled: gained, open: lost; dotted: named by a run", fontsize=10
     )
+    return figure
+
+
+def one_hour(subject: dict[str, Any]) -> Figure:
+    """Size of the energy's change over an hour, a panel for each model and tolerance."""
+    figure = figure_of(9.6, 6.6)
+    models, rtols = (sorted({r[key] for r in subject["records"]}) for key in ("modes", "rtol"))
+    panels = figure.subplots(len(models), len(rtols), sharex=True, sharey=True, squeeze=False)
+    methods = list(dict.fromkeys(r["method"] for r in subject["records"]))
+    for (i, model), (j, rtol) in product(enumerate(models), enumerate(reversed(rtols))):
+        axes: Axes = panels[i, j]
+        for record in (r for r in subject["records"] if (r["modes"], r["rtol"]) == (model, rtol)):
+            number = methods.index(record["method"])
+            own = not record["method"].startswith("scipy")
+            axes.loglog(
+                record["curve"]["time_s"][1:], np.maximum(np.abs(record["curve"]["change"][1:]), FLOOR),
+                color=COLOURS[number], lw=2.0 if own else 1.0, ls="-" if own else "--",
+                label=record["method"] if i == j == 0 else None,
+            )  # fmt: skip
+        axes.set_title(f"{model} modes, rtol {rtol:.0e}", fontsize=9)
+        axes.grid(which="major", color="0.9", lw=0.6)
+    for axes in panels[-1]:
+        axes.set_xlabel("time [s]")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("size of the energy's relative change [1]", fontsize=8)
+    figure.legend(loc="outside lower center", ncols=len(methods), fontsize=8, frameon=False)
+    figure.suptitle("Energy of undamped free vibration during one hour, atol = rtol / 100", fontsize=10)
     return figure
 
 
