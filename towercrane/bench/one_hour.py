@@ -46,7 +46,7 @@ def one_hour(quick: bool) -> dict[str, Any]:
     for method, rtol in ((method, rtol) for method in METHODS for rtol in RTOLS):
         cells = [found.get((method, rtol, model)) for model in models]
         shown = [["-", "-"] if r is None else [signed(r["change"]), f"{r['cpu_seconds']:.2g}"] for r in cells]
-        rows.append([method, f"{rtol:.0e}", *shown[0], *shown[1]])
+        rows.append([method, f"{rtol:.0e}", *(text for pair in shown for text in pair)])
     return {
         "name": "one-hour",
         "title": "Energy of undamped free vibration after one hour, relative change",

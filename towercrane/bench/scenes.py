@@ -32,8 +32,9 @@ SPACE = "qtz5613/manoeuvre"
 
 @dataclass(frozen=True, eq=False)
 class Plain:
-    """The scene's equations in NumPy: right-hand side, start, absolute tolerances, and its states as the scene's."""
+    """The scene's equations in NumPy: their model, right-hand side, start, absolute tolerances, way back to its states."""
 
+    model: RadialModel
     rhs: Rhs
     start: Floats
     scale: Floats
@@ -88,6 +89,7 @@ def radial_scene(tower_modes: int = 2, jib_modes: int = 3, case: str = "qtz5613/
     start = model.start(cut.inputs[0])
     half = np.append(model.system.scale[: model.coordinates], 1.0)
     plain = Plain(
+        model,
         plain_rhs(model),
         plain_state(model, start[None])[0],
         np.tile(half, 2),
