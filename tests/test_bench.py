@@ -171,7 +171,7 @@ def test_many_runs_stand_in_a_report_under_their_name(monkeypatch):
     from towercrane.plots.bench import pictures
 
     monkeypatch.setattr(lanes, "FEW", 16)
-    monkeypatch.setattr(lanes, "ALONE", 2)
+    monkeypatch.setattr(lanes, "FEW_ALONE", 2)
     table = lanes.many_runs(1)
     assert table["name"] == "many"
     assert pictures({"subjects": [table]}) == {}

@@ -35,7 +35,7 @@ SUBJECTS: dict[str, tuple[str, Subject]] = {
     "radial": ("radial crane", lambda repeats, quick: work_precision(radial_scene(), repeats, quick=quick)),
     "radial-modes": ("modes left out", lambda repeats, quick: modes_left_out(repeats)),
     "space-rhs": ("right-hand side of the crane in space", lambda repeats, quick: space_right_hand_sides(repeats)),
-    "space": ("crane in space", lambda repeats, quick: work_precision(space_scene(), repeats, quick=quick)),
+    "space": ("crane in space", lambda repeats, quick: _space(repeats, quick)),
     "slewing-rhs": ("right-hand sides of the slewing cranes", lambda repeats, quick: right_hand_sides(repeats)),
     "multi-mass": ("slewing crane, multi-mass", lambda repeats, quick: _lumped("multi-mass", repeats, quick)),
     "enhanced": ("slewing crane, enhanced", lambda repeats, quick: _lumped("enhanced", repeats, quick)),
@@ -76,7 +76,7 @@ def measure(*, quick: bool = False, subject: str = "", say: Callable[[str], None
     for name, (about, run) in SUBJECTS.items():
         if name == subject or not subject:
             say(f"measuring: {about}")
-            subjects.append(run(2 if quick else 9, quick))
+            subjects.append(run(1 if quick else 9, quick))
     machine = {"processor": platform.processor() or platform.machine(), "cores": os.cpu_count()}
     return {"machine": machine, "versions": versions(), "subjects": subjects}
 
@@ -86,6 +86,10 @@ def _many(repeats: int) -> dict[str, Any]:
     from towercrane.bench.lanes import many_runs
 
     return many_runs(repeats)
+
+
+def _space(repeats: int, quick: bool) -> dict[str, Any]:
+    return work_precision(space_scene(10.0 if quick else 30.0), repeats, quick=quick)
 
 
 def _lumped(kind: str, repeats: int, quick: bool) -> dict[str, Any]:

@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 
 CASE = "qtz5613/condition-3"
 
-MANY, FEW = 10_000, 512
+MANY, FEW = 10_000, 128
 """Variations with all repeats, and with few."""
 
-ALONE = 48
+MANY_ALONE, FEW_ALONE = 48, 12
 """Runs of the plain loop, spread over the variations."""
 
 RTOL, TIGHT = 1e-4, 1e-11
@@ -38,11 +38,11 @@ RTOL, TIGHT = 1e-4, 1e-11
 
 def many_runs(repeats: int) -> dict[str, Any]:
     """Variations of load and rope in condition 3 (2+3 modes, rtol 1e-4): runs per second."""
-    count = MANY if repeats > 3 else FEW
+    count, number_alone = (MANY, MANY_ALONE) if repeats > 3 else (FEW, FEW_ALONE)
     case = load_case(CASE)
     runs, grid = _variations(count, case.run.duration), rows_of(case.run.duration, case.run.output_step)
     cores = available_cores()
-    some = list(range(0, count, count // ALONE))[:ALONE]
+    some = list(range(0, count, count // number_alone))[:number_alone]
     _lanes(runs[:LANES], grid, RTOL, 1)
     records: list[dict[str, Any]] = []
 

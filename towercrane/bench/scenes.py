@@ -32,7 +32,7 @@ SPACE = "qtz5613/manoeuvre"
 
 @dataclass(frozen=True, eq=False)
 class Plain:
-    """The scene's equations in NumPy: their model, right-hand side, start, absolute tolerances, way back to its states."""
+    """The scene's equations in NumPy: model, right-hand side, start, absolute tolerances, way back to its states."""
 
     model: RadialModel
     rhs: Rhs

@@ -68,7 +68,7 @@ def work_precision(scene: Scene, repeats: int, *, quick: bool = False) -> dict[s
     elif scene.plain is None:
         notes.append(
             "equations in NumPy and as heyoka's expressions exist for the radial crane only: heyoka calls no "
-            "compiled right-hand side, and a second set of equations would have to be written and checked for every crane"
+            "compiled right-hand side, and every crane's equations would have to be written and checked once more"
         )
     if scene.system.switch is not None:
         notes.append("towercrane also restarts where the drive's stiffness bends, which the rivals cannot see")
