@@ -59,7 +59,7 @@ def work_precision(subject: dict[str, Any]) -> Figure:
     failed = [f"{r['family']}: {r['failure']}" for r in subject["records"] if "failure" in r]
     if failed:
         figure.supxlabel("; ".join(failed), fontsize=6.5, color="0.35", wrap=True)
-    figure.legend(loc="outside right upper", fontsize=7, frameon=False)
+    figure.legend(loc="outside right center", fontsize=7, frameon=False)
     figure.suptitle(subject["title"].partition(": error")[0], fontsize=10)
     return figure
 

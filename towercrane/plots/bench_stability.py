@@ -44,7 +44,7 @@ def drift(subject: dict[str, Any]) -> Figure:
         axes.set(xscale="log", yscale="log", xlabel="rtol [1], atol = rtol / 100", title=f"{modes} modes")
         axes.grid(which="major", color="0.9", lw=0.6)
     panels[0].set_ylabel(f"relative change of the energy in {SPAN:g} s [1]")
-    figure.legend(loc="outside right upper", fontsize=8, frameon=False)
+    figure.legend(loc="outside lower center", ncols=6, fontsize=8, frameon=False)
     figure.suptitle(
         "Energy of undamped free vibration; filled: gained, open: lost; dotted: named by a run", fontsize=10
     )
@@ -64,7 +64,7 @@ def one_hour(subject: dict[str, Any]) -> Figure:
             own = not record["method"].startswith("scipy")
             axes.loglog(
                 record["curve"]["time_s"][1:], np.maximum(np.abs(record["curve"]["change"][1:]), FLOOR),
-                color=COLOURS[number], lw=2.0 if own else 1.0, ls="-" if own else "--",
+                color=COLOURS[number], lw=3.2 if own else 1.2, ls="-" if own else "--",
                 label=record["method"] if i == j == 0 else None,
             )  # fmt: skip
         axes.set_title(f"{model} modes, rtol {rtol:.0e}", fontsize=9)
