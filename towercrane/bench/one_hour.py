@@ -23,6 +23,13 @@ RTOLS = (1e-6, 1e-8)
 
 MODES = ((1, 1), (2, 3))
 
+OMITTED = (
+    "'-': not measured. Every evaluation of SciPy's methods goes through Python: one hour of 2+3 modes would take its "
+    "explicit methods and LSODA one to two minutes each at 1e-8, Radau 5 minutes at 1e-6 and 14 at 1e-8; with 1+1 "
+    "modes, whose highest frequency is a ninth, all are measured"
+)
+QUICK = "quick: without SciPy's methods ('-'), which take nine minutes together"
+
 
 def one_hour(quick: bool) -> dict[str, Any]:
     """Energy during one hour of free vibration.
@@ -56,10 +63,7 @@ def one_hour(quick: bool) -> dict[str, Any]:
         "notes": [
             f"{CASE}, parked and ringing as in the hard case one-hour; atol is rtol / {1.0 / ATOL_SHARE:g}; "
             f"{RTOLS[-1]:g} is the default",
-            "'-': not measured. Every evaluation of SciPy's methods goes through Python: one hour of 2+3 modes would "
-            "take its explicit methods and LSODA one to two minutes each at 1e-8, Radau 5 minutes at 1e-6 and 14 at "
-            "1e-8; with 1+1 modes, whose highest frequency is a ninth, all are measured",
-            *(["quick: without SciPy's methods, which take five minutes together"] if quick else []),
+            QUICK if quick else OMITTED,
         ],
     }
 
