@@ -24,11 +24,11 @@ RTOLS = (1e-6, 1e-8)
 MODES = ((1, 1), (2, 3))
 
 OMITTED = (
-    "'-': not measured. Every evaluation of SciPy's methods goes through Python: one hour of 2+3 modes would take its "
-    "explicit methods and LSODA one to two minutes each at 1e-8, Radau 5 minutes at 1e-6 and 14 at 1e-8; with 1+1 "
+    "'-': not measured. Each evaluation of SciPy's methods goes through Python: one hour of 2+3 modes would take the "
+    "explicit ones and LSODA one to two minutes each at 1e-8, Radau 5 minutes at 1e-6 and 14 at 1e-8; with 1+1 "
     "modes, whose highest frequency is a ninth, all are measured"
 )
-QUICK = "quick: without SciPy's methods ('-'), which take nine minutes together"
+QUICK = "quick: without SciPy's methods ('-'), which take six minutes together"
 
 
 def one_hour(quick: bool) -> dict[str, Any]:
