@@ -55,6 +55,7 @@ def work_precision(subject: dict[str, Any]) -> Figure:
     axes.axvline(wanted, color="0.6", lw=0.8, ls=":")
     axes.set(xscale="log", yscale="log", xlabel="error, of each output's peak [1]", ylabel="CPU time [ms]")
     axes.invert_xaxis()
+    _plain_numbers(axes.yaxis)
     axes.grid(which="major", color="0.9", lw=0.6)
     failed = [f"{r['family']}: {r['failure']}" for r in subject["records"] if "failure" in r]
     if failed:
