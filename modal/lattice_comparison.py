@@ -106,18 +106,19 @@ def compare_lattice_models(
     ValueError
         If the truss is a mechanism or the height not a whole number of panels.
     """
-    truss, seconds = timed(partial(_truss_answers, column, height, body, mass_per_length, count), repeats)
+    truss, seconds = timed(partial(truss_answers, column, height, body, mass_per_length, count), repeats)
     models = [LatticeModel("truss", truss, truss.relative_to(truss), seconds)]
     for name in get_args(BeamModel):
         segment = column.segment(height, mass_per_length, name)
-        answers, seconds = timed(partial(_beam_answers, segment, body, count), repeats)
+        answers, seconds = timed(partial(beam_answers, segment, body, count), repeats)
         models.append(LatticeModel(name, answers, answers.relative_to(truss), seconds))
     return tuple(models)
 
 
-def _truss_answers(
+def truss_answers(
     column: LacedColumn, height: float, body: EndBody, mass_per_length: float | None, count: int
 ) -> LatticeAnswers:
+    """What the truss of a column says; see `compare_lattice_models`."""
     from modal.truss import ColumnTruss
 
     truss = ColumnTruss(column, height, mass_per_length)
@@ -125,7 +126,8 @@ def _truss_answers(
     return LatticeAnswers(truss.tip(force=1.0)[0], truss.tip(moment=1.0)[0], _hertz(bare), _hertz(loaded))
 
 
-def _beam_answers(segment: Segment, body: EndBody, count: int) -> LatticeAnswers:
+def beam_answers(segment: Segment, body: EndBody, count: int) -> LatticeAnswers:
+    """What a clamped beam says: statically in closed form, its frequencies by dynamic stiffness."""
     from modal.chain import Chain
     from modal.structure import chain_frequencies
 

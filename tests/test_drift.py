@@ -7,7 +7,8 @@ import pytest
 from qtz5613 import model, motions
 
 from towercrane import drift
-from towercrane.bench.stability import FreeVibration, agrees
+from towercrane.bench.free_vibration import FreeVibration
+from towercrane.bench.stability import agrees
 from towercrane.case import CaseError, load_case
 from towercrane.integrate import METHODS
 from towercrane.simulate import run_case, simulate

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.bench.accuracy import error_controlled
 from towercrane.bench.growth import growth
+from towercrane.bench.lattice import lattice
 from towercrane.bench.radial import modes_left_out, right_hand_side
 from towercrane.bench.roots import roots
-from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene
+from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene, space_scene
 from towercrane.bench.slewing import right_hand_sides
+from towercrane.bench.space import space_right_hand_sides
 from towercrane.bench.space_accuracy import error_controlled_in_space
 from towercrane.bench.structure import crane_map, stepped_tower
 from towercrane.bench.workprecision import work_precision
@@ -23,12 +25,18 @@ if TYPE_CHECKING:
     Subject = Callable[[int, bool], dict[str, Any]]
 
 SUBJECTS: dict[str, tuple[str, Subject]] = {
-    "roots": ("characteristic roots against finite elements", lambda repeats, quick: roots(repeats)),
+    "roots": (
+        "roots of the tower in closed form, by dynamic stiffness, by finite elements",
+        lambda repeats, quick: roots(repeats),
+    ),
     "tower": ("tower of three segments against finite elements", lambda repeats, quick: stepped_tower(repeats)),
+    "lattice": ("lattice tower as a truss and as beams", lambda repeats, quick: lattice(repeats)),
     "map": ("frequency map against finite elements", lambda repeats, quick: crane_map(repeats)),
     "radial-rhs": ("right-hand side of the radial crane", lambda repeats, quick: right_hand_side(repeats)),
     "radial": ("radial crane", lambda repeats, quick: work_precision(radial_scene(), repeats, quick=quick)),
     "radial-modes": ("modes left out", lambda repeats, quick: modes_left_out(repeats)),
+    "space-rhs": ("right-hand side of the crane in space", lambda repeats, quick: space_right_hand_sides(repeats)),
+    "space": ("crane in space", lambda repeats, quick: _space(repeats, quick)),
     "slewing-rhs": ("right-hand sides of the slewing cranes", lambda repeats, quick: right_hand_sides(repeats)),
     "multi-mass": ("slewing crane, multi-mass", lambda repeats, quick: _lumped("multi-mass", repeats, quick)),
     "enhanced": ("slewing crane, enhanced", lambda repeats, quick: _lumped("enhanced", repeats, quick)),
@@ -73,7 +81,7 @@ def measure(*, quick: bool = False, subject: str = "", say: Callable[[str], None
     for name, (about, run) in SUBJECTS.items():
         if name == subject or not subject:
             say(f"measuring: {about}")
-            subjects.append(run(2 if quick else 9, quick))
+            subjects.append(run(1 if quick else 9, quick))
     machine = {"processor": platform.processor() or platform.machine(), "cores": os.cpu_count()}
     return {"machine": machine, "versions": versions(), "subjects": subjects}
 
@@ -83,6 +91,10 @@ def _many(repeats: int) -> dict[str, Any]:
     from towercrane.bench.lanes import many_runs
 
     return many_runs(repeats)
+
+
+def _space(repeats: int, quick: bool) -> dict[str, Any]:
+    return work_precision(space_scene(10.0 if quick else 30.0), repeats, quick=quick)
 
 
 def _lumped(kind: str, repeats: int, quick: bool) -> dict[str, Any]:

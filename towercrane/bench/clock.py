@@ -101,3 +101,10 @@ def difference(found: Floats, reference: Floats) -> float:
 def short(error: float | None) -> str:
     """Error for a table."""
     return "-" if error is None else f"{error:.1e}"
+
+
+def signed(change: float | None) -> str:
+    """Relative change for a table; None was not measured, an infinite one is that of a run that failed."""
+    if change is None:
+        return "-"
+    return "failed" if np.isinf(change) else f"{change:+.1e}"

@@ -27,22 +27,22 @@ if TYPE_CHECKING:
 
 CASE = "qtz5613/condition-3"
 
-MANY, FEW = 10_000, 256
+MANY, FEW = 10_000, 128
 """Variations with all repeats, and with few."""
 
-ALONE, ALONE_FEW = 200, 48
-"""Runs of the plain loop, spread over the variations, with all repeats and with few."""
+MANY_ALONE, FEW_ALONE = 200, 12
+"""Runs of the plain loop, spread over the variations."""
 
 RTOL, TIGHT = 1e-4, 1e-11
 
 
 def many_runs(repeats: int) -> dict[str, Any]:
     """Variations of load and rope in condition 3 (2+3 modes, rtol 1e-4): runs per second."""
-    count, single = (MANY, ALONE) if repeats > 3 else (FEW, ALONE_FEW)
+    count, number_alone = (MANY, MANY_ALONE) if repeats > 3 else (FEW, FEW_ALONE)
     case = load_case(CASE)
     runs, grid = _variations(count, case.run.duration), rows_of(case.run.duration, case.run.output_step)
     cores = available_cores()
-    some = list(range(0, count, count // single))[:single]
+    some = list(range(0, count, count // number_alone))[:number_alone]
     _lanes(runs[:LANES], grid, RTOL, 1)
     records: list[dict[str, Any]] = []
 
@@ -67,6 +67,7 @@ def many_runs(repeats: int) -> dict[str, Any]:
     errors = _gaps(lanes.extremes[some], reference)
     loop = np.mean([r["runs_per_cpu_second"] for r in records if r["way"].startswith("plain")])
     return {
+        "name": "many",
         "title": f"{count} variations of load and rope, 120 s of condition 3, 2+3 modes, rtol 1e-4",
         "columns": ["way", "runs", "runs per second", "runs per CPU second", "of the plain loop"],
         "rows": [

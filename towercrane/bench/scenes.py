@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.case import load_case
-from towercrane.models import model_of, radial_model
+from towercrane.cranes.flexible_motion import FlexibleMotion
+from towercrane.models import model_of, radial_model, space_model
 from towercrane.motion import phases
 
 if TYPE_CHECKING:
@@ -25,10 +26,15 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
+SPACE = "qtz5613/manoeuvre"
+"""Case in space: slews, travels and hoists at once."""
+
+
 @dataclass(frozen=True, eq=False)
 class Plain:
-    """The scene's equations in NumPy: right-hand side, start, absolute tolerances, and its states as the scene's."""
+    """The scene's equations in NumPy: model, right-hand side, start, absolute tolerances, way back to its states."""
 
+    model: RadialModel
     rhs: Rhs
     start: Floats
     scale: Floats
@@ -83,6 +89,7 @@ def radial_scene(tower_modes: int = 2, jib_modes: int = 3, case: str = "qtz5613/
     start = model.start(cut.inputs[0])
     half = np.append(model.system.scale[: model.coordinates], 1.0)
     plain = Plain(
+        model,
         plain_rhs(model),
         plain_state(model, start[None])[0],
         np.tile(half, 2),
@@ -103,6 +110,29 @@ def radial_outputs(model: RadialModel, states: Floats) -> Floats:
     top = q[:, :tower] @ model.tower(model.crane.tower.length)
     tip = q[:, tower:] @ model.jib(model.crane.jib.length)
     return np.stack([top, tip, np.arctan2(states[:, n], -states[:, n + 1])], axis=1)
+
+
+def space_scene(duration: float = 30.0) -> Scene:
+    """The first seconds of a crane in space that slews, travels and hoists at once, from equilibrium."""
+    loaded = load_case(SPACE)
+    model = space_model(loaded, tower_modes=2, torsion_modes=1, jib_lateral_modes=3, jib_vertical_modes=3)
+    motions = loaded.motions
+    cut = phases(tuple(motions[channel] for channel in model.channels), duration)
+    grid = np.linspace(0.0, duration, round(20.0 * duration) + 1)
+    return Scene(
+        "space",
+        f"{duration:g} s of the crane in space (2+2+1 tower, 3+3 jib modes; slewing, trolley and hoist at once)",
+        unwatched(model.system), cut, model.start(cut.inputs[0]), grid,
+        lambda states: space_outputs(FlexibleMotion(model, motions, grid, states)),
+        "tower top, twist, jib tip and the rope's direction",
+    )  # fmt: skip
+
+
+def space_outputs(motion: FlexibleMotion) -> Floats:
+    """Tower top along x and y, its twist, jib tip left and up, rope's direction along x and y; shape (p, 7)."""
+    top, _ = motion.top(motion.coordinates)
+    tip = motion.deflection(motion.model.crane.tip_shapes, motion.coordinates)
+    return np.column_stack([top, motion.twist, tip, motion.rope[:, :2]])
 
 
 def lumped_scene(kind: str) -> Scene:

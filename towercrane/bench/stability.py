@@ -7,29 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.bench.clock import short, whole
-from towercrane.bench.scenes import radial_outputs, unwatched
-from towercrane.case import load_case
-from towercrane.cranes.flexible_energy import total_energy
-from towercrane.cranes.flexible_motion import FlexibleMotion
+from towercrane.bench.clock import short, signed
+from towercrane.bench.free_vibration import CASE, SWING, TROLLEY, FreeVibration
+from towercrane.bench.one_hour import one_hour
+from towercrane.bench.scenes import radial_outputs
 from towercrane.drift import ATOL_SHARE, NAMED, SPAN, energy_drift, notice, refusal
-from towercrane.integrate import METHODS, integrate
-from towercrane.models import radial_model
-from towercrane.motion import phases, rest
+from towercrane.integrate import METHODS
 from towercrane.tableaus import TABLEAUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from towercrane.integrate import Trajectory
-
-    Floats = NDArray[np.float64]
-
-CASE = "qtz5613/condition-3"
-TROLLEY, ROPE, SWING = 23.0, 18.0, 0.1
-"""Where the trolley is parked [m], length of the rope [m], swing at the start [rad]."""
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 
@@ -46,45 +33,8 @@ AGREE = 3.0
 """Factor within which a measured drift has to agree with the one stated, or else both be too small to name."""
 
 
-class FreeVibration:
-    """Parked crane with its weights switched on at once and the load let go: nothing drives it, nothing damps it.
-
-    Parameters
-    ----------
-    tower_modes, jib_modes : int
-    """
-
-    def __init__(self, tower_modes: int, jib_modes: int) -> None:
-        self.model = radial_model(load_case(CASE), tower_modes=tower_modes, jib_modes=jib_modes, rope_as_rod=True)
-        self.motions = {"trolley": rest(TROLLEY), "rope": rest(ROPE)}
-        self.frequency = float(self.model.natural_frequencies(TROLLEY, ROPE)[-1] / (2.0 * np.pi))
-
-    def run(self, method: str, rtol: float, span: float, step: float = 1.0) -> Trajectory:
-        """Run over ``span`` seconds with rows ``step`` apart."""
-        cut = phases((self.motions["trolley"], self.motions["rope"]), span)
-        start = self.model.start(cut.inputs[0], "zero", SWING)
-        grid = np.linspace(0.0, span, round(span / step) + 1)
-        with np.errstate(all="ignore"):  # A run that blows up says so by its outcome.
-            return whole(
-                integrate(
-                    unwatched(self.model.system), cut, start, grid, method=method, rtol=rtol, atol=ATOL_SHARE * rtol
-                )
-            )
-
-    def energy_change(self, run: Trajectory) -> float:
-        """Change of the vibration's energy over the run, relative; infinite for a run that did not finish."""
-        if run.outcome != "finished":
-            return np.inf
-        cut = phases((self.motions["trolley"], self.motions["rope"]), 1.0)
-        ends = np.array([self.model.start(cut.inputs[0]), run.states[0], run.states[-1]])
-        with np.errstate(all="ignore"):
-            least, first, last = total_energy(FlexibleMotion(self.model.scene, self.motions, np.zeros(3), ends))
-        change = float((last - first) / (first - least))
-        return change if np.isfinite(change) else np.inf
-
-
 def stability(*, quick: bool = False, say: Callable[[str], None] = print) -> dict[str, Any]:
-    """Energy drift, error growth and failure map.
+    """Energy drift, over an hour too, error growth and failure map.
 
     Parameters
     ----------
@@ -94,11 +44,11 @@ def stability(*, quick: bool = False, say: Callable[[str], None] = print) -> dic
     Returns
     -------
     dict
-        ``subjects`` as in :func:`towercrane.bench.measure`: drift, error growth, failure map; ``met``: whether the
-        drift that runs warn of is the one measured.
+        ``subjects`` as in :func:`towercrane.bench.measure`: drift, one hour, error growth, failure map;
+        ``met``: whether the drift that runs warn of is the one measured.
     """
     subjects = []
-    for subject in (drift, error_growth, failure_map):
+    for subject in (drift, one_hour, error_growth, failure_map):
         say(f"measuring: {subject.__doc__.splitlines()[0] if subject.__doc__ else subject.__name__}")
         subjects.append(subject(quick))
     return {"subjects": subjects, "met": subjects[0]["met"]}
@@ -127,8 +77,8 @@ def drift(quick: bool) -> dict[str, Any]:
         "rows": [
             [
                 r["method"], f"{r['rtol']:.0e}",
-                *(_signed(r["changes"].get(f"{tower}+{jib}")) for tower, jib in DRIFT_MODES),
-                _signed(r["stated"]), r["verdict"],
+                *(signed(r["changes"].get(f"{tower}+{jib}")) for tower, jib in DRIFT_MODES),
+                signed(r["stated"]), r["verdict"],
             ]
             for r in records
         ],
@@ -220,7 +170,7 @@ def failure_map(quick: bool) -> dict[str, Any]:
     for method in METHODS:
         for rtol in TOLERANCES:
             cells = [r for r in records if r["method"] == method and r["rtol"] == rtol]
-            rows.append([method, f"{rtol:.0e}", *(_signed(r["change"]) for r in cells)])
+            rows.append([method, f"{rtol:.0e}", *(signed(r["change"]) for r in cells)])
     highest = dict.fromkeys((r["modes"], r["frequency_hz"]) for r in records)
     return {
         "name": "failure-map",
@@ -241,9 +191,3 @@ def _mapped(method: str, modes: tuple[int, int], quick: bool) -> bool:
     if quick:
         return modes == MAP_MODES[0] and method != "scipy-radau"
     return sum(modes) <= (4 if method == "scipy-radau" else 8)
-
-
-def _signed(change: float | None) -> str:
-    if change is None:
-        return "-"
-    return "failed" if np.isinf(change) else f"{change:+.1e}"

@@ -9,6 +9,7 @@ import numpy as np
 
 from modal import Chain, EndBody, Segment, chain_frequencies, chain_structure, crane_structure
 from towercrane.bench.clock import interleaved, short
+from towercrane.bench.roots import family
 from towercrane.case import load_case
 from towercrane.towers import crane_frame
 
@@ -24,9 +25,12 @@ if TYPE_CHECKING:
 
 CASE = "qtz5613/condition-3"
 
-POSITIONS = 50
+POSITIONS, FEW_POSITIONS = 50, 10
+"""Of the trolley, with all repeats and with few."""
 
 MODES = 8
+
+EXACT = "dynamic stiffness"
 
 NO_MPMATH = "errors not measured: they need mpmath (pip install mpmath)"
 
@@ -48,10 +52,10 @@ def stepped_tower(repeats: int) -> dict[str, Any]:
     def elements(number: int) -> Callable[[], Floats]:
         return lambda: finite_element_structure_frequencies(chain_structure(TOWER), MODES, elements=number)
 
-    contestants: dict[str, Callable[[], Floats]] = {"exact": lambda: chain_frequencies(TOWER, MODES)}
+    contestants: dict[str, Callable[[], Floats]] = {EXACT: lambda: chain_frequencies(TOWER, MODES)}
     contestants |= {f"{n} elements a segment": elements(n) for n in (2, 4, 8, 16)}
     values, timings = interleaved(contestants, repeats)
-    reference, note = _transfer_matrices(values["exact"])
+    reference, note = transfer_matrices(TOWER, values[EXACT])
     return _compared(
         "tower",
         "Eight frequencies of a tower of three shear-flexible segments with a body: relative error of the worst",
@@ -60,13 +64,14 @@ def stepped_tower(repeats: int) -> dict[str, Any]:
 
 
 def crane_map(repeats: int) -> dict[str, Any]:
-    """Eight frequencies of the plane QTZ5613 at fifty positions of its trolley."""
+    """Eight frequencies of the plane QTZ5613 along its jib."""
     from modal.structure_elements import finite_element_structure_frequencies
     from towercrane.frequency_map import SPARE, frequency_map
 
     case = load_case(CASE)
     frame = crane_frame(case)
-    places = np.linspace(0.0, case.radial_crane().jib.length, POSITIONS)
+    number = POSITIONS if repeats > 3 else FEW_POSITIONS
+    places = np.linspace(0.0, case.radial_crane().jib.length, number)
 
     def exact() -> Floats:
         return np.array([crane_structure(frame, float(x)).angular_frequencies(MODES) for x in places])
@@ -80,19 +85,19 @@ def crane_map(repeats: int) -> dict[str, Any]:
         return np.array([finite_element_structure_frequencies(s, MODES, elements=number) for s in structures])
 
     contestants: dict[str, Callable[[], Floats]] = {
-        "exact": exact,
-        "exact, with shapes, branches, participation": branches,
+        EXACT: exact,
+        f"{EXACT}, with shapes, branches, participation": branches,
         "8 elements a member": partial(elements, 8),
         "16 elements a member": partial(elements, 16),
     }
     values, timings = interleaved(contestants, min(repeats, 3))
-    found = zip(places.tolist(), values["exact"], strict=True)
+    found = zip(places.tolist(), values[EXACT], strict=True)
     rows = [_krylov_functions(frame, position, near) for position, near in found]
     reference = None if rows[0] is None else np.array(rows)
     note = "reference: Krylov functions of the three uniform spans, matched in 50-digit arithmetic"
     return _compared(
         "map",
-        f"Plane QTZ5613, eight frequencies at {POSITIONS} positions of the trolley: relative error of the worst",
+        f"Plane QTZ5613, eight frequencies at {number} positions of the trolley: relative error of the worst",
         values, timings, reference, [NO_MPMATH if reference is None else note],
     )  # fmt: skip
 
@@ -111,7 +116,9 @@ def _compared(
         error = None
         if reference is not None:
             error = float(np.max(abs(found / reference[..., : found.shape[-1]] - 1.0)))
-        records.append({"method": method, "error": error, "milliseconds": 1e3 * timings[method].wall})
+        records.append(
+            {"method": method, "family": family(method), "error": error, "milliseconds": 1e3 * timings[method].wall}
+        )
     return {
         "name": name,
         "title": title,
@@ -122,17 +129,30 @@ def _compared(
     }
 
 
-def _transfer_matrices(near: Floats) -> tuple[Floats | None, str]:
-    """Frequencies of the tower by matrix exponentials in 50-digit arithmetic; None without mpmath."""
+def transfer_matrices(chain: Chain, near: Floats) -> tuple[Floats | None, str]:
+    """Frequencies of a clamped chain without weight, whose only body is on its top, in 50-digit arithmetic.
+
+    Parameters
+    ----------
+    chain : Chain
+        Of uniform segments.
+    near : ndarray
+        Angular frequencies to start from [rad/s].
+
+    Returns
+    -------
+    tuple
+        Angular frequencies by matrix exponentials, None without mpmath, and what a table says of them.
+    """
     try:
         import mpmath as mp
     except ImportError:
         return None, NO_MPMATH
-    body = TOWER.bodies[3]
+    body = chain.bodies.get(len(chain.segments), EndBody())
 
     def closing(omega: Any) -> Any:
         state = mp.matrix([[0, 0], [0, 0], [1, 0], [0, 1]])
-        for s in TOWER.segments:
+        for s in chain.segments:
             # Deflection, rotation, transverse force and moment along a Timoshenko beam.
             slopes = mp.matrix(
                 [
@@ -143,8 +163,10 @@ def _transfer_matrices(near: Floats) -> tuple[Floats | None, str]:
                 ]
             )
             state = mp.expm(slopes * s.length) * state
-        inertia = mp.matrix([[-body.mass * omega**2, 0, 1, 0], [0, -body.rotary_inertia * omega**2, 0, 1]])
-        return mp.det(inertia * state)
+        first = body.mass * mp.mpf(body.offset)
+        second = body.rotary_inertia + first * body.offset
+        inertia = -(omega**2) * mp.matrix([[body.mass, first], [first, second]])
+        return mp.det(inertia * state[:2, :] + state[2:, :])
 
     with mp.workdps(50):
         exact = [float(mp.findroot(closing, (mp.mpf(x), mp.mpf(x) * (1 + mp.mpf("1e-7"))))) for x in near]

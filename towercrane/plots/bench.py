@@ -1,4 +1,4 @@
-"""Pictures of the benchmark: work against precision, growth of the cost, energy drift, error growth, failure map."""
+"""Pictures of the benchmark: work against precision, exact frequencies, growth of the cost."""
 
 from __future__ import annotations
 
@@ -6,20 +6,26 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.drift import NAMED, SPAN
-from towercrane.plots.style import COLOURS, figure_of
+from towercrane.plots.bench_stability import drift, error_growth, failure_map, one_hour
+from towercrane.plots.style import COLOURS, MARKERS, figure_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.axes import Axes
+    from matplotlib.axis import XAxis, YAxis
     from matplotlib.figure import Figure
 
-MARKERS = "osD^v<>Px*"
+EPSILON = 1e-16
+"""What an error of zero is drawn as."""
 
 
 def pictures(report: dict[str, Any]) -> dict[str, Figure]:
     """Figure of every subject that has one, by file name."""
     draw = {
-        "growth": growth, "drift": drift, "error-growth": error_growth, "failure-map": failure_map,
+        "roots": frequencies, "tower": frequencies, "map": frequencies, "lattice": lattice,
+        "growth": growth, "drift": drift, "one-hour": one_hour,
+        "error-growth": error_growth, "failure-map": failure_map,
     }  # fmt: skip
     figures = {}
     for subject in report["subjects"]:
@@ -27,8 +33,6 @@ def pictures(report: dict[str, Any]) -> dict[str, Figure]:
             figures[f"{subject['name']}.png"] = draw[subject["name"]](subject)
         elif "within" in subject:
             figures[f"{subject['name']}.png"] = work_precision(subject)
-        elif subject["name"] == "roots":
-            figures["roots.png"] = roots(subject)
     return figures
 
 
@@ -51,37 +55,94 @@ def work_precision(subject: dict[str, Any]) -> Figure:
     axes.axvline(wanted, color="0.6", lw=0.8, ls=":")
     axes.set(xscale="log", yscale="log", xlabel="error, of each output's peak [1]", ylabel="CPU time [ms]")
     axes.invert_xaxis()
+    _plain_numbers(axes.yaxis)
     axes.grid(which="major", color="0.9", lw=0.6)
     failed = [f"{r['family']}: {r['failure']}" for r in subject["records"] if "failure" in r]
     if failed:
         figure.supxlabel("; ".join(failed), fontsize=6.5, color="0.35", wrap=True)
-    figure.legend(loc="outside right upper", fontsize=7, frameon=False)
+    figure.legend(loc="outside right center", fontsize=7, frameon=False)
     figure.suptitle(subject["title"].partition(": error")[0], fontsize=10)
     return figure
 
 
-def roots(subject: dict[str, Any]) -> Figure:
-    """Time against error of the characteristic roots and of finite elements."""
-    figure = figure_of(7.0, 4.2)
+def frequencies(subject: dict[str, Any]) -> Figure:
+    """Time against error of exact frequencies and of finite elements, one colour for each family."""
+    figure = figure_of(7.6, 4.4)
     axes: Axes = figure.subplots()
-    for number, record in enumerate(r for r in subject["records"] if r["error"] is not None):
-        exact = record["method"].startswith("closed")
-        axes.plot(
-            max(record["error"], 1e-16), record["milliseconds"], MARKERS[number % 10],
-            color=COLOURS[0 if exact else 1], ms=7, label=record["method"],
-        )  # fmt: skip
-    axes.set(xscale="log", yscale="log", xlabel="relative error of the worst root [1]", ylabel="wall time [ms]")
+    families = list(dict.fromkeys(r["family"] for r in subject["records"]))
+    for family, colour, marker in zip(families, COLOURS, MARKERS, strict=False):
+        rows = [r for r in subject["records"] if r["family"] == family and r["error"] is not None]
+        errors, times = [max(r["error"], EPSILON) for r in rows], [r["milliseconds"] for r in rows]
+        axes.plot(errors, times, marker, ls="-" if len(rows) > 2 else "", lw=1.0, ms=7, color=colour, label=family)
+        for row, error, time in zip(rows, errors, times, strict=True):
+            axes.annotate(
+                _point(row["method"]), (error, time), (0, 7), textcoords="offset points", fontsize=7, ha="center"
+            )
+    axes.set(xscale="log", yscale="log", xlabel="relative error of the worst frequency [1]", ylabel="wall time [ms]")
+    axes.margins(0.12, 0.2)
     axes.invert_xaxis()
-    axes.grid(color="0.9", lw=0.6)
-    figure.legend(loc="outside right upper", fontsize=8, frameon=False)
-    figure.suptitle("Characteristic roots of the tower", fontsize=10)
+    _plain_numbers(axes.yaxis)
+    axes.grid(which="major", color="0.9", lw=0.6)
+    figure.legend(loc="outside lower center", ncols=len(families), fontsize=8, frameon=False)
+    figure.suptitle(subject["title"].partition(":")[0], fontsize=10)
     return figure
+
+
+def _point(method: str) -> str:
+    """What tells a point from the others of its family: the number of elements, or what follows the comma."""
+    number, elements, _ = method.partition(" elements")
+    return f"n = {number}" if elements else method.partition(", ")[2].replace(", ", ",\n")
+
+
+def lattice(subject: dict[str, Any]) -> Figure:
+    """Time against error of the beams that stand for a lattice, a colour for each beam."""
+    figure = figure_of(11.0, 4.2)
+    panels = figure.subplots(1, 3, sharey=True)
+    truss, *beams = subject["records"]
+    reads: tuple[tuple[str, Callable[[dict[str, Any]], float | None]], ...] = (
+        ("two frequencies with slewing part,\nagainst the truss [1]", lambda r: r["errors"]["loaded"]),
+        ("static flexibility,\nagainst the truss [1]", lambda r: r["errors"]["flexibility"]),
+        ("four frequencies, against\nthe same beam exactly [1]", lambda r: r["own_error"]),
+    )
+    for axes, (label, read) in zip(panels, reads, strict=True):
+        first = axes is panels[0]
+        axes.axhline(1e3 * truss["cpu_seconds"], color="0.4", lw=1.0, ls=":", label="truss" if first else None)
+        for colour, model in zip(COLOURS, dict.fromkeys(r["model"] for r in beams), strict=False):
+            exact, *elements = (r for r in beams if r["model"] == model)
+            for rows, look, name in (
+                ([exact], {"marker": "*", "ms": 11, "ls": ""}, "dynamic stiffness"),
+                (elements, {"marker": "o", "ms": 4, "lw": 1.0}, "finite elements"),
+            ):
+                known = [(error, 1e3 * r["cpu_seconds"]) for r in rows if (error := read(r)) is not None]
+                axes.plot(
+                    [max(error, EPSILON) for error, _ in known], [time for _, time in known], color=colour, **look,
+                    label=f"{model}, {name}" if first else None,
+                )  # fmt: skip
+        axes.set(xscale="log", yscale="log", xlabel=label)
+        axes.margins(0.12, 0.12)
+        axes.invert_xaxis()
+        axes.grid(which="major", color="0.9", lw=0.6)
+    panels[0].set_ylabel("CPU time [ms]")
+    _plain_numbers(panels[0].yaxis)
+    figure.legend(loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    numbers = [r["elements"] for r in beams if r["elements"]]
+    figure.suptitle(
+        f"Lattice tower as beams: worst relative error; {min(numbers)} to {max(numbers)} elements", fontsize=10
+    )
+    return figure
+
+
+def _plain_numbers(axis: XAxis | YAxis) -> None:
+    """Label a logarithmic axis with 1, 2, 5, 10: whole powers of ten are too few where it spans little."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
 
 
 def growth(subject: dict[str, Any]) -> Figure:
     """CPU time against simulated time; evaluations and their cost against the number of modes."""
-    from matplotlib.ticker import LogLocator, NullFormatter
-
     figure = figure_of(10.5, 3.8)
     over_time, over_frequency, over_size = figure.subplots(1, 3)
     exponents = subject["exponents"]
@@ -98,114 +159,9 @@ def growth(subject: dict[str, Any]) -> Figure:
         axes.loglog(across, fit, color=COLOURS[1], lw=1.2, label=f"~ x^{exponents[power]:.2f}")
         axes.set(xlabel=labels[0], ylabel=labels[1])
         for axis in (axes.xaxis, axes.yaxis):
-            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-            axis.set_major_formatter("{x:g}")
-            axis.set_minor_formatter(NullFormatter())
+            _plain_numbers(axis)
         axes.tick_params(labelsize=8)
         axes.grid(which="major", color="0.9", lw=0.6)
         axes.legend(fontsize=8, frameon=False)
     figure.suptitle("Growth of the cost, free vibration of the QTZ5613 at rtol 1e-6", fontsize=10)
     return figure
-
-
-def drift(subject: dict[str, Any]) -> Figure:
-    """Energy change over the tolerance, one line a method; filled: gained."""
-    figure = figure_of(9.0, 4.8)
-    panels = figure.subplots(1, 2, sharey=True)
-    methods = list(dict.fromkeys(r["method"] for r in subject["records"]))
-    for axes, modes in zip(panels, dict.fromkeys(m for r in subject["records"] for m in r["changes"]), strict=False):
-        for number, method in enumerate(methods):
-            rows = [r for r in subject["records"] if r["method"] == method and modes in r["changes"]]
-            known = [(r["rtol"], r["changes"][modes]) for r in rows if np.isfinite(r["changes"][modes])]
-            if not known:
-                continue
-            rtol, change = np.array(known).T
-            label = method if axes is panels[0] else None
-            own = not method.startswith("scipy")
-            axes.plot(
-                rtol, abs(change), color=COLOURS[number], lw=2.2 if own else 1.0, ls="-" if own else "--", label=label
-            )
-            for sign, face in ((1.0, COLOURS[number]), (-1.0, "white")):
-                mine = np.sign(change) == sign
-                axes.plot(
-                    rtol[mine], abs(change[mine]), MARKERS[number], ms=6, color=COLOURS[number], markerfacecolor=face
-                )
-        axes.axhline(NAMED, color="0.5", ls=":", lw=1.0)
-        axes.set(xscale="log", yscale="log", xlabel="rtol [1], atol = rtol / 100", title=f"{modes} modes")
-        axes.grid(which="major", color="0.9", lw=0.6)
-    panels[0].set_ylabel(f"relative change of the energy in {SPAN:g} s [1]")
-    figure.legend(loc="outside right upper", fontsize=8, frameon=False)
-    figure.suptitle(
-        "Energy of undamped free vibration; filled: gained, open: lost; dotted: named by a run", fontsize=10
-    )
-    return figure
-
-
-def error_growth(subject: dict[str, Any]) -> Figure:
-    """Largest error so far over time."""
-    figure = figure_of(7.6, 4.6)
-    axes: Axes = figure.subplots()
-    for number, record in enumerate(subject["records"]):
-        name = f"{record['method']}, rtol {record['rtol']:.0e}: ~ t^{record['exponent']:.2f}"
-        axes.loglog(
-            record["curve"]["time_s"], record["curve"]["error"], lw=1.4, color=COLOURS[number % 6],
-            ls="-" if record["method"] == "dop853" else "--", label=name,
-        )  # fmt: skip
-    axes.set(xlabel="time [s]", ylabel="largest error so far, of each output's peak [1]")
-    axes.grid(which="major", color="0.9", lw=0.6)
-    axes.legend(fontsize=8, frameon=False)
-    figure.suptitle("Growth of the error in free vibration, 2+3 modes", fontsize=10)
-    return figure
-
-
-def failure_map(subject: dict[str, Any]) -> Figure:
-    """Energy change by tolerance and highest frequency, a panel for each method."""
-    from matplotlib.colors import Normalize
-
-    figure = figure_of(11.0, 6.0)
-    records = subject["records"]
-    methods = list(dict.fromkeys(r["method"] for r in records))
-    tolerances = list(dict.fromkeys(r["rtol"] for r in records))
-    columns = list(dict.fromkeys((r["modes"], r["frequency_hz"]) for r in records))
-    panels = figure.subplots(2, 3, sharex=True, sharey=True)
-    for axes, method in zip(panels.flat, methods, strict=True):
-        for r in (r for r in records if r["method"] == method):
-            column, row = columns.index((r["modes"], r["frequency_hz"])), tolerances.index(r["rtol"])
-            colour = "white" if _size(r["change"]) > -1.5 else "black"
-            axes.text(column, row, _cell(r["change"]), ha="center", va="center", fontsize=7, color=colour)
-        sizes = np.array(
-            [
-                [_size(r["change"]) for r in records if (r["method"], r["rtol"]) == (method, rtol)]
-                for rtol in tolerances
-            ]
-        )
-        image = axes.imshow(sizes, cmap="YlOrRd", norm=Normalize(-8.0, 0.0), aspect="auto")
-        axes.set_facecolor("0.93")
-        axes.set_title(method, fontsize=9)
-        axes.set_xticks(
-            range(len(columns)), [f"{modes}\n{frequency:.3g} Hz" for modes, frequency in columns], fontsize=7
-        )
-        axes.set_yticks(range(len(tolerances)), [f"{rtol:.0e}" for rtol in tolerances], fontsize=7)
-    for axes in panels[:, 0]:
-        axes.set_ylabel("rtol [1]")
-    for axes in panels[-1]:
-        axes.set_xlabel("modes and highest frequency")
-    bar = figure.colorbar(image, ax=panels, shrink=0.8)
-    bar.set_label("log10 of the energy's relative change [1]")
-    figure.suptitle(
-        "Failure map: energy after 60 s of free vibration; + gained, - lost, grey not measured", fontsize=10
-    )
-    return figure
-
-
-def _cell(change: float | None) -> str:
-    if change is None:
-        return ""
-    return "failed" if np.isinf(change) else f"{change:+.0e}"
-
-
-def _size(change: float | None) -> float:
-    """Colour of a cell; not a number where nothing was measured."""
-    if change is None:
-        return np.nan
-    return 0.0 if np.isinf(change) else float(np.log10(max(abs(change), 1e-16)))

@@ -20,6 +20,8 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 DASHES = ("-", "--", "-.", ":")
 """Lines differ in dash as well, for print in grey."""
 
+MARKERS = "osD^v<>Px*"
+"""Points differ in shape as well."""
 
 MOST_NOTES = 6
 """Assumed values that are named under a figure one by one."""
