@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from qtz5613 import CRANE, motions, standing
 
-from towercrane.accuracy import Indicators, Tolerance, choose
+from towercrane.accuracy import Indicators, choose
 from towercrane.indicators import drift, vibration
 from towercrane.motion import s_curve, smooth_ramps
 from towercrane.nodes import OUTPUTS, RICHEST, nodes_of
 from towercrane.payload import Load
+from towercrane.readings import Tolerance
 from towercrane.scene import RadialScene, Setting
 
 POSITIONS = OUTPUTS[:3]

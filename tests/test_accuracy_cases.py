@@ -9,10 +9,10 @@ import pytest
 from typer.testing import CliRunner
 
 from towercrane import load_case
-from towercrane.accuracy import Tolerance
 from towercrane.cli import app
 from towercrane.faults import CaseError
 from towercrane.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, stated, verification
+from towercrane.readings import Tolerance
 from towercrane.scene import Setting
 from towercrane.simulate import run_case
 from towercrane.summary import summarise

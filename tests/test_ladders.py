@@ -11,7 +11,6 @@ from space_crane import CRANE, manoeuvre, standing
 from typer.testing import CliRunner
 
 from towercrane import load_case
-from towercrane.accuracy import Tolerance
 from towercrane.cli import app
 from towercrane.cranes.flexible import ModalDamping
 from towercrane.cranes.wind import WindAreas, gusts
@@ -20,7 +19,7 @@ from towercrane.ladders import Ladders, measured_choice
 from towercrane.motion import rest, trapezoid
 from towercrane.payload import Load
 from towercrane.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer_in_space, verification
-from towercrane.readings import MOTIONS, departures, gap, peak
+from towercrane.readings import MOTIONS, Tolerance, departures, gap, peak
 from towercrane.simulate import run_case
 from towercrane.space_scene import SpaceScene, SpaceSetting
 from towercrane.summary import summarise

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple
+from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.indicators import Vibration
+    from towercrane.readings import Tolerance
     from towercrane.scene import RadialScene
 
     Floats = NDArray[np.float64]
@@ -58,13 +59,6 @@ MODES = ((0, 0), (1, 0), (0, 1), (1, 1), (1, 2), (2, 2), (2, 3), (2, 4), (3, 4),
 
 CAPS = (1.0, 2.0, 5.0, 12.0)
 """Caps that are tried, over the fastest of the modes that are never capped, besides none."""
-
-
-class Tolerance(NamedTuple):
-    """Error that is wanted of an output: over its peak, or in its unit."""
-
-    value: float
-    relative: bool
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from towercrane.accuracy import Tolerance
     from towercrane.integrate import Progress
+    from towercrane.readings import Tolerance
     from towercrane.space_scene import SpaceScene
 
     Floats = NDArray[np.float64]

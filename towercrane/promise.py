@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy import Choice, Estimate, Indicators, Tolerance, choose, limits
+from towercrane.accuracy import Choice, Estimate, Indicators, choose, limits
 from towercrane.integrate import FINISHED
 from towercrane.nodes import RICHEST
-from towercrane.readings import RADIAL, SPACE, gap, peak, picked_in
+from towercrane.readings import RADIAL, SPACE, Tolerance, gap, peak, picked_in
 from towercrane.scene import Setting, provenance, scene_of, setting_of
 
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -41,6 +41,13 @@ SPACE = MOTIONS | {
 """Outputs of a run in space."""
 
 PLACE = "payload_position"
+
+
+class Tolerance(NamedTuple):
+    """Error that is wanted of an output: over its peak, or in its unit."""
+
+    value: float
+    relative: bool
 
 
 def peak(result: xr.Dataset, name: str) -> float:

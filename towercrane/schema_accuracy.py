@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 from pydantic import GetCoreSchemaHandler, model_validator
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from towercrane.accuracy import Tolerance
 from towercrane.faults import did_you_mean, shown
-from towercrane.readings import MOTIONS, RADIAL, SPACE
+from towercrane.readings import MOTIONS, RADIAL, SPACE, Tolerance
 from towercrane.schema import Table, ToleranceIfAny, refusal
 from towercrane.units import UnitError, split, to_si
 

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy import SMALLEST_PEAK, Choice, Indicators, Tolerance, candidates, choose
+from towercrane.accuracy import SMALLEST_PEAK, Choice, Indicators, candidates, choose
 from towercrane.bench.clock import short
 from towercrane.bench.drawn import scenes
 from towercrane.integrate import FINISHED
 from towercrane.nodes import OUTPUTS, TENSION
+from towercrane.readings import Tolerance
 from towercrane.scene import Setting
 from towercrane.system import NoEquilibrium
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy import SMALLEST_PEAK, Tolerance
+from towercrane.accuracy import SMALLEST_PEAK
 from towercrane.bench.clock import short
 from towercrane.bench.drawn import space_scenes
 from towercrane.integrate import FINISHED
 from towercrane.ladders import measured_choice
 from towercrane.promise import finer_in_space
-from towercrane.readings import MOTIONS, gap, peak
+from towercrane.readings import MOTIONS, Tolerance, gap, peak
 from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
