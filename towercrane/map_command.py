@@ -76,7 +76,7 @@ def frequency_map(
     from modal.compiled import is_compiled
 
     if not is_compiled("modal.structure_kernel"):
-        say("compiling for the first time, about ten seconds; later runs start at once ...")
+        say("compiling for the first time, about fifteen seconds; later runs start at once ...")
     import numpy as np
 
     from towercrane.map_report import csv_text, map_report, provenance

@@ -41,7 +41,7 @@ def announce_compilation(kind: str, *needed: str) -> None:
     own = {"radial": "flexible_rhs", "space": "flexible_rhs", "jib": "jib_crane_kernel"}.get(kind, "lumped_kernel")
     missing = [m for m in (f"towercrane.cranes.{own}", *needed) if not is_compiled(m)]
     if missing:
-        say("compiling for the first time, about ten seconds; later runs start at once ...")
+        say("compiling for the first time, about fifteen seconds; later runs start at once ...")
         compile_beside(*missing)
 
 
