@@ -177,7 +177,7 @@ def rates(state, ends, elements, nodes, rail, inputs, forces, out):
     return energy
 
 
-@kernel()
+@kernel(allocates=True)
 def march(state, ends, elements, nodes, rail, inputs, step):
     """Steps of the classical Runge-Kutta method, in place; ``inputs`` (2 steps + 1, 5) at steps and half-way."""
     forces = np.zeros((len(nodes), 6))

@@ -70,7 +70,15 @@ def test_every_kind_ships_and_loads():
         **{f"slewing/{kind}/cycle": kind for kind, _, _, _ in EXAMPLES},
         **dict.fromkeys((PLAN, HEAVY, COMBINED), "jib"),
     }
-    in_space = {"manoeuvre", "slewing", "gentle", "soft-drive", "gusts-parked", "gusts-working"}
+    in_space = {
+        "manoeuvre",
+        "slewing",
+        "gentle",
+        "soft-drive",
+        "gusts-parked",
+        "gusts-working",
+        "manoeuvre-within-2e-2",
+    }
     assert {name for name, kind in tower_cranes.items() if kind != "radial"} == {f"qtz5613/{n}" for n in in_space}
     assert {tower_cranes[f"qtz5613/{name}"] for name in in_space} == {"space"}
 

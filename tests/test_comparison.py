@@ -140,7 +140,7 @@ def test_picture_shows_paths_and_distances_with_units(compared):
 
 def test_command_answers_for_space_and_for_the_plane(tmp_path):
     runner = CliRunner()
-    options = [part for change in SHORT for part in ("--set", change)]
+    options = [part for change in [*SHORT, "accuracy.target=0.05"] for part in ("--set", change)]
     done = runner.invoke(app, ["compare", NAME, "--out", str(tmp_path), *options])
     assert done.exit_code == 0, done.output
     assert {path.name for path in tmp_path.iterdir()} == {"compare.json", "paths.png"}
