@@ -154,3 +154,22 @@ def test_verify_knows_flexible_cranes_only(tmp_path, capsys):
     done = CliRunner().invoke(app, ["run", "jib-crane/plan", "--verify", "--out", str(tmp_path)])
     assert done.exit_code == 2
     assert "--verify: wanted a case of kind 'radial' or 'space', got 'jib'" in done.stderr
+
+
+def test_an_error_out_of_reach_is_not_what_was_asked_for(tmp_path):
+    command = ["run", OPEN, "--no-pictures", "--out", str(tmp_path), "--set", "run.duration=5 s"]
+    assert CliRunner().invoke(app, command).exit_code == 0
+    done = CliRunner().invoke(app, [*command, "--set", "accuracy.target=1e-12"])
+    assert done.exit_code == 1
+    assert "the error asked for is out of reach" in done.stderr
+
+
+def test_interrupted_verification_keeps_the_run(tmp_path, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("towercrane.promise.verification", interrupted)
+    done = CliRunner().invoke(app, ["run", OPEN, "--verify", "--out", str(tmp_path), "--set", "run.duration=5 s"])
+    assert done.exit_code == 130
+    assert "the run is kept, its verification is not" in done.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"result.nc", "summary.json"}

@@ -139,6 +139,21 @@ def test_files_that_are_no_results_are_refused(result, tmp_path):
     assert (done.exit_code, "wanted a case to change" in done.output) == (2, True)
 
 
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda read: read.drop_vars("rope_length"), "without: "),
+        (lambda read: read.isel(time=slice(None, None, -1)), "times that increase from row to row"),
+        (lambda read: read.assign(tower_tip_tilt=read["time"] / 0.0 * 0.0), "finite values of tower_tip_tilt"),
+    ],
+)
+def test_numbers_that_make_no_run_are_refused(result, tmp_path, spoil, said):
+    results.save(spoil(results.load(result)), tmp_path / "spoilt.nc")
+    done = animate(tmp_path / "spoilt.nc")
+    assert done.exit_code == 2
+    assert said in done.output
+
+
 def test_interrupt_leaves_no_half_film(tmp_path, monkeypatch):
     def interrupted(self, pixels):
         raise KeyboardInterrupt

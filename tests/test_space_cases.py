@@ -254,6 +254,15 @@ def test_every_space_key_is_shown_in_a_shipped_crane():
     assert plain["tower"].items() <= crane["tower"].items()
 
 
+@pytest.mark.parametrize("at", [0.0, 1000.0])
+def test_linear_model_names_the_sways_by_where_the_jib_points(at):
+    case = load_case(MANOEUVRE)
+    rope = float(case.rope_motion()(at))
+    table = linear_model(case, at).eigenvalues()
+    outward = next(e.frequency for e in table if e.state == "sway_outward")
+    assert outward == pytest.approx(np.sqrt(9.81 / rope) / (2 * np.pi), rel=2e-3)
+
+
 def test_linear_model_of_a_case_is_named_and_has_the_cranes_frequencies():
     case = load_case(SLEWING, [f"model.{kind}_damping_ratio=0" for kind in DAMPED])
     linear = linear_model(case, 0.0)

@@ -180,3 +180,15 @@ def test_command_refuses_bad_input(option, words, tmp_path):
     assert words in done.stderr
     assert "Traceback" not in done.stderr
     assert not (tmp_path / "x").exists()
+
+
+def test_runs_that_ask_for_an_error_choose_for_themselves(tmp_path):
+    case = load_case("qtz5613/within-1e-3", ["run.duration=8 s"])
+    data = sweep(case, {"payload.mass": [500.0, 900.0]})
+    for run, mass in enumerate((500.0, 900.0)):
+        assert_run(data, run, case, f"payload.mass={mass}")
+    assert data["accuracy"].values.tolist() == ["promised", "promised"]
+    assert "rtol" not in data.attrs
+    changes = ("--set", "run.duration=8 s", "--vary", "payload.mass=500,900")
+    done = towercrane("sweep", "qtz5613/within-1e-3", *changes, "--json", "--no-pictures", "--out", str(tmp_path))
+    assert json.loads(done.stdout)["notices"] == ["error asked for: 2 promised"]

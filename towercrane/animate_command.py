@@ -18,6 +18,7 @@ from towercrane.terminal import (
     announce_compilation,
     fail,
     folder_for_results,
+    held_interrupts,
     load,
     options_of,
     say,
@@ -26,6 +27,8 @@ from towercrane.terminal import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import xarray as xr
 
     from towercrane.case import Case
@@ -36,6 +39,11 @@ MOST_MAGNIFIED = 1e5
 
 OPTIONS = {"start": "--from", "end": "--to", "speed": "--speed", "frames_per_second": "--frames-per-second"}
 """Where the parts of a playback come from."""
+
+NEEDED = ("rope_length", "payload_position")
+"""Outputs that every film needs; others depend on the crane."""
+
+INCOMPLETE = "wanted a result with all that `towercrane run` writes, got one without"
 
 FRAMES_PER_SWING = 8.0
 """Below which a swing of the load cannot be told from another."""
@@ -94,11 +102,28 @@ def _finished(path: str, changes: list[str] | None) -> xr.Dataset:
         result = results.load(path)
     except FileNotFoundError:
         fail(f"{path}: wanted a case or a result.nc, got no file")
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RuntimeError, KeyError) as error:
         fail(f"{path}: wanted a result.nc of `towercrane run`, got a file that cannot be read: {error}")
     if "time" not in result or "outcome" not in result.attrs:
         fail(f"{path}: wanted a result.nc of `towercrane run`, got another data set")
+    _check_rows(path, result)
     return result
+
+
+def _check_rows(path: str, result: xr.Dataset) -> None:
+    """Refuse a result file whose numbers make no run."""
+    import numpy as np
+
+    if missing := [name for name in NEEDED if name not in result]:
+        fail(f"{path}: {INCOMPLETE}: {missing[0]}")
+    times = result["time"].values
+    if not (len(times) and np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
+        fail(f"{path}: wanted times that increase from row to row, got others")
+    for name, variable in result.data_vars.items():
+        if variable.dims[:1] == ("time",):
+            finite = np.isfinite(variable.values.reshape(len(times), -1)).all(axis=1)
+            if not finite.all():
+                fail(f"{path}: wanted finite values of {name}, got others at {times[int(finite.argmin())]:g} s")
 
 
 def _case_of(path: str, result: xr.Dataset) -> Case:
@@ -112,7 +137,8 @@ def _case_of(path: str, result: xr.Dataset) -> Case:
 
 def _check_film(out: Path, frames_per_second: float) -> None:
     """Refuse a film that cannot be written before the work, not after it."""
-    from towercrane.plots.film_file import obstacle
+    with held_interrupts():
+        from towercrane.plots.film_file import obstacle
 
     if out.is_dir():
         fail(f"--out {out}: wanted a file, got a folder")
@@ -161,16 +187,19 @@ def _run(case: Case) -> xr.Dataset:
 
 def _film(case: Case, result: xr.Dataset, playback: Playback, magnify: float | None, out: Path) -> None:
     """Draw and write the film."""
-    from towercrane.plots.film import Film
-    from towercrane.poses import poses_of
+    with held_interrupts() as ask:
+        from towercrane.plots.film import Film
+        from towercrane.poses import poses_of
 
-    try:
-        poses = poses_of(case, result, playback.times)
-    except ValueError as error:
-        fail(f"{case.name}: {error}")
-    magnification = poses.fitting_magnification() if magnify is None else magnify
-    film = Film(result, poses, playback, magnification)
-    _save(film, out, playback)
+        try:
+            poses = poses_of(case, result, playback.times)
+            magnification = poses.fitting_magnification() if magnify is None else magnify
+            film = Film(result, poses, playback, magnification)
+        except ValueError as error:
+            fail(f"{case.name}: {error}")
+        except KeyError as error:
+            fail(f"{case.name}: {INCOMPLETE}: {error.args[0]}")
+        _save(film, out, playback, ask)
     drawn = f", deformation {magnification:g} times as large" if poses.deformation else ""
     span = f"{playback.start:g} to {playback.end:.6g} s at {playback.speed:g} times real time"
     typer.echo(f"written to {out}: {film.frames} frames, {span}{drawn}")
@@ -184,19 +213,24 @@ def _film(case: Case, result: xr.Dataset, playback: Playback, magnify: float | N
         say(f"frames are {playback.step:g} s apart, too far for a load that swings in {swing:.2g} s: lower --speed")
 
 
-def _save(film: Film, out: Path, playback: Playback) -> None:
-    """Write the film, with a progress bar if somebody is looking."""
+def _save(film: Film, out: Path, playback: Playback, ask: Callable[[], None]) -> None:
+    """Write the film, with a progress bar if somebody is looking; ``ask`` ends it after a frame."""
     from towercrane.plots.film_file import save
 
     if not sys.stderr.isatty():
-        save(film, out, playback.frames_per_second)
+        save(film, out, playback.frames_per_second, lambda done: ask())
         return
     from rich.console import Console
     from rich.progress import Progress
 
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(f"{film.frames} frames", total=film.frames)
-        save(film, out, playback.frames_per_second, lambda done: bar.update(task, completed=done))
+
+        def after(done: int) -> None:
+            bar.update(task, completed=done)
+            ask()
+
+        save(film, out, playback.frames_per_second, after)
 
 
 def _slower(path: str, playback: Playback) -> tuple[str, ...]:

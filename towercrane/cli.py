@@ -50,6 +50,9 @@ cases_app = typer.Typer(help="List the cases that ship with the program, or copy
 app.add_typer(cases_app, name="cases")
 
 
+PROMISED = "promised"
+"""Outcome of a run whose errors are expected to be as small as asked for."""
+
 GARBAGE = 500_000
 """New objects between two searches for garbage."""
 
@@ -69,6 +72,11 @@ def main() -> None:
     except KeyboardInterrupt:
         say("interrupted")
         sys.exit(INTERRUPTED)
+    except SystemExit as done:
+        # The command's own words go before an exit that it has chosen itself.
+        if isinstance(getattr(done.__context__, "__cause__", None), KeyboardInterrupt):
+            say("interrupted")
+        raise
     except OSError as error:
         fail(f"cannot write the output: {error.strerror or error}")
 
@@ -190,15 +198,20 @@ def run(
 
     result = with_progress(loaded, run_case)
     summary = summarise(loaded, result)
+    interrupted = summary["outcome"] == "interrupted"
     if verify and summary["outcome"] == "finished":
         from towercrane.promise import verification
 
-        summary["verification"] = verification(loaded, result)
+        try:
+            summary["verification"] = verification(loaded, result)
+        except KeyboardInterrupt:
+            say("interrupted: the run is kept, its verification is not")
+            interrupted = True
     text = json.dumps(summary, indent=2, allow_nan=False)
     files: dict[str, Any] = {"result.nc": result, "summary.json": text + "\n"}
     if csv:
         files["result.csv"] = result
-    if pictures:
+    if pictures and not interrupted:
         files |= _pictures(loaded, result)
     write(folder, files)
     stale = remove_stale(folder, files)
@@ -219,7 +232,8 @@ def run(
             suggest("run", case, "--set", "model.jib_modes=5", "--out", f"results/{loaded.name}-5-jib-modes")
         else:
             suggest("modes" if loaded.kind == "space" else "linearise", case)
-    if summary["outcome"] == "interrupted":
+    if interrupted:
+        say(f"interrupted; kept in {folder}: {', '.join(files)}")
         raise typer.Exit(INTERRUPTED)
     if summary["expected"] and not summary["expected"]["met"]:
         say("\n".join(summary["expected"]["misses"]))
@@ -227,6 +241,9 @@ def run(
     if summary["outcome"] != "finished":
         say(f"the run ended at {summary['end_time_s']:.6g} s: {summary['outcome']}")
         raise typer.Exit(ENDED_EARLY)
+    if summary.get("accuracy", {}).get("outcome", PROMISED) != PROMISED:
+        say(f"the error asked for is {summary['accuracy']['outcome']}")
+        raise typer.Exit(NOT_AS_EXPECTED)
 
 
 @app.command()

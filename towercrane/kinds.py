@@ -18,6 +18,10 @@ TOWER_CRANES = ("radial", "space")
 """Kinds of case that a tower crane's file serves."""
 
 
+IN_PLANE = ("plane", "planar", "in-plane")
+"""Other words for the kind of case that stays in the jib's vertical plane."""
+
+
 def kind_of(tree: dict[str, Any]) -> tuple[str, list[Fault]]:
     """Kind of a case's crane and what is wrong with its statement.
 
@@ -50,6 +54,7 @@ def _of_case(stated: object, crane: object, tree: dict[str, Any]) -> tuple[str, 
     """Kind of a case that states one itself beside what its crane states."""
     if stated not in TOWER_CRANES:
         near = closest(stated, TOWER_CRANES) if isinstance(stated, str) else None
+        near = "radial" if stated in IN_PLANE else near
         hint = f'did you mean "{near}"?' if near else "cranes of other kinds state theirs in the crane file"
         return near or _likely(tree), [Fault("", "kind", _one_of(TOWER_CRANES), shown(stated), hint)]
     kind = str(stated)

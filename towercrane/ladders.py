@@ -257,7 +257,9 @@ def _left_out(
             said = f"{what} beyond {count} mode{'s' if count > 1 else ''}" if count else what
             found.append(f"{said}: it may change {change}")
             if count and kind in free:
-                found[-1] += f"; without any {_change(ladders, ladders.left(kind, 0), wanted)}"
+                found[-1] += (
+                    f"; without any such mode it would change {_change(ladders, ladders.left(kind, 0), wanted)}"
+                )
     if not ladders.base.weight_softening:
         softened = ladders.apart(ladders.base, replace(ladders.base, weight_softening=True))
         said = _change(ladders, softened, wanted)

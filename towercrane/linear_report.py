@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from towercrane.statespace import StateSpace
 
 
+TURNING = ("platform_angle", "slewing_angle", "slewing", "slew")
+"""Coordinates and channels that are the angle of a crane's jib about the vertical."""
+
+
 def linear_model(case: Case, at: float) -> StateSpace:
     """Linear model of a case about its equilibrium with the drives at rest where they are ``at`` a time [s].
 
@@ -23,7 +27,11 @@ def linear_model(case: Case, at: float) -> StateSpace:
     """
     from towercrane.linearise import linearise
 
-    return linearise(model_of(case), case.motions, time=at)
+    model = model_of(case)
+    known = (*getattr(model, "state_names", ()), *model.channels)
+    # Outward is along the jib, wherever that points.
+    turning = next((angle for angle in TURNING if angle in known), None)
+    return linearise(model, case.motions, time=at, turning=turning)
 
 
 def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:

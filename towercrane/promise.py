@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.accuracy import Choice, Estimate, Indicators, choose, limits
-from towercrane.integrate import FINISHED
+from towercrane.integrate import FINISHED, INTERRUPTED
 from towercrane.nodes import RICHEST
 from towercrane.readings import RADIAL, SPACE, Tolerance, gap, peak, picked_in
 from towercrane.scene import Setting, provenance, scene_of, setting_of
@@ -148,9 +148,16 @@ def verification(case: Case, result: xr.Dataset) -> dict[str, Any]:
     dict
         ``setting``, ``finer`` (the richer one), ``outcome`` of its run, ``doubts``, ``outputs`` (by output:
         ``estimated``, ``actual``, ``peak``, ``units``), over the time that both runs reached.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        If one of its runs was interrupted.
     """
     units = outputs_of(case)
     setting, better, estimate, doubts, richer = (_in_space if case.kind == "space" else _in_plane)(case, result)
+    if richer.attrs["outcome"] == INTERRUPTED:
+        raise KeyboardInterrupt
     estimated, _, peaks = _figures(units, estimate, {}, result)
     return {
         "setting": provenance(setting),

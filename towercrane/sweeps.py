@@ -71,6 +71,9 @@ def sweep(
         announce_compilation(loaded.kind, "towercrane.stepper")
     began = time.perf_counter()
     data = _with_progress(loaded, grid(values), threads)
+    if not set(data["outcome"].values) - {INTERRUPTED_RUN}:
+        say("interrupted before the first run had ended: nothing is written")
+        raise typer.Exit(INTERRUPTED)
     summary = report(data, time.perf_counter() - began)
     files: dict[str, Any] = {"sweep.nc": data, "sweep.csv": runs_csv(data)}
     if pictures:
@@ -111,7 +114,12 @@ def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
             units = data[f"{name}_max"].attrs["units"]
             extremes[name] = {"largest": at(f"{name}_max", high), "smallest": at(f"{name}_min", low), "units": units}
     runs = len(data["run"])
-    said = notice(data.attrs["method"], data.attrs["rtol"], data.attrs["atol"])
+    ended = int((data["outcome"] != INTERRUPTED_RUN).sum())
+    said = notice(data.attrs["method"], data.attrs["rtol"], data.attrs["atol"]) if "rtol" in data.attrs else ""
+    notices = [said] if said else []
+    if "accuracy" in data:
+        promised = Counter(data["accuracy"].values.tolist())
+        notices.append("error asked for: " + ", ".join(f"{count} {name}" for name, count in promised.items() if name))
     return {
         "case": data.attrs["case"],
         "title": data.attrs["title"],
@@ -124,10 +132,10 @@ def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
             for key, values in varied.items()
         ],
         "extremes": extremes,
-        "notices": [said] if said else [],
+        "notices": notices,
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(data)],
         "seconds": seconds,
-        "runs_per_second": runs / seconds,
+        "runs_per_second": ended / seconds,
     }
 
 

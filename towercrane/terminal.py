@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+import threading
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
     import xarray as xr
@@ -62,6 +65,32 @@ def compile_beside(here: str, *beside: str) -> None:
     finally:
         for process in others:
             process.wait()
+
+
+@contextmanager
+def held_interrupts() -> Iterator[Callable[[], None]]:
+    """Keep Ctrl-C until the caller asks: libraries turn one that meets them in their own code into other errors.
+
+    Yields
+    ------
+    callable
+        Raises KeyboardInterrupt if there was one; asked once more at the end.
+    """
+    caught: list[int] = []
+
+    def ask() -> None:
+        if caught:
+            raise KeyboardInterrupt
+
+    if threading.current_thread() is not threading.main_thread():
+        yield ask
+        return
+    before = signal.signal(signal.SIGINT, lambda number, frame: caught.append(number))
+    try:
+        yield ask
+    finally:
+        signal.signal(signal.SIGINT, before)
+    ask()
 
 
 def with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Dataset:

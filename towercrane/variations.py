@@ -19,7 +19,7 @@ from towercrane.kinds import unit_of
 from towercrane.models import radial_model
 from towercrane.motion import Phases, phases
 from towercrane.simulate import rows_of, run_case, versions
-from towercrane.summary import peaks
+from towercrane.summary import accuracy, peaks
 from towercrane.tableaus import TABLEAUS
 from towercrane.units import UnitError, to_si
 
@@ -53,7 +53,10 @@ RADIAL_OUTPUTS = {
 
 @dataclass(frozen=True, eq=False)
 class _Extremes:
-    """Outcomes and extremes of all runs; ``values`` has the shape (runs, outputs, 4)."""
+    """Outcomes and extremes of all runs; ``values`` has the shape (runs, outputs, 4).
+
+    ``promises`` are the outcomes of the errors asked for, None where none was.
+    """
 
     outputs: dict[str, tuple[str, str]]
     outcomes: list[str]
@@ -61,6 +64,7 @@ class _Extremes:
     evaluations: NDArray[np.int64]
     values: Floats
     series: Floats | None = None
+    promises: list[str] | None = None
 
 
 def grid(vary: Mapping[str, Sequence[Value]]) -> dict[str, list[Value]]:
@@ -176,7 +180,8 @@ def _hauls(case: Case) -> bool:
 
 
 def _fits_lanes(case: Case) -> bool:
-    return case.kind == "radial" and case.solver.method in TABLEAUS
+    """Whether a run can share lanes; one that chooses its own model and tolerance for an error cannot."""
+    return case.kind == "radial" and case.solver.method in TABLEAUS and not case.accuracy.targets
 
 
 def _side_by_side(
@@ -264,6 +269,7 @@ def _one_by_one(case: Case, values: dict[str, list[Value]], progress: Progress |
     outputs: dict[str, tuple[str, str]] = dict(RADIAL_OUTPUTS) if case.kind == "radial" else {}
     outcomes, end_times = [INTERRUPTED] * count, np.full(count, np.nan)
     evaluations, rows = np.zeros(count, dtype=np.int64), {}
+    promises = [""] * count
     for run in range(count):
         try:
             result = run_case(load_case(case.path, [*case.changes, *_changes(values, run, list(values))]))
@@ -276,6 +282,7 @@ def _one_by_one(case: Case, values: dict[str, list[Value]], progress: Progress |
             outputs[name] = (result[name].attrs["units"], result[name].attrs["long_name"])
         outcomes[run], end_times[run] = result.attrs["outcome"], result.attrs["end_time"]
         evaluations[run] = result.attrs["evaluations"]
+        promises[run] = (accuracy(result) or {"outcome": ""})["outcome"]
         ways = ("maximum", "maximum_time_s", "minimum", "minimum_time_s")
         rows[run] = [[found[name][way] for way in ways] for name in outputs]
         if progress is not None:
@@ -283,7 +290,7 @@ def _one_by_one(case: Case, values: dict[str, list[Value]], progress: Progress |
     extremes = np.full((count, len(outputs), 4), np.nan)
     for run, row in rows.items():
         extremes[run] = row
-    return _Extremes(outputs, outcomes, end_times, evaluations, extremes)
+    return _Extremes(outputs, outcomes, end_times, evaluations, extremes, None, promises if any(promises) else None)
 
 
 def _dataset(case: Case, values: dict[str, list[Value]], found: _Extremes, first: Case) -> xr.Dataset:
@@ -295,6 +302,9 @@ def _dataset(case: Case, values: dict[str, list[Value]], found: _Extremes, first
         "end_time": ("run", found.end_times, {"units": "s", "long_name": "time at which the run ended"}),
         "evaluations": ("run", found.evaluations, {"units": "1", "long_name": "right-hand sides"}),
     }
+    if found.promises is not None:
+        about = {"long_name": "whether the error asked for is promised"}
+        variables["accuracy"] = ("run", np.array(found.promises, dtype=object), about)
     for number, (name, (units, words)) in enumerate(found.outputs.items()):
         for column, ending in enumerate(EXTREMES):
             kind = "largest" if ending.startswith("max") else "smallest"
@@ -312,7 +322,7 @@ def _dataset(case: Case, values: dict[str, list[Value]], found: _Extremes, first
         about = {"key": key, "units": unit or "1", "long_name": key.replace(".", " ").replace("_", " ")}
         coordinates[key.replace(".", "_")] = ("run", np.array(given), about)
     rests_on = [a for a in case.rests_on if a.key not in values]
-    attributes = {
+    attributes: dict[str, Any] = {
         "title": case.title,
         "case": case.name,
         "crane": case.crane.name,
@@ -320,9 +330,9 @@ def _dataset(case: Case, values: dict[str, list[Value]], found: _Extremes, first
         "varied": json.dumps(list(values)),
         "outputs": json.dumps(list(found.outputs)),
         "assumed": json.dumps([[a.key, str(a.value), a.why] for a in rests_on]),
-        "method": case.solver.method,
-        "rtol": case.solver.rtol,
-        "atol": case.solver.atol,
         "versions": json.dumps(versions()),
     }
+    if found.promises is None:
+        solver = case.solver
+        attributes |= {"method": solver.method, "rtol": solver.rtol, "atol": solver.atol}
     return xr.Dataset(variables, coordinates, attributes)

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 MOST_OUTPUTS = 4
 """Outputs that are shown; the files hold all."""
 
+DRIVEN = ("trolley_", "rope_length", "slewing_angle", "slewing_speed", "shaft_", "wind_")
+"""Beginnings of the names of outputs that are rather inputs."""
+
 SHOWN = {"rad": (180.0 / np.pi, "deg"), "N": (1e-3, "kN")}
 """Factor and unit of what is shown in another unit than it is computed in."""
 
@@ -28,7 +31,7 @@ def extremes(data: xr.Dataset) -> dict[str, Figure]:
     axes = [np.unique(data[key.replace(".", "_")].values) for key in keys]
     grid = int(np.prod([len(axis) for axis in axes])) == len(data["run"])
     numbers = all(np.issubdtype(axis.dtype, np.number) and len(axis) > 1 for axis in axes)
-    outputs = json.loads(data.attrs["outputs"])[:MOST_OUTPUTS]
+    outputs = [name for name in json.loads(data.attrs["outputs"]) if not name.startswith(DRIVEN)][:MOST_OUTPUTS]
     if not (grid and numbers and outputs and len(keys) in (1, 2)):
         return {}
     figure = figure_of(9.0, 3.1 * -(-len(outputs) // 2) + 0.6)

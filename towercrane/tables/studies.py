@@ -104,7 +104,7 @@ def sweep_tables(report: dict[str, Any]) -> None:
             at = [f"{v:.5g}" if isinstance(v, float) else str(v) for v in value["at"].values()]
             table.add_row(name.replace("_", " "), kind, f"{value['value']:.5g}", found["units"], *at)
     console.print(table)
-    console.print(f"{report['seconds']:.2f} s, {report['runs_per_second']:.0f} runs per second")
+    console.print(f"{report['seconds']:.2f} s, {report['runs_per_second']:.3g} runs per second")
     for said in report["notices"]:
         console.print(f"note     {said}", style="bold")
     _assumed(console, report["assumed"])
