@@ -41,8 +41,10 @@ def announce_compilation(kind: str, *needed: str) -> None:
     """Compile the kernels of a kind of crane, and what a command needs besides, if they are not yet, and say so."""
     from modal.compiled import is_compiled
 
-    own = {"radial": "flexible_rhs", "space": "flexible_rhs", "jib": "jib_crane_kernel"}.get(kind, "lumped_kernel")
-    missing = [m for m in (f"towercrane.cranes.{own}", *needed) if not is_compiled(m)]
+    members = ("towercrane.cranes.flexible_rhs", "modal.roots")
+    own = {"radial": members, "space": members, "jib": ("towercrane.cranes.jib_crane_kernel",)}
+    modules = dict.fromkeys((*own.get(kind, ("towercrane.cranes.lumped_kernel",)), *needed))
+    missing = [module for module in modules if not is_compiled(module)]
     if missing:
         say("compiling for the first time, about fifteen seconds; later runs start at once ...")
         compile_beside(*missing)
