@@ -9,8 +9,9 @@ from typer.testing import CliRunner
 
 from towercrane.case import load_case
 from towercrane.cli import app
-from towercrane.comparison import ONE_OF_EACH, OWN, RICHEST, compare, departures, gaps, slowest, variants
+from towercrane.comparison import ONE_OF_EACH, OWN, RICHEST, compare, gaps, slowest, variants
 from towercrane.plots.comparison import paths
+from towercrane.readings import departures
 from towercrane.simulate import run_case
 
 NAME, RADIAL = "qtz5613/manoeuvre", "qtz5613/condition-3"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from contextlib import suppress
 from dataclasses import replace
 from math import pi, sqrt
@@ -23,6 +22,7 @@ from towercrane.terminal import (
     options_of,
     say,
     suggest,
+    with_bar,
     with_progress,
 )
 
@@ -217,20 +217,14 @@ def _save(film: Film, out: Path, playback: Playback, ask: Callable[[], None]) ->
     """Write the film, with a progress bar if somebody is looking; ``ask`` ends it after a frame."""
     from towercrane.plots.film_file import save
 
-    if not sys.stderr.isatty():
-        save(film, out, playback.frames_per_second, lambda done: ask())
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(f"{film.frames} frames", total=film.frames)
-
+    def run(progress: Callable[[int], None] = lambda done: None) -> None:
         def after(done: int) -> None:
-            bar.update(task, completed=done)
+            progress(done)
             ask()
 
         save(film, out, playback.frames_per_second, after)
+
+    with_bar(f"{film.frames} frames", run, film.frames)
 
 
 def _slower(path: str, playback: Playback) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,12 +13,15 @@ from towercrane.terminal import (
     AsJson,
     CaseName,
     Changes,
+    Out,
+    Pictures,
     announce_compilation,
     fail,
     folder_for_results,
     load,
     options_of,
     suggest,
+    with_bar,
     write,
 )
 
@@ -34,10 +37,10 @@ def compare(
             "--target", metavar="ERROR", help="Accepted relative error of the load's place; else the case's."
         ),
     ] = None,
-    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    out: Out = None,
     changes: Changes = None,
     as_json: AsJson = False,
-    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+    pictures: Pictures = True,
 ) -> None:
     """Run a case in models from rigid to rich; which modes it needs for an error, and why."""
     loaded = load(case, changes)
@@ -83,13 +86,6 @@ def _compared(case: Case, target: float) -> tuple[dict[str, Any], dict[str, Any]
     from towercrane.comparison import compare as compared
 
     try:
-        if not sys.stderr.isatty():
-            return compared(case, target)
-        from rich.console import Console
-        from rich.progress import Progress
-
-        with Progress(console=Console(stderr=True), transient=True) as bar:
-            task = bar.add_task(f"models of {case.name}", total=1.0)
-            return compared(case, target, progress=lambda done: bar.update(task, completed=done))
+        return with_bar(f"models of {case.name}", partial(compared, case, target))
     except ValueError as error:
         fail(f"{case.path}: {error}")

@@ -10,7 +10,7 @@ import numpy as np
 
 from towercrane.integrate import FINISHED, INTERRUPTED
 from towercrane.models import flexible_model
-from towercrane.readings import departures
+from towercrane.readings import PLACE, peak
 from towercrane.simulate import run_case
 from towercrane.system import NoEquilibrium
 
@@ -139,7 +139,7 @@ def compare(
         if progress is not None:
             progress((number + 1) / len(chosen))
     richest = results[RICHEST]
-    departure = float(np.linalg.norm(departures(richest), axis=1).max())
+    departure = peak(richest, PLACE)
     rows = [_row(case, variant, results[variant.name], richest, departure) for variant in chosen]
     report: dict[str, Any] = {
         "case": case.name,

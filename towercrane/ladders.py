@@ -70,6 +70,7 @@ class Ladders:
     scene: SpaceScene
     base: SpaceSetting
     runs: dict[SpaceSetting, xr.Dataset] = field(default_factory=dict)
+    differences: dict[tuple[SpaceSetting, SpaceSetting], Floats] = field(default_factory=dict)
 
     def run(self, setting: SpaceSetting, progress: Progress | None = None) -> xr.Dataset:
         """The scene in a setting, from an earlier run if there was one.
@@ -91,8 +92,10 @@ class Ladders:
 
     def apart(self, one: SpaceSetting, other: SpaceSetting) -> Floats:
         """Largest differences between two settings, shape (outputs,)."""
-        pair = self.run(one), self.run(other)
-        return np.array([gap(*pair, name) for name in self.scene.outputs])
+        if (one, other) not in self.differences:
+            pair = self.run(one), self.run(other)
+            self.differences[one, other] = np.array([gap(*pair, name) for name in self.scene.outputs])
+        return self.differences[one, other]
 
     def step(self, kind: str, count: int) -> Floats:
         """What one mode more of a kind changes, shape (outputs,)."""

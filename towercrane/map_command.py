@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,12 +15,15 @@ from towercrane.terminal import (
     AsJson,
     CaseName,
     Changes,
+    Out,
+    Pictures,
     fail,
     folder_for_results,
     load,
     options_of,
     say,
     suggest,
+    with_bar,
     write,
 )
 
@@ -53,10 +56,10 @@ def frequency_map(
         str | None,
         typer.Option("--shapes", metavar="X", help='Draw the modes with the trolley there, e.g. --shapes "23 m".'),
     ] = None,
-    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    out: Out = None,
     changes: Changes = None,
     as_json: AsJson = False,
-    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+    pictures: Pictures = True,
 ) -> None:
     """Natural frequencies of the plane crane over trolley position and payload; the tower's buckling load."""
     loaded = load(case, changes)
@@ -154,14 +157,8 @@ def _mapped(case: Case, frame: CraneFrame, places: Any, masses: list[float], mod
     """The map, with a progress bar if somebody is looking."""
     from towercrane.frequency_map import frequency_map as computed
 
-    if not sys.stderr.isatty():
-        return computed(frame, places, masses, modes=modes)
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(f"{case.name}: {len(masses)} payloads, {len(places)} positions", total=1.0)
-        return computed(frame, places, masses, modes=modes, progress=lambda done: bar.update(task, completed=done))
+    title = f"{case.name}: {len(masses)} payloads, {len(places)} positions"
+    return with_bar(title, partial(computed, frame, places, masses, modes=modes))
 
 
 def _mode_picture(case: Case, frame: CraneFrame, position: float, count: int) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -16,6 +15,8 @@ from towercrane.terminal import (
     AsJson,
     CaseName,
     Changes,
+    Out,
+    Pictures,
     announce_compilation,
     fail,
     folder_for_results,
@@ -23,12 +24,11 @@ from towercrane.terminal import (
     options_of,
     say,
     suggest,
+    with_bar,
     write,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from towercrane.case import Case
 
 
@@ -42,10 +42,10 @@ def sensitivity(
     tolerance: Annotated[
         float, typer.Option("--tolerance", help="Change of every output below which a member is made rigid.")
     ] = 0.02,
-    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    out: Out = None,
     changes: Changes = None,
     as_json: AsJson = False,
-    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+    pictures: Pictures = True,
 ) -> None:
     """Which parameters and degrees of freedom of a slewing crane matter, and the reduced crane that follows."""
     loaded = load(case, changes)
@@ -146,10 +146,10 @@ def shape(
     step: Annotated[
         float, typer.Option("--step", metavar="SECONDS", help="Time between two rows of a drive's table.")
     ] = 0.05,
-    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    out: Out = None,
     changes: Changes = None,
     as_json: AsJson = False,
-    pictures: Annotated[bool, typer.Option(help="Draw the pictures.")] = True,
+    pictures: Pictures = True,
 ) -> None:
     """Motions that leave the load at rest: how still, how surely, how fast; tables for the drives."""
     loaded = load(case, changes)
@@ -174,7 +174,7 @@ def shape(
 
     try:
         run = partial(study, flexible_model(loaded), loaded.plans, allowed=within)
-        done = _with_bar(f"motions of {loaded.name}", run)
+        done = with_bar(f"motions of {loaded.name}", run)
     except NoEquilibrium as failure:
         say(f"{failure.outcome}: {failure}")
         raise typer.Exit(ENDED_EARLY) from None
@@ -223,19 +223,7 @@ def _study(case: Case, names: list[str], step: float, tolerance: float) -> Any:
         study, case.lumped_parameters(), slewing_builder(case), case.motions, case.run.duration,
         vary=names, percent=percent, tolerance=tolerance,
     )  # fmt: skip
-    return _with_bar(f"{len(names)} parameters, {len(percent)} values each", run)
-
-
-def _with_bar(title: str, run: Callable[..., Any]) -> Any:
-    """Run a study with a progress bar if somebody is looking."""
-    if not sys.stderr.isatty():
-        return run()
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(title, total=1.0)
-        return run(progress=lambda done: bar.update(task, completed=done))
+    return with_bar(f"{len(names)} parameters, {len(percent)} values each", run)
 
 
 def bench(

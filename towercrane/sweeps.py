@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-import sys
 import time
 from collections import Counter
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,6 +16,8 @@ from towercrane.terminal import (
     AsJson,
     CaseName,
     Changes,
+    Out,
+    Pictures,
     announce_compilation,
     compile_beside,
     fail,
@@ -24,6 +26,7 @@ from towercrane.terminal import (
     options_of,
     say,
     suggest,
+    with_bar,
     write,
 )
 
@@ -50,11 +53,11 @@ def sweep(
             "with several keys all combinations.",
         ),
     ],
-    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")] = None,
+    out: Out = None,
     threads: Annotated[int | None, typer.Option("--threads", min=1, help="Threads; all cores by default.")] = None,
     changes: Changes = None,
     as_json: AsJson = False,
-    pictures: Annotated[bool, typer.Option(help="Draw the picture.")] = True,
+    pictures: Pictures = True,
 ) -> None:
     """Run a case over a grid of values; write sweep.nc, sweep.csv and a picture."""
     loaded = load(case, changes)
@@ -237,12 +240,5 @@ def _with_progress(case: Case, values: dict[str, list[Any]], threads: int | None
     """Run with a progress bar if somebody is looking."""
     from towercrane.variations import sweep as run_all
 
-    if not sys.stderr.isatty():
-        return run_all(case, values, threads=threads)
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        count = len(next(iter(values.values())))
-        task = bar.add_task(f"{count} runs", total=count)
-        return run_all(case, values, threads=threads, progress=lambda done: bar.update(task, completed=done))
+    count = len(next(iter(values.values())))
+    return with_bar(f"{count} runs", partial(run_all, case, values, threads=threads), count)

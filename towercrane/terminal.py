@@ -6,17 +6,19 @@ import signal
 import sys
 import threading
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeVar
 
 import typer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
-    from pathlib import Path
 
     import xarray as xr
 
     from towercrane.case import Case
+
+Found = TypeVar("Found")
 
 NOT_AS_EXPECTED, BAD_INPUT, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 """Exit codes besides 0: not what a case or a benchmark expects; bad input; the run ended before its time with a named
@@ -27,6 +29,8 @@ Changes = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help='Change a key, e.g. --set payload.mass="1200 kg".'),
 ]
+Out = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")]
+Pictures = Annotated[bool, typer.Option(help="Draw the pictures.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
 
 
@@ -106,6 +110,18 @@ def with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Dataset
     with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(case.name, total=case.run.duration)
         return simulate(case, progress=lambda time: bar.update(task, completed=time))
+
+
+def with_bar(title: str, run: Callable[..., Found], total: float = 1.0) -> Found:
+    """Call with ``progress`` that moves a bar if somebody is looking, else without."""
+    if not sys.stderr.isatty():
+        return run()
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(title, total=total)
+        return run(progress=lambda done: bar.update(task, completed=done))
 
 
 def folder_for_results(folder: Path) -> None:

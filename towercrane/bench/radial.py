@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.bench.clock import differences, interleaved, short, whole
+from towercrane.bench.evaluations import Instant, evaluations
 from towercrane.bench.scenes import radial_outputs
 from towercrane.case import load_case
-from towercrane.integrate import evaluate, integrate
+from towercrane.integrate import integrate
 from towercrane.models import radial_model
 from towercrane.motion import phases
 
@@ -29,29 +30,12 @@ CASE = "qtz5613/condition-3"
 
 def right_hand_side(repeats: int) -> dict[str, Any]:
     """One evaluation of the radial right-hand side."""
-    count = 20_000
-    contestants: dict[str, Callable[[], Any]] = {}
-    models: dict[str, int] = {}
+    models = {}
     for modes in ((0, 0), (2, 2), (2, 3), (4, 4)):
         model = radial_model(load_case(CASE), tower_modes=modes[0], jib_modes=modes[1])
         cut, start = _scene(model)
-        times, states = np.full(count, 10.0), np.repeat(start[None], count, axis=0)
-        name = f"{modes[0]} tower + {modes[1]} jib modes"
-        models[name] = model.size
-        contestants[name] = partial(evaluate, model.system, cut, times, states)
-    _, timings = interleaved(contestants, repeats)
-    records = [
-        {"model": name, "states": size, "nanoseconds": 1e9 * timings[name].cpu / count}
-        for name, size in models.items()
-    ]
-    return {
-        "name": "radial-rhs",
-        "title": "Right-hand side of the radial crane",
-        "columns": ["model", "states", "median [ns]"],
-        "rows": [[r["model"], str(r["states"]), f"{r['nanoseconds']:.0f}"] for r in records],
-        "records": records,
-        "notes": [f"{count} evaluations in one compiled loop; exact to rounding, see the equations' tests"],
-    }
+        models[f"{modes[0]} tower + {modes[1]} jib modes"] = Instant(model.system, cut, start, 10.0)
+    return evaluations("radial-rhs", "Right-hand side of the radial crane", models, repeats)
 
 
 def modes_left_out(repeats: int) -> dict[str, Any]:

@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import numpy as np
-
-from towercrane.bench.clock import interleaved
+from towercrane.bench.evaluations import Instant, evaluations
 from towercrane.bench.scenes import SPACE
 from towercrane.case import load_case
 from towercrane.cranes.flexible import FlexibleModel
 from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
-from towercrane.integrate import evaluate
 from towercrane.motion import phases
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 EVALUATIONS = 20_000
 """Right-hand sides in one measurement."""
@@ -36,26 +29,11 @@ MODELS = (
 def space_right_hand_sides(repeats: int) -> dict[str, Any]:
     """One evaluation of the right-hand side in space."""
     case = load_case(SPACE)
-    motions = case.motions
-    contestants: dict[str, Callable[[], Any]] = {}
-    sizes: dict[str, int] = {}
+    models = {}
     for name, counts, planes in MODELS:
         crane = flexible_crane(case.space_crane(), counts, planes=planes)
         model = FlexibleModel(crane, case.load(), slewing="prescribed" if planes == 2 else "fixed")
-        cut = phases(tuple(motions[channel] for channel in model.channels), case.run.duration)
-        states = np.repeat(model.start(cut.inputs[0])[None], EVALUATIONS, axis=0)
-        contestants[name] = partial(evaluate, model.system, cut, np.full(EVALUATIONS, AT), states)
-        sizes[name] = model.size
-    _, timings = interleaved(contestants, repeats)
-    records = [
-        {"model": name, "states": size, "nanoseconds": 1e9 * timings[name].cpu / EVALUATIONS}
-        for name, size in sizes.items()
-    ]
-    return {
-        "name": "space-rhs",
-        "title": "Right-hand side of the crane in space",
-        "columns": ["modes: tower x+y+torsion / jib lateral+vertical", "states", "median [ns]"],
-        "rows": [[r["model"], str(r["states"]), f"{r['nanoseconds']:.0f}"] for r in records],
-        "records": records,
-        "notes": [f"{EVALUATIONS} evaluations in one compiled loop; exact to rounding, see the equations' tests"],
-    }
+        cut = phases(tuple(case.motions[channel] for channel in model.channels), case.run.duration)
+        models[name] = Instant(model.system, cut, model.start(cut.inputs[0]), AT)
+    found = evaluations("space-rhs", "Right-hand side of the crane in space", models, repeats)
+    return {**found, "columns": ["modes: tower x+y+torsion / jib lateral+vertical", *found["columns"][1:]]}
