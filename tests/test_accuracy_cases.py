@@ -135,9 +135,9 @@ def test_verification_compares_with_a_richer_model(capsys):
 
 @pytest.mark.parametrize("name", ["towers/laced", "towers/tapered", OPEN])
 def test_verification_is_not_misled_by_fast_modes_of_the_richer_model(name):
-    case = load_case(name, ["run.duration=40 s", "accuracy.target=3e-2", 'accuracy.outputs=["rope_tension"]'])
+    case = load_case(name, ["run.duration=80 s", "accuracy.target=3e-2", 'accuracy.outputs=["rope_tension"]'])
     found = verification(case, run_case(case))["outputs"]["rope_tension"]
-    assert 0.02 * found["estimated"] < found["actual"] < found["estimated"]
+    assert 0.05 * found["estimated"] < found["actual"] < found["estimated"]
 
 
 def test_verify_on_the_command_line(tmp_path):
