@@ -56,6 +56,15 @@ GARBAGE = 500_000
 """New objects between two searches for garbage."""
 
 
+def _end_interrupted() -> None:
+    """End at once with the exit code of Ctrl-C: after one, an orderly end may report the signal instead."""
+    import os
+
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(INTERRUPTED)
+
+
 def main() -> None:
     """Entry point: bad input becomes a message and exit code 2, Ctrl-C exit code 130."""
     import gc
@@ -70,11 +79,13 @@ def main() -> None:
         fail(str(error))
     except KeyboardInterrupt:
         say("interrupted")
-        sys.exit(INTERRUPTED)
+        _end_interrupted()
     except SystemExit as done:
         # The command's own words go before an exit that it has chosen itself.
         if isinstance(getattr(done.__context__, "__cause__", None), KeyboardInterrupt):
             say("interrupted")
+        if done.code == INTERRUPTED:
+            _end_interrupted()
         raise
     except OSError as error:
         fail(f"cannot write the output: {error.strerror or error}")
