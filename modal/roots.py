@@ -20,6 +20,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numba import types
 
 from modal.basis import shares
 from modal.compiled import kernel
@@ -65,7 +66,8 @@ def characteristic_roots(
     if count < 1:
         raise ValueError(f"count: wanted one or more, got {count!r}")
     _check_ratios(mass_ratio, inertia_ratio, offset_ratio)
-    roots: NDArray[np.float64] = _roots(*shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio), int(count))
+    roots = np.empty(int(count))
+    _find(*shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio), roots)
     return roots
 
 
@@ -184,7 +186,8 @@ def _count(x: float, a_body: float, a_beam: float, j_body: float, j_beam: float,
     else:
         negative = 0
     at_zero = (1 if a_beam == 0.0 else 0) + (1 if j_beam == 0.0 else 0)
-    return max(both_clamped + negative - at_zero, 0)
+    below = both_clamped + negative - at_zero
+    return below if below > 0 else 0
 
 
 @kernel()
@@ -226,12 +229,11 @@ def _refine(low: float, high: float, a_body: float, a_beam: float, j_body: float
     return b
 
 
-@kernel(allocates=True)
-def _roots(a_body: float, a_beam: float, j_body: float, j_beam: float, h: float, count: int) -> NDArray[np.float64]:
-    """First roots in ascending order."""
-    roots = np.empty(count)
+@kernel(types.void(*[types.float64] * 5, types.float64[::1]))
+def _find(a_body: float, a_beam: float, j_body: float, j_beam: float, h: float, roots: NDArray[np.float64]) -> None:
+    """Write the first roots in ascending order."""
     at_zero = (1 if a_beam == 0.0 else 0) + (1 if j_beam == 0.0 else 0)
-    for k in range(1, count + 1):
+    for k in range(1, roots.size + 1):
         # A body changes the stiffness by rank two: root n is not below root n - 2 with both ends clamped nor
         # above root n with a free end, both close to odd multiples of pi / 2.
         n = k + at_zero
@@ -254,4 +256,3 @@ def _roots(a_body: float, a_beam: float, j_body: float, j_beam: float, h: float,
                 low, below_low = middle, below
             middle = 0.5 * (low + high)
         roots[k - 1] = middle
-    return roots

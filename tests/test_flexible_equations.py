@@ -9,6 +9,7 @@ import space_crane as space
 from jets import Jet
 from space_points import CraneCloud
 
+from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.flexible import ModalDamping
 from towercrane.cranes.flexible_layout import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
 from towercrane.cranes.lumped_data import Drive
@@ -170,9 +171,7 @@ def test_sections_carry_what_moves_beyond_them(name):
         assert np.max(abs(base + moments)) < 1e-11 * sizes
 
         top = np.zeros(3)
-        top[:2] = [
-            model.system.vectors[0, p] @ instant.q[p] for p in (model.parts["tower_x"], model.parts["tower_y"])
-        ]
+        top[:2] = model.system.vectors[[layout.SLIDE_X, layout.SLIDE_Y]] @ instant.q
         root = np.zeros(3)
         for beyond in ("jib", "trolley", "load"):
             root += np.cross(points[beyond].derivative(0) - top, felt[beyond]).sum(axis=0)

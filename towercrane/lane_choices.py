@@ -11,7 +11,7 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
-from towercrane.lane_vector import DOUBLES, LANES, VECTOR
+from towercrane.lane_vector import DOUBLES, INDEX, INTEGERS, LANES, VECTOR, spread
 
 _intrinsic: Any = intrinsic
 
@@ -76,3 +76,20 @@ def whole(_context: Any, value: Any) -> Any:
         return builder.fptosi(number, ir.IntType(64))
 
     return types.int64(value), build
+
+
+@_intrinsic
+def nth(_context: Any, place: Any, count: Any) -> Any:
+    """Whole part of a place among so many, the first or last if it is outside; in every lane of a lane vector."""
+    kind = INDEX if place == VECTOR else types.int64
+
+    def build(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+        found, last = arguments[0], builder.sub(arguments[1], ir.Constant(ir.IntType(64), 1))
+        first = ir.Constant(ir.IntType(64), 0)
+        if kind == INDEX:
+            first, last = spread(builder, first, INTEGERS), spread(builder, last, INTEGERS)
+        index = builder.fptosi(found, first.type)
+        index = builder.select(builder.icmp_signed("<", index, first), first, index)
+        return builder.select(builder.icmp_signed(">", index, last), last, index)
+
+    return kind(place, types.int64), build

@@ -34,13 +34,13 @@ from towercrane.lane_queue import (
     end_run,
 )
 from towercrane.lane_vector import LANES
-from towercrane.stepper import GROW, SAFETY, SHRINK, first_step
+from towercrane.stepper import GROW, SAFETY, SHORTEST, SHRINK, first_step
 
 
 @kernel()
 def shortest(length: float) -> float:
     """Step below which a phase of that length is given up."""
-    return 16.0 * np.finfo(np.float64).eps * length
+    return SHORTEST * length
 
 
 @kernel()

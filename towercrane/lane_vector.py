@@ -59,7 +59,7 @@ class _LaneIndexModel(models.PrimitiveModel):
         super().__init__(manager, kind, INTEGERS)
 
 
-def _spread(builder: Any, value: Any, kind: Any) -> Any:
+def spread(builder: Any, value: Any, kind: Any) -> Any:
     """The same value in every lane."""
     first = builder.insert_element(ir.Constant(kind, ir.Undefined), value, ir.Constant(ir.IntType(32), 0))
     zeros = ir.Constant(ir.VectorType(ir.IntType(32), LANES), [0] * LANES)
@@ -70,7 +70,7 @@ def _doubles(context: Any, builder: Any, value: Any, kind: Any) -> Any:
     """A number or lane vector as a lane vector."""
     if kind == VECTOR:
         return value
-    return _spread(builder, context.cast(builder, value, kind, types.float64), DOUBLES)
+    return spread(builder, context.cast(builder, value, kind, types.float64), DOUBLES)
 
 
 @lower_cast(types.Float, VECTOR)
@@ -179,34 +179,6 @@ _single(np.sign, _signed)
 _single(np.tanh, _lane_by_lane(math.tanh))
 
 
-@type_callable(int)
-def _type_of_index(_context: Any) -> Any:
-    return lambda a: INDEX if a == VECTOR else None
-
-
-@lower_builtin(int, VECTOR)
-def _to_index(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
-    return builder.fptosi(arguments[0], INTEGERS)
-
-
-def _bounded(function: Any, comparison: str) -> None:
-    """Give min or max its meaning for an index in every lane and one number."""
-
-    @type_callable(function)
-    def typed(_context: Any) -> Any:
-        return lambda a, b: INDEX if a == INDEX and isinstance(b, types.Integer) else None
-
-    @lower_builtin(function, INDEX, types.Integer)
-    def lower(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        index = arguments[0]
-        bound = _spread(builder, context.cast(builder, arguments[1], signature.args[1], types.int64), INTEGERS)
-        return builder.select(builder.icmp_signed(comparison, bound, index), bound, index)
-
-
-_bounded(min, "<")
-_bounded(max, ">")
-
-
 @type_callable(operator.add)
 def _type_of_sum(_context: Any) -> Any:
     return lambda a, b: VECTOR if a == INDEX and isinstance(b, types.Float) else None
@@ -233,8 +205,8 @@ def _item(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
     cells, i, j = cgutils.unpack_tuple(builder, arguments[1])
     _, rows, columns = cgutils.unpack_tuple(builder, table.shape)
     offset = builder.add(builder.mul(i, columns), j)
-    stride = _spread(builder, builder.mul(rows, columns), INTEGERS)
-    offsets = builder.add(builder.mul(cells, stride), _spread(builder, offset, INTEGERS))
+    stride = spread(builder, builder.mul(rows, columns), INTEGERS)
+    offsets = builder.add(builder.mul(cells, stride), spread(builder, offset, INTEGERS))
     found = ir.Constant(DOUBLES, ir.Undefined)
     for lane in range(LANES):
         place = ir.Constant(ir.IntType(32), lane)

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from modal.compiled import kernel
+from towercrane.traced import traced
 
 AIR_DENSITY = 1.225
 """Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""
@@ -91,6 +92,44 @@ def restore(state: Any, coordinates: int, axes: int) -> None:
         state[sway + k] -= along * state[direction + k]
 
 
+@traced
+def _sway(k: int, sway: int, along: float, y: Any, work: Any) -> float:
+    """Rate of the rope's direction, at right angles to it."""
+    return y[sway + k] - along * work[DIRECTION, k]
+
+
+@traced
+def _velocity(k: int, rate: float, length: float, w: float, work: Any) -> float:
+    """Velocity of the load."""
+    return work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w
+
+
+@traced
+def _through_air(k: int, rate: float, length: float, w: float, work: Any) -> float:
+    """Velocity of the load through the air."""
+    return work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w - work[WIND, k]
+
+
+@traced
+def _carried(i: int, k: int, j: float, hinged: float, work: Any) -> tuple[float, float]:
+    """How a coordinate moves D along the rope, and the hinge's force on it, with one more axis."""
+    moved = work[k + JACOBIAN, i]
+    return j + moved * work[DIRECTION, k], hinged + moved * work[HINGE, k]
+
+
+@traced
+def _drive(i: int, place: int, j: float, hinged: float, s: float, dy: Any, work: Any) -> None:
+    """Force on a coordinate, with what the rope would pull if the structure did not accelerate."""
+    work[ALONG, i] = j
+    dy[place] = work[FORCE, i] - hinged + j * s
+
+
+@traced
+def _bind(i: int, m: int, carried: float, work: Any) -> None:
+    """Add the load's mass to that of two coordinates."""
+    work[i + MASS, m] = work[i + MASS, m] + carried * work[ALONG, m]
+
+
 @kernel()
 def hang_load(
     y: Any,
@@ -159,9 +198,9 @@ def hang_load(
         along += work[DIRECTION, k] * y[sway + k]
     ww, speed, outward = 0.0, 0.0, 0.0
     for k in range(d):
-        w = y[sway + k] - along * work[DIRECTION, k]
+        w = _sway(k, sway, along, y, work)
         ww += w * w
-        v = work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w - work[WIND, k]
+        v = _through_air(k, rate, length, w, work)
         speed += v * v
     speed = np.sqrt(speed)
     power = -hinge * ww
@@ -170,10 +209,9 @@ def hang_load(
         s = stiffness * y[n] + loss * y[rates + n]
         power -= loss * y[rates + n] * y[rates + n]
     for k in range(d):
-        w = y[sway + k] - along * work[DIRECTION, k]
-        v = work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w
-        air = -drag * speed * (v - work[WIND, k])
-        power += air * v
+        w = _sway(k, sway, along, y, work)
+        air = -drag * speed * _through_air(k, rate, length, w, work)
+        power += air * _velocity(k, rate, length, w, work)
         work[HINGE, k] = -hinge / length * w
         if not elastic:
             s += work[DIRECTION, k] * (air - mass * work[BIAS, k])
@@ -182,12 +220,10 @@ def hang_load(
         j = 0.0
         hinged = 0.0
         for k in range(d):
-            j += work[JACOBIAN + k, i] * work[DIRECTION, k]
-            hinged += work[JACOBIAN + k, i] * work[HINGE, k]
-        work[ALONG, i] = j
-        dy[rates + i] = work[FORCE, i] - hinged + j * s
+            j, hinged = _carried(i, k, j, hinged, work)
+        _drive(i, rates + i, j, hinged, s, dy, work)
         for m in range(i + 1):
-            work[MASS + i, m] += bound * j * work[ALONG, m]
+            _bind(i, m, bound * j, work)
     _solve(work, dy, n, rates)
 
     tension = s
@@ -200,15 +236,15 @@ def hang_load(
             a += work[JACOBIAN + k, i] * dy[rates + i]
         work[ACCELERATION, k] = a
     for k in range(d):
-        w = y[sway + k] - along * work[DIRECTION, k]
-        air = -drag * speed * (work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w - work[WIND, k])
+        w = _sway(k, sway, along, y, work)
+        air = -drag * speed * _through_air(k, rate, length, w, work)
         b = work[ACCELERATION, k] - (air + work[HINGE, k]) / mass
         if k == d - 1:
             b += gravity
         dy[sway + k] = b
         outward += b * work[DIRECTION, k]
     for k in range(d):
-        w = y[sway + k] - along * work[DIRECTION, k]
+        w = _sway(k, sway, along, y, work)
         across = dy[sway + k] - outward * work[DIRECTION, k] + 2.0 * rate * w
         dy[sway + k] = -ww * work[DIRECTION, k] - across / length
         dy[direction + k] = y[sway + k]
@@ -219,6 +255,12 @@ def hang_load(
     return tension
 
 
+@traced
+def _less(value: float, i: int, j: int, m: int, work: Any) -> float:
+    """Without the part of column m in the product of two rows of the factor."""
+    return value - work[i + MASS, m] * work[j + MASS, m]
+
+
 @kernel()
 def _solve(work: Any, x: Any, n: int, first: int) -> None:
     """Solve M x = b in place by Cholesky; b and x are n entries of x from ``first``, M is overwritten."""
@@ -226,11 +268,11 @@ def _solve(work: Any, x: Any, n: int, first: int) -> None:
         for j in range(i):
             value = work[MASS + i, j]
             for m in range(j):
-                value -= work[MASS + i, m] * work[MASS + j, m]
+                value = _less(value, i, j, m, work)
             work[MASS + i, j] = value * work[MASS + j, j]
         value = work[MASS + i, i]
         for m in range(i):
-            value -= work[MASS + i, m] * work[MASS + i, m]
+            value = _less(value, i, i, m, work)
         # The inverse of the diagonal is stored: each entry is divided by once and multiplied by often.
         work[MASS + i, i] = 1.0 / np.sqrt(value)
         value = x[first + i]

@@ -25,6 +25,9 @@ ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX, FRESH = range(6)
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 10.0
 
+SHORTEST = 16.0 * float(np.finfo(np.float64).eps)
+"""Part of a phase that is the shortest step."""
+
 LOOKS = 8
 """Points of a step at which the guards are looked at once a stage has seen one below its floor."""
 
@@ -46,12 +49,12 @@ def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, ato
         estimate = 0.0
         for i in range(stages):
             estimate += error[0, i] * k[i, m]
-        first += (estimate / scale) ** 2
+        first += (estimate / scale) * (estimate / scale)
         if rows == 2:
             estimate = 0.0
             for i in range(stages):
                 estimate += error[1, i] * k[i, m]
-            second += (estimate / scale) ** 2
+            second += (estimate / scale) * (estimate / scale)
     if first == 0.0:
         return 0.0
     if rows == 2:
@@ -105,13 +108,14 @@ def first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> floa
     for m in range(y.size):
         if not np.isinf(atol[m]):
             scale = atol[m] + rtol * abs(y[m])
-            size += (y[m] / scale) ** 2
-            speed += (slope[m] / scale) ** 2
+            size += (y[m] / scale) * (y[m] / scale)
+            speed += (slope[m] / scale) * (slope[m] / scale)
     if speed == 0.0:
         return limit
     # A state at the origin says nothing of its scale: begin small, the control grows it tenfold a step.
     guess = 0.01 * np.sqrt(size / speed) if size > 1e-10 else 0.0
-    return min(limit, max(guess, 1e-6 * limit))
+    guess = guess if guess > 1e-6 * limit else 1e-6 * limit
+    return guess if guess < limit else limit
 
 
 @kernel(
@@ -188,7 +192,7 @@ def advance(
             return GUARD
     if h <= 0.0:
         h = first_step(y, slope, rtol, atol, t_end)
-    shortest = 16.0 * np.finfo(np.float64).eps * t_end
+    shortest = SHORTEST * t_end
     taken = 0
     grow = GROW
     while t < t_end:

@@ -19,7 +19,6 @@ from towercrane.terminal import (
     Out,
     Pictures,
     announce_compilation,
-    compile_beside,
     fail,
     folder_for_results,
     load,
@@ -64,14 +63,9 @@ def sweep(
     folder = out if out is not None else Path("results") / f"{loaded.name}-sweep"
     folder_for_results(folder)
     values = _values(loaded, vary)
-    from modal.compiled import is_compiled
     from towercrane.variations import grid
 
-    if loaded.kind == "radial" and not is_compiled("towercrane.cranes.radial_lanes"):
-        say("compiling for many runs at once, about half a minute; later sweeps start at once ...")
-        compile_beside("towercrane.cranes.radial_lane_rhs", "towercrane.cranes.radial_lanes")
-    else:
-        announce_compilation(loaded.kind, "towercrane.stepper")
+    announce_compilation("lanes" if loaded.kind == "radial" else loaded.kind, "towercrane.stepper")
     began = time.perf_counter()
     data = _with_progress(loaded, grid(values), threads)
     if not set(data["outcome"].values) - {INTERRUPTED_RUN}:

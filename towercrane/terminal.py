@@ -43,34 +43,11 @@ def load(name: str, changes: list[str] | None) -> Case:
 
 def announce_compilation(kind: str, *needed: str) -> None:
     """Compile the kernels of a kind of crane, and what a command needs besides, if they are not yet, and say so."""
-    from modal.compiled import is_compiled
+    from towercrane.compilation import compile_kernels, missing_kernels
 
-    members = ("towercrane.cranes.flexible_rhs", "modal.roots")
-    own = {"radial": members, "space": members, "jib": ("towercrane.cranes.jib_crane_kernel",)}
-    modules = dict.fromkeys((*own.get(kind, ("towercrane.cranes.lumped_kernel",)), *needed))
-    missing = [module for module in modules if not is_compiled(module)]
-    if missing:
-        say("compiling for the first time, about fifteen seconds; later runs start at once ...")
-        compile_beside(*missing)
-
-
-def compile_beside(here: str, *beside: str) -> None:
-    """Import modules of kernels, the first here, the others in processes beside: all leave code in the cache."""
-    import subprocess
-    from importlib import import_module
-
-    # A process that fails does no harm: what it should have compiled is compiled where it is used.
-    others = [
-        subprocess.Popen(
-            [sys.executable, "-c", f"import {module}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-        for module in beside
-    ]
-    try:
-        import_module(here)
-    finally:
-        for process in others:
-            process.wait()
+    if missing := missing_kernels(kind, *needed):
+        say("compiling for the first time, some seconds; later runs start at once ...")
+        compile_kernels(missing)
 
 
 @contextmanager

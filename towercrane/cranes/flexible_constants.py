@@ -32,10 +32,10 @@ def geometric_stiffness(model: FlexibleModel) -> Floats:
 
 
 def numbers(model: FlexibleModel) -> Floats:
-    """Counts of coordinates, rigid masses, load, channels, drive; shape (layout.NUMBERS,)."""
+    """Places of coordinates, rigid masses, load, channels, drive; shape (layout.NUMBERS,)."""
     crane, load, drive, slewing = model.crane, model.load, model.drive, model.crane.slewing
     values = np.zeros(layout.NUMBERS)
-    values[: len(model.counts)] = list(model.counts.values())
+    values[: len(model.counts)] = np.cumsum(list(model.counts.values()))
     values[layout.TROLLEY_MASS] = crane.trolley_mass
     values[layout.GRAVITY] = crane.gravity
     values[layout.SELF_GRAVITY] = crane.gravity if model.self_weight else 0.0
@@ -66,13 +66,14 @@ def vectors(model: FlexibleModel) -> Floats:
     values = np.zeros((layout.VECTORS, n))
     # One mode list per plane of the tower: both see the same tip, slope and wind.
     swept = crane.tower_drag * crane.tower.deflection_integrals()
-    for plane in ("tower_x", "tower_y"):
+    planes = ("tower_x", layout.SLIDE_X, layout.TILT_Y, 1.0), ("tower_y", layout.SLIDE_Y, layout.TILT_X, -1.0)
+    for plane, slide, tilt, sense in planes:
         if model.counts[plane]:
-            values[layout.TIP, parts[plane]] = crane.tower(crane.tower_height)
-            values[layout.SLOPE, parts[plane]] = crane.top_slope
+            values[slide, parts[plane]] = crane.tower(crane.tower_height)
+            values[tilt, parts[plane]] = sense * crane.top_slope
             values[layout.EXPOSURE, parts[plane]] = swept
-    values[layout.TWIST, parts["torsion"]] = crane.torsion(crane.tower_height)
-    values[layout.TWIST, parts["slewing"]] = 1.0
+    values[layout.TURN, parts["torsion"]] = crane.torsion(crane.tower_height)
+    values[layout.TURN, parts["slewing"]] = 1.0
     jib = slice(parts["jib_lateral"].start, n)
     values[layout.JIB_MASS, jib] = crane.slewing.first
     values[layout.JIB_MOMENT, jib] = crane.slewing.second

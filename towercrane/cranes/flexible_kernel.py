@@ -14,50 +14,55 @@ coordinates up; the equations are derived anew.
 
 from __future__ import annotations
 
+from operator import add
 from typing import Any
 
 import numpy as np
 
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
-from towercrane.cranes.head_kernel import Head, Vector, move_head
+from towercrane.cranes.head_kernel import Head, Vector, move_head, tilt_functions
 from towercrane.cranes.jib_kernel import bend_jib
-from towercrane.cranes.projection_kernel import Body, project_head, project_jib
-from towercrane.lane_choices import whole
+from towercrane.cranes.projection_kernel import Body, SlewingRow, dot, project_head, project_jib
+from towercrane.lane_choices import nth, whole
 from towercrane.payload import BIAS, FORCE, VELOCITY, WIND
 from towercrane.polynomial import polynomial
+from towercrane.traced import traced
+
+
+@traced
+def add_motion(motion: tuple[float, ...], i: int, rate: int, y: Any, vectors: Any) -> tuple[float, ...]:
+    """Tilt (2) and turn of the head, velocity of the tower's top (2) and rates of tilt (2) and turn, with the part of
+    one more coordinate."""
+    q, qd = y[i], y[rate]
+    weights = tuple(vectors[motion, i] for motion in range(at.MOTIONS))
+    added = (*(weight * q for weight in weights[at.TILT_X :]), *(weight * qd for weight in weights))
+    return tuple(map(add, motion, added))
 
 
 @kernel(inline=True)
 def move_top(d: int, t: float, y: Any, inputs: Any, numbers: Any, vectors: Any) -> tuple[Head, float]:
     """Head as the coordinates of tower and slewing move it, and its tilt [rad]."""
-    rates = vectors.shape[1] + d
-    to_y = whole(numbers[at.TOWER_X])
-    to_turn = to_y + whole(numbers[at.TOWER_Y])
-    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
-    ux, uy, tx, ty, txd, tyd = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    turn, turning, turn_acceleration = 0.0, 0.0, 0.0
-    for i in range(to_y):
-        ux += vectors[at.TIP, i] * y[rates + i]
-        ty += vectors[at.SLOPE, i] * y[i]
-        tyd += vectors[at.SLOPE, i] * y[rates + i]
-    for i in range(to_y, to_turn):
-        uy += vectors[at.TIP, i] * y[rates + i]
-        tx -= vectors[at.SLOPE, i] * y[i]
-        txd -= vectors[at.SLOPE, i] * y[rates + i]
-    slewing = whole(numbers[at.SLEWING_CHANNEL]) >= 0 and whole(numbers[at.DRIVEN]) == 0
+    rates, driven, jib = vectors.shape[1] + d, whole(numbers[at.DRIVEN]), whole(numbers[at.LATERAL])
+    motion = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    for i in range(jib):
+        motion = add_motion(motion, i, rates + i, y, vectors)
+    tx, ty, turn, ux, uy, txd, tyd, turning = motion
+    turn_acceleration = 0.0
+    slewing = whole(numbers[at.SLEWING_CHANNEL]) >= 0 and driven == jib
     if slewing:
-        turn, turning, turn_acceleration = polynomial(inputs, at.SLEWING, t)
-    for i in range(to_turn, to_jib):
-        turn += vectors[at.TWIST, i] * y[i]
-        turning += vectors[at.TWIST, i] * y[rates + i]
+        angle, rate, turn_acceleration = polynomial(inputs, at.SLEWING, t)
+        turn += angle
+        turning += rate
     c, s = 1.0, 0.0
-    if to_jib > to_turn or slewing:
+    if slewing or whole(numbers[at.TORSION]) < jib:
         c, s = np.cos(turn), np.sin(turn)
-    return move_head(tx, ty, txd, tyd, c, s, turning, turn_acceleration, ux, uy), np.sqrt(tx * tx + ty * ty)
+    square = tx * tx + ty * ty
+    head = move_head((tx, ty, txd, tyd), tilt_functions(square), c, s, turning, turn_acceleration, ux, uy)
+    return head, np.sqrt(square)
 
 
-@kernel(inline=True)
+@traced
 def weigh_head(head: Head, left: tuple[float, ...], up: tuple[float, ...], numbers: Any) -> Body:
     """Mass, moments, force and moment of what turns, without trolley.
 
@@ -88,6 +93,34 @@ def weigh_head(head: Head, left: tuple[float, ...], up: tuple[float, ...], numbe
     return mass, (sx, sy, sz), (ixx, ixy, ixz, iyy, iyz, izz), (fx, fy, fz), (-mx, -my, -mz)
 
 
+@traced
+def blow(vertical: int, wind: Vector, head: Head, work: Any) -> tuple[float, float]:
+    """Write the wind for the load; returns its squared speed, and its speed square to the jib."""
+    rotation = head[0]
+    work[WIND, 0] = wind[0]
+    # In a plane the second axis is the vertical.
+    work[WIND, 1] = wind[1]
+    work[WIND, vertical] = wind[2]
+    return dot(wind, wind), dot(wind, (rotation[1], rotation[4], rotation[7]))
+
+
+@traced
+def push(i: int, rate: int, pressure: float, y: Any, vectors: Any, work: Any) -> float:
+    """Add the wind's force on one mode; returns its power."""
+    force = pressure * vectors[at.EXPOSURE, i]
+    work[FORCE, i] = work[FORCE, i] + force
+    return force * y[rate]
+
+
+@traced
+def press_head(
+    press: float, rolling: float, power: float, head: Head, numbers: Any
+) -> tuple[float, float, float, float]:
+    """Force of the wind on the head along e2, its moments about e1 and e3, and power with that of the modes."""
+    side, turning = numbers[at.HEAD_AREA] * press, numbers[at.HEAD_AREA_MOMENT] * press
+    return side, rolling, turning, power + (side * head[5][1] + rolling * head[3][0] + turning * head[3][2])
+
+
 @kernel(inline=True)
 def press_wind(
     d: int, t: float, y: Any, head: Head, inputs: Any, numbers: Any, vectors: Any, work: Any
@@ -101,38 +134,29 @@ def press_wind(
     """
     n = vectors.shape[1]
     rates = n + d
-    to_y = whole(numbers[at.TOWER_X])
-    to_turn = to_y + whole(numbers[at.TOWER_Y])
-    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
-    to_vertical = to_jib + whole(numbers[at.LATERAL])
+    to_y, to_turn, to_jib = whole(numbers[at.ALONG_Y]), whole(numbers[at.TORSION]), whole(numbers[at.LATERAL])
+    to_vertical = whole(numbers[at.VERTICAL])
     breeze = whole(numbers[at.WIND_CHANNEL])
-    x, _, _ = polynomial(inputs, breeze, t)
-    across, _, _ = polynomial(inputs, breeze + 1, t)
-    z, _, _ = polynomial(inputs, breeze + 2, t)
-    work[WIND, 0] = x
-    # In a plane the second axis is the vertical.
-    work[WIND, 1] = across
-    work[WIND, d - 1] = z
-    speed, power = np.sqrt(x * x + across * across + z * z), 0.0
+    wind = (
+        polynomial(inputs, breeze, t)[0],
+        polynomial(inputs, breeze + 1, t)[0],
+        polynomial(inputs, breeze + 2, t)[0],
+    )
+    square, normal = blow(d - 1, wind, head, work)
+    speed, press = np.sqrt(square), abs(normal) * normal
+    power, rolling = 0.0, 0.0
     for i in range(to_turn):
-        force = speed * (x if i < to_y else across) * vectors[at.EXPOSURE, i]
-        work[FORCE, i] += force
-        power += force * y[rates + i]
-    normal = x * head[0][1] + across * head[0][4] + z * head[0][7]
-    press, rolling = abs(normal) * normal, 0.0
+        power += push(i, rates + i, speed * (wind[0] if i < to_y else wind[1]), y, vectors, work)
     for i in range(to_jib, to_vertical):
-        work[FORCE, i] += vectors[at.EXPOSURE, i] * press
-        power += vectors[at.EXPOSURE, i] * press * y[rates + i]
+        power += push(i, rates + i, press, y, vectors, work)
     for i in range(to_vertical, n):
         rolling -= vectors[at.EXPOSURE, i] * y[i] * press
-    side, turning = numbers[at.HEAD_AREA] * press, numbers[at.HEAD_AREA_MOMENT] * press
-    power += side * head[5][1] + rolling * head[3][0] + turning * head[3][2]
-    return side, rolling, turning, power
+    return press_head(press, rolling, power, head, numbers)
 
 
-@kernel(inline=True)
+@traced
 def carry_trolley(
-    d: int, head: Head, x: float, xd: float, xdd: float, left: tuple[float, ...], up: tuple[float, ...],
+    vertical: int, head: Head, x: float, xd: float, xdd: float, left: tuple[float, ...], up: tuple[float, ...],
     trolley: float, gravity: float, work: Any,
 ) -> Vector:  # fmt: skip
     """Write the motion of the rope's upper end; returns the force that the trolley puts on the jib."""
@@ -155,12 +179,12 @@ def carry_trolley(
     # In a plane the second axis is the vertical.
     work[VELOCITY, 1] = r10 * vx + r11 * vy + r12 * vz
     work[BIAS, 1] = r10 * bx + r11 * by + r12 * bz
-    work[VELOCITY, d - 1] = r20 * vx + r21 * vy + r22 * vz
-    work[BIAS, d - 1] = r20 * bx + r21 * by + r22 * bz
+    work[VELOCITY, vertical] = r20 * vx + r21 * vy + r22 * vz
+    work[BIAS, vertical] = r20 * bx + r21 * by + r22 * bz
     return -trolley * (bx + gravity * r20), -trolley * (by + gravity * r21), -trolley * (bz + gravity * r22)
 
 
-@kernel(inline=True)
+@traced
 def with_trolley(body: Body, mass: float, place: Vector, pull: Vector) -> Body:
     """What turns, with a trolley of this mass at this place and this force on it."""
     own, (sx, sy, sz), (ixx, ixy, ixz, iyy, iyz, izz), (fx, fy, fz), (mx, my, mz) = body
@@ -171,6 +195,16 @@ def with_trolley(body: Body, mass: float, place: Vector, pull: Vector) -> Body:
                iyz - mass * y * z, izz + mass * (x * x + y * y))  # fmt: skip
     moment = (mx + y * pz - z * py, my + z * px - x * pz, mz + x * py - y * px)
     return own + mass, first, inertia, (fx + px, fy + py, fz + pz), moment
+
+
+@traced
+def path_of(rotation: tuple[float, ...], left: float, up: float) -> Vector:
+    """Direction of the trolley's path, per way along the jib, from the jib's slopes."""
+    return (
+        rotation[0] + rotation[1] * left + rotation[2] * up,
+        rotation[3] + rotation[4] * left + rotation[5] * up,
+        rotation[6] + rotation[7] * left + rotation[8] * up,
+    )
 
 
 @kernel()
@@ -184,7 +218,7 @@ def structure(
     matrices: Any,
     tables: Any,
     work: Any,
-) -> tuple[float, ...]:
+) -> tuple[float, float, float, float, Vector, SlewingRow]:
     """Fill ``work`` with mass matrix, forces and the suspension point's motion, without the load.
 
     Parameters
@@ -197,30 +231,29 @@ def structure(
 
     Returns
     -------
-    tuple of float
+    tuple
         Trolley position and speed [m, m/s]; tilt [rad]; power of damping and wind [W]; direction of the trolley's
-        path per way along the jib (3); what belongs to the slewing (9), as
-        :func:`towercrane.cranes.projection_kernel.project_head` returns it.
+        path per way along the jib; what belongs to the slewing.
     """
     n = vectors.shape[1]
     rates = n + d
-    jib = whole(numbers[at.TOWER_X] + numbers[at.TOWER_Y] + numbers[at.TORSION] + numbers[at.DRIVEN])
-    middle = jib + whole(numbers[at.LATERAL])
+    jib, middle = whole(numbers[at.LATERAL]), whole(numbers[at.VERTICAL])
     head, tilt = move_top(d, t, y, inputs, numbers, vectors)
     rotation = head[0]
 
     x, xd, xdd = polynomial(inputs, at.TROLLEY, t)
     cells = tables.shape[0]
     width = numbers[at.JIB_LENGTH] / cells
-    cell = min(max(int(x / width), 0), cells - 1)
+    cell = nth(x / width, cells)
     xi, weight = x - (cell + 0.5) * width, numbers[at.SELF_GRAVITY]
+    (wx, wy, wz), (roll, pitch, turn) = head[3], head[4]
     left = bend_jib(
-        jib, middle, middle, n, -1.0, head[3], head[4], weight * rotation[7], xd, xdd, xi, cell, jib, rates, y,
-        vectors, matrices, tables, work,
+        jib, middle, middle, n, -1.0, (wx, wy, wz), (roll, turn), weight * rotation[7], xd, xdd, xi, cell, jib, rates,
+        y, vectors, matrices, tables, work,
     )  # fmt: skip
     up = bend_jib(
-        middle, n, jib, middle, 1.0, head[3], head[4], weight * rotation[8], xd, xdd, xi, cell, jib, rates, y,
-        vectors, matrices, tables, work,
+        middle, n, jib, middle, 1.0, (wx, wz, wy), (roll, -pitch), weight * rotation[8], xd, xdd, xi, cell, jib,
+        rates, y, vectors, matrices, tables, work,
     )  # fmt: skip
     power = 0.0
     for i in range(n):
@@ -231,7 +264,7 @@ def structure(
             force -= matrices[at.STIFFNESS, i, m] * y[m]
         work[FORCE, i] = force
     trolley, place = numbers[at.TROLLEY_MASS], (x, left[0], up[0])
-    pull = carry_trolley(d, head, x, xd, xdd, left, up, trolley, numbers[at.GRAVITY], work)
+    pull = carry_trolley(d - 1, head, x, xd, xdd, left, up, trolley, numbers[at.GRAVITY], work)
     mass, first, inertia, push, moment = with_trolley(weigh_head(head, left, up, numbers), trolley, place, pull)
     if whole(numbers[at.WIND_CHANNEL]) >= 0:
         side, rolling, turning, wind_power = press_wind(d, t, y, head, inputs, numbers, vectors, work)
@@ -241,9 +274,4 @@ def structure(
     body = (mass, first, inertia, push, moment)
     slewing = project_head(d, head, body, place, numbers, vectors, matrices, work)
     project_jib(d, head, pull, place, numbers, vectors, matrices, work)
-    path_x, path_y, path_z = (
-        rotation[0] + rotation[1] * left[3] + rotation[2] * up[3],
-        rotation[3] + rotation[4] * left[3] + rotation[5] * up[3],
-        rotation[6] + rotation[7] * left[3] + rotation[8] * up[3],
-    )
-    return (x, xd, tilt, power, path_x, path_y, path_z, *slewing)
+    return x, xd, tilt, power, path_of(rotation, left[3], up[3]), slewing

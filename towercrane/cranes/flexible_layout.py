@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-(TOWER_X, TOWER_Y, TORSION, DRIVEN, LATERAL, VERTICAL, TROLLEY_MASS, GRAVITY, SELF_GRAVITY, SLEWING_MASS,
+(ALONG_Y, TORSION, DRIVEN, LATERAL, VERTICAL, COORDINATES, TROLLEY_MASS, GRAVITY, SELF_GRAVITY, SLEWING_MASS,
  STATIC_MOMENT, ROLL, PITCH, YAW, JIB_LENGTH, TILT_LIMIT, LOAD_MASS, DRAG, HINGE_DAMPING,
  SLEWING_CHANNEL, WIND_CHANNEL, SOFT, STIFF, CORNER, DRIVE_DAMPING, FRICTION_TORQUE, FRICTION_RATE,
  HEAD_AREA, HEAD_AREA_MOMENT, NUMBERS) = range(30)  # fmt: skip
-"""Entries of ``numbers``, and how many they are. The first six count coordinates. SELF_GRAVITY is zero where the
-structure's own weight is left out; a channel is -1 where there is none."""
+"""Entries of ``numbers``, and how many they are. The coordinates of the tower along x come first; the first five
+say where the others begin, and COORDINATES how many there are. SELF_GRAVITY is zero where the structure's own weight
+is left out; a channel is -1 where there is none."""
 
-TIP, SLOPE, TWIST, JIB_MASS, JIB_MOMENT, DAMPING, EXPOSURE, CAP, VECTORS = range(9)
-"""Rows of ``vectors``, and how many, zero where they do not apply: tower modes at the top, their slopes, twist of the
-head (1 for the slewing angle), int m phi and int m x phi of the jib modes, viscous damping, int c phi of tower and
-jib modes with the drag c per squared speed, mass added to a coordinate itself where its frequency is capped."""
+SLIDE_X, SLIDE_Y, TILT_X, TILT_Y, TURN, JIB_MASS, JIB_MOMENT, DAMPING, EXPOSURE, CAP, VECTORS = range(11)
+"""Rows of ``vectors``, and how many, zero where they do not apply: what a coordinate moves the head (u_x and u_y of
+the tower's top, tilt vector th_x and th_y, turning), int m phi and int m x phi of the jib modes, viscous damping,
+int c phi of tower and jib modes with the drag c per squared speed, mass added to a coordinate itself where its
+frequency is capped."""
+
+MOTIONS = TURN + 1
+"""How many motions the head has; their rows come first."""
 
 OWN, STIFFNESS = range(2)
 """Entries of ``matrices``: mass of the tower alone, of the drive, and int m phi_i phi_j of all jib modes, lateral

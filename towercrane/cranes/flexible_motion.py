@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes.head_kernel import ROTATION, SIZE, SPIN, move_heads
+from towercrane.cranes.head_motions import ROTATION, SIZE, SPIN, move_heads
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -85,14 +85,16 @@ class FlexibleMotion:
 
     def top(self, values: Floats) -> tuple[Floats, Floats]:
         """Translation of the tower's top along x and y, and its tilt vector, of coordinates or their derivatives."""
-        u = [self.along(layout.TIP, (kind,), values) for kind in ("tower_x", "tower_y")]
-        slope_x, slope_y = (self.along(layout.SLOPE, (kind,), values) for kind in ("tower_x", "tower_y"))
-        return np.stack(u, axis=1), np.stack([-slope_y, slope_x], axis=1)
+        tower = ("tower_x", "tower_y")
+        u_x, u_y, tilt_x, tilt_y = (
+            self.along(row, tower, values) for row in (layout.SLIDE_X, layout.SLIDE_Y, layout.TILT_X, layout.TILT_Y)
+        )
+        return np.stack([u_x, u_y], axis=1), np.stack([tilt_x, tilt_y], axis=1)
 
     @cached_property
     def twist(self) -> Floats:
         """Twist of the tower's top [rad]."""
-        return self.along(layout.TWIST, ("torsion",), self.coordinates)
+        return self.along(layout.TURN, ("torsion",), self.coordinates)
 
     @cached_property
     def slewing(self) -> tuple[Floats, Floats]:
@@ -111,7 +113,7 @@ class FlexibleMotion:
     def heads(self) -> Floats:
         """Rows of :func:`towercrane.cranes.head_kernel.move_head`, shape (p, SIZE)."""
         (_, tilt), (velocity, tilting) = self.top(self.coordinates), self.top(self.rates)
-        turning = self.along(layout.TWIST, ("torsion",), self.rates) + self.slewing[1]
+        turning = self.along(layout.TURN, ("torsion",), self.rates) + self.slewing[1]
         acceleration = self.drive("slewing", 2)
         columns = [*tilt.T, *tilting.T, self.heading, turning, acceleration, *velocity.T]
         heads = np.empty((len(self.times), SIZE))

@@ -10,13 +10,16 @@ from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.drive_kernel import coupling_torque
 from towercrane.cranes.flexible_kernel import structure
+from towercrane.cranes.projection_kernel import dot
 from towercrane.lane_choices import whole
 from towercrane.payload import ACCELERATION, DIRECTION, FORCE, HINGE, MASS, hang_load
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
+from towercrane.traced import traced
 
 if TYPE_CHECKING:
-    from towercrane.cranes.projection_kernel import SlewingRow
+    from towercrane.cranes.head_kernel import Vector
+    from towercrane.cranes.projection_kernel import Motions, SlewingRow
 
 
 @kernel()
@@ -30,7 +33,7 @@ def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> tuple[float
         coupling's corner [rad].
     """
     rates = (y.size - 1) // 2
-    turned = whole(numbers[at.TOWER_X] + numbers[at.TOWER_Y] + numbers[at.TORSION])
+    turned = whole(numbers[at.DRIVEN])
     shaft, shaft_rate, _ = polynomial(inputs, at.SLEWING, t)
     angle, rate = y[turned], y[rates + turned]
     slip = rate - shaft_rate
@@ -43,30 +46,58 @@ def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> tuple[float
     return torque, power, abs(angle - shaft) - numbers[at.CORNER]
 
 
+@traced
+def turned_by(i: int, row: Motions, vectors: Any) -> float:
+    """Share of a coordinate of tower or slewing in the momentum that this row of the mass matrix belongs to."""
+    return dot(row, [vectors[motion, i] for motion in range(at.MOTIONS)])
+
+
+@traced
+def load_along(direction: Vector, up: int, tension: float, work: Any) -> float:
+    """Force of rope and hinge, for the motion of the rope's upper end in this direction."""
+    return dot(direction, [tension * work[DIRECTION, axis] - work[HINGE, axis] for axis in (0, 1, up)])
+
+
+@traced
+def trolley_force(path: Vector, up: int, trolley: float, gravity: float, tension: float, work: Any) -> float:
+    """Force of the trolley's drive, which acts along the deflected jib."""
+    axes = 0, 1, up
+    rises = work[ACCELERATION, 0], work[ACCELERATION, 1], work[ACCELERATION, up] + gravity
+    return dot(
+        path, [trolley * a - tension * work[DIRECTION, k] + work[HINGE, k] for a, k in zip(rises, axes, strict=True)]
+    )
+
+
+@traced
+def write_guards(
+    tension: float, x: float, tilt: float, beyond: float, torque: float, force: float, numbers: Any, guards: Any
+) -> None:
+    """Write the guards, and the outputs beside them."""
+    guards[at.TENSION] = tension
+    guards[at.INNER_END] = x
+    guards[at.OUTER_END] = numbers[at.JIB_LENGTH] - x
+    guards[at.TILT] = numbers[at.TILT_LIMIT] - tilt
+    guards[at.INSIDE] = -beyond
+    guards[at.OUTSIDE] = beyond
+    guards[at.SLEWING_TORQUE] = torque
+    guards[at.TROLLEY_FORCE] = force
+
+
 @kernel(inline=True)
 def holding_torque(
     d: int, tension: float, x: float, slewing: SlewingRow, dy: Any, numbers: Any, vectors: Any, work: Any
 ) -> float:
     """Torque that the prescribed slewing takes: the equation of the coordinate that is not free."""
-    n = vectors.shape[1]
+    n, to_jib = vectors.shape[1], whole(numbers[at.LATERAL])
     rates = n + d
-    to_y = whole(numbers[at.TOWER_X])
-    to_turn = to_y + whole(numbers[at.TOWER_Y])
-    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
-    column_x, column_y, column_z, with_x, with_y, with_tilt_x, with_tilt_y, own, moment = slewing
+    column, row, moment = slewing
     torque = -moment
-    for i in range(to_y):
-        torque += (with_x * vectors[at.TIP, i] + with_tilt_y * vectors[at.SLOPE, i]) * dy[rates + i]
-    for i in range(to_y, to_turn):
-        torque += (with_y * vectors[at.TIP, i] - with_tilt_x * vectors[at.SLOPE, i]) * dy[rates + i]
-    for i in range(to_turn, to_jib):
-        torque += own * vectors[at.TWIST, i] * dy[rates + i]
+    for i in range(to_jib):
+        torque += turned_by(i, row, vectors) * dy[rates + i]
     hung = numbers[at.TROLLEY_MASS] * x
-    for i in range(to_jib, to_jib + whole(numbers[at.LATERAL])):
+    for i in range(to_jib, whole(numbers[at.VERTICAL])):
         torque += (vectors[at.JIB_MOMENT, i] + hung * work[MASS + n + at.SHAPE, i]) * dy[rates + i]
-    torque -= column_x * (tension * work[DIRECTION, 0] - work[HINGE, 0])
-    torque -= column_y * (tension * work[DIRECTION, 1] - work[HINGE, 1])
-    return torque - column_z * (tension * work[DIRECTION, d - 1] - work[HINGE, d - 1])
+    return torque - load_along(column, d - 1, tension, work)
 
 
 @kernel(rhs_signature())
@@ -85,36 +116,23 @@ def rhs(
     """Right-hand side of the flexible crane."""
     n = vectors.shape[1]
     d = (y.size - 1) // 2 - n
-    structured = structure(d, t, y, inputs, numbers, vectors, matrices, tables, work)
-    x, xd, tilt, power, path_x, path_y, path_z = structured[:7]
+    x, xd, tilt, power, path, slewing = structure(d, t, y, inputs, numbers, vectors, matrices, tables, work)
     torque, beyond = 0.0, 0.0
-    if whole(numbers[at.DRIVEN]) > 0:
+    driven = whole(numbers[at.LATERAL]) > whole(numbers[at.DRIVEN])
+    if driven:
         torque, drive_power, beyond = drive(t, y, inputs, numbers, work)
         power += drive_power
     length, rate, acceleration = polynomial(inputs, at.ROPE, t)
-    gravity, trolley = numbers[at.GRAVITY], numbers[at.TROLLEY_MASS]
+    gravity = numbers[at.GRAVITY]
     tension = hang_load(
         y, dy, n, d, length, rate, acceleration,
         numbers[at.LOAD_MASS], gravity, numbers[at.DRAG], numbers[at.HINGE_DAMPING], 0.0, 0.0, work,
     )  # fmt: skip
-    if whole(numbers[at.DRIVEN]) == 0 and d == 3:
-        torque = holding_torque(d, tension, x, structured[7:], dy, numbers, vectors, work)
+    if d == 3 and not driven:
+        torque = holding_torque(d, tension, x, slewing, dy, numbers, vectors, work)
         if whole(numbers[at.SLEWING_CHANNEL]) >= 0:
             _, turning, _ = polynomial(inputs, at.SLEWING, t)
             power += torque * turning
-    # The trolley's drive acts along the deflected jib.
-    force = path_x * (trolley * work[ACCELERATION, 0] - tension * work[DIRECTION, 0] + work[HINGE, 0])
-    if d == 3:
-        force += path_y * (trolley * work[ACCELERATION, 1] - tension * work[DIRECTION, 1] + work[HINGE, 1])
-    up = d - 1
-    force += path_z * (trolley * (work[ACCELERATION, up] + gravity) - tension * work[DIRECTION, up] + work[HINGE, up])
+    force = trolley_force(path, d - 1, numbers[at.TROLLEY_MASS], gravity, tension, work)
     dy[y.size - 1] += power + force * xd
-
-    guards[at.TENSION] = tension
-    guards[at.INNER_END] = x
-    guards[at.OUTER_END] = numbers[at.JIB_LENGTH] - x
-    guards[at.TILT] = numbers[at.TILT_LIMIT] - tilt
-    guards[at.INSIDE] = -beyond
-    guards[at.OUTSIDE] = beyond
-    guards[at.SLEWING_TORQUE] = torque
-    guards[at.TROLLEY_FORCE] = force
+    write_guards(tension, x, tilt, beyond, torque, force, numbers, guards)

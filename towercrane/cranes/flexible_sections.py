@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes.head_kernel import SPIN_BIAS, TURN_X, TURN_Y
+from towercrane.cranes.head_motions import SPIN_BIAS, TURN_X, TURN_Y
 from towercrane.integrate import evaluate
 from towercrane.motion import phases
 
@@ -58,7 +58,7 @@ class SectionLoads:
         """Of the tower's top and the angular one, in the head's axes; shapes (p, 3)."""
         motion = self.motion
         straight, tilting = motion.top(self.accelerations)
-        turning = motion.along(layout.TWIST, ("torsion", "slewing"), self.accelerations)
+        turning = motion.along(layout.TURN, ("torsion", "slewing"), self.accelerations)
         spin = motion.heads[:, SPIN_BIAS : SPIN_BIAS + 3].copy()
         spin += tilting[:, :1] * motion.heads[:, TURN_X : TURN_X + 3]
         spin += tilting[:, 1:] * motion.heads[:, TURN_Y : TURN_Y + 3]

@@ -8,13 +8,11 @@ tower equal in all directions; for its rates see Cardona and Geradin (1988), Eq.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numba import types
 
 from modal.compiled import kernel
 from towercrane.lane_choices import below, choose, everywhere
+from towercrane.traced import traced
 
 Vector = tuple[float, float, float]
 
@@ -22,11 +20,28 @@ Head = tuple[tuple[float, ...], Vector, Vector, Vector, Vector, Vector]
 """R (9, row by row), then in the head's axes what a rate of th_x and of th_y turns, the angular velocity, the angular
 acceleration while all rates are constant, and the velocity of the tower's top."""
 
-ROTATION, TURN_X, TURN_Y, SPIN, SPIN_BIAS, TOP_VELOCITY, SIZE = 0, 9, 12, 15, 18, 21, 24
-"""Where these begin in a row of :func:`move_heads`, and how many numbers they are."""
-
 NEARLY_UPRIGHT = 0.0225
 """Squared tilt [rad^2] below which the functions of the tilt are summed as series."""
+
+
+@traced
+def upright_functions(square: float) -> tuple[float, float, float, float, float]:
+    """:func:`tilt_functions` as series."""
+    c0 = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)))
+    c1 = 0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0)))
+    c2 = (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0 * (1.0 - square / 110.0)))) / 6.0
+    d1 = (
+        -1.0 + square / 15.0 * (1.0 - 3.0 * square / 112.0 * (1.0 - 2.0 * square / 135.0 * (1.0 - square / 105.6)))
+    ) / 12.0
+    d2 = (-1.0 + square / 21.0 * (1.0 - square / 48.0 * (1.0 - 2.0 * square / 165.0 * (1.0 - square / 124.8)))) / 60.0
+    return c0, c1, c2, d1, d2
+
+
+@traced
+def leaning_functions(f: float, square: float, s: float, c: float) -> tuple[float, float, float, float, float]:
+    """:func:`tilt_functions` of a tilt that is not small, from its sine and cosine."""
+    far1, far2 = (1.0 - c) / square, (f - s) / (square * f)
+    return s / f, far1, far2, (s / f - 2.0 * far1) / square, (far1 - 3.0 * far2) / square
 
 
 @kernel(inline=True)
@@ -39,34 +54,24 @@ def tilt_functions(square: float) -> tuple[float, float, float, float, float]:
         Squared tilt, f^2.
     """
     near = below(square, NEARLY_UPRIGHT)
-    c0 = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)))
-    c1 = 0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0)))
-    c2 = (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0 * (1.0 - square / 110.0)))) / 6.0
-    d1 = (
-        -1.0 + square / 15.0 * (1.0 - 3.0 * square / 112.0 * (1.0 - 2.0 * square / 135.0 * (1.0 - square / 105.6)))
-    ) / 12.0
-    d2 = (-1.0 + square / 21.0 * (1.0 - square / 48.0 * (1.0 - 2.0 * square / 165.0 * (1.0 - square / 124.8)))) / 60.0
+    upright = upright_functions(square)
     if everywhere(near):
-        return c0, c1, c2, d1, d2
+        return upright
     f = np.sqrt(square)
-    s, c = np.sin(f), np.cos(f)
-    far1, far2 = (1.0 - c) / square, (f - s) / (square * f)
-    e1, e2 = (s / f - 2.0 * far1) / square, (far1 - 3.0 * far2) / square
+    c0, c1, c2, d1, d2 = leaning_functions(f, square, np.sin(f), np.cos(f))
     return (
-        choose(near, c0, s / f),
-        choose(near, c1, far1),
-        choose(near, c2, far2),
-        choose(near, d1, e1),
-        choose(near, d2, e2),
+        choose(near, upright[0], c0),
+        choose(near, upright[1], c1),
+        choose(near, upright[2], c2),
+        choose(near, upright[3], d1),
+        choose(near, upright[4], d2),
     )
 
 
-@kernel(inline=True)
+@traced
 def move_head(
-    tx: float,
-    ty: float,
-    txd: float,
-    tyd: float,
+    tilt: tuple[float, float, float, float],
+    functions: tuple[float, float, float, float, float],
     c: float,
     s: float,
     turning: float,
@@ -78,14 +83,17 @@ def move_head(
 
     Parameters
     ----------
-    tx, ty, txd, tyd : float
+    tilt : tuple of 4 floats
         Tilt vector and its rate [rad, rad/s].
+    functions : tuple of 5 floats
+        :func:`tilt_functions` of it.
     c, s, turning, acceleration : float
         Cosine and sine of Psi, its rate, and the part of its second derivative that is prescribed.
     ud_x, ud_y : float
         Velocity of the tower's top [m/s].
     """
-    c0, c1, c2, d1, d2 = tilt_functions(tx * tx + ty * ty)
+    tx, ty, txd, tyd = tilt
+    c0, c1, c2, d1, d2 = functions
     kappa = tx * tyd - ty * txd
     xx, xy, yy = 1.0 - c1 * ty * ty, c1 * tx * ty, 1.0 - c1 * tx * tx
     r00, r01, r02 = xx * c + xy * s, xy * c - xx * s, c0 * ty
@@ -102,24 +110,3 @@ def move_head(
     top = (r00 * ud_x + r10 * ud_y, r01 * ud_x + r11 * ud_y, r02 * ud_x + r12 * ud_y)
     rotation = (r00, r01, r02, r10, r11, r12, r20, r21, r22)
     return rotation, turn_x, turn_y, spin, (bias_x, bias_y, acceleration - d1 * along * kappa), top
-
-
-@kernel(types.void(types.float64[:, ::1], types.float64[:, ::1]))
-def move_heads(motions: Any, heads: Any) -> None:
-    """:func:`move_head` over time, for each row of ``heads`` (p, SIZE).
-
-    A row of motions holds its nine parameters, Psi instead of cosine and sine.
-    """
-    for row in range(motions.shape[0]):
-        rotation, turn_x, turn_y, spin, bias, top = move_head(
-            motions[row, 0], motions[row, 1], motions[row, 2], motions[row, 3], np.cos(motions[row, 4]),
-            np.sin(motions[row, 4]), motions[row, 5], motions[row, 6], motions[row, 7], motions[row, 8],
-        )  # fmt: skip
-        for k in range(9):
-            heads[row, ROTATION + k] = rotation[k]
-        for k in range(3):
-            heads[row, TURN_X + k] = turn_x[k]
-            heads[row, TURN_Y + k] = turn_y[k]
-            heads[row, SPIN + k] = spin[k]
-            heads[row, SPIN_BIAS + k] = bias[k]
-            heads[row, TOP_VELOCITY + k] = top[k]

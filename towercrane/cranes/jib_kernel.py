@@ -2,17 +2,56 @@
 
 from __future__ import annotations
 
+from operator import add
 from typing import TYPE_CHECKING, Any
 
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
 from towercrane.payload import FORCE, MASS
+from towercrane.traced import traced
 
 if TYPE_CHECKING:
     from towercrane.cranes.head_kernel import Vector
 
 
-@kernel(inline=True)
+Sums = tuple[float, ...]
+"""At the trolley the deflection, its rate, its acceleration without q'', its slope; A = a.q and its rate, B = b.q and
+its rate; q.N q, q'.N q, and the same with the other direction's second q: twelve in all."""
+
+
+@traced
+def carry(total: float, i: int, m: int, place: int, y: Any, matrices: Any) -> float:
+    """Add the mass that mode m at this place of the state couples to mode i."""
+    return total + matrices[at.OWN, i, m] * y[place]
+
+
+@traced
+def bend_mode(
+    sums: Sums, i: int, rate: int, n: int, side: float, spin: Vector, turning: tuple[float, float], weight: float,
+    xd: float, xdd: float, shapes: Vector, coupled: Vector, y: Any, vectors: Any, work: Any,
+) -> Sums:  # fmt: skip
+    """Force on one mode; returns the sums with its part."""
+    (wx, own_spin, other_spin), (roll, turn) = spin, turning
+    (shape, tangent, half_second), (carried, crossed, crossed_rate) = shapes, coupled
+    q, qd, a, b = y[i], y[rate], vectors[at.JIB_MASS, i], vectors[at.JIB_MOMENT, i]
+    parts = (
+        shape * q,
+        shape * qd + xd * tangent * q,
+        2.0 * xd * tangent * qd + (xdd * tangent + 2.0 * xd * xd * half_second) * q,
+        tangent * q,
+        a * q, a * qd, b * q, b * qd,
+        carried * q, carried * qd, crossed * q, crossed * qd,
+    )  # fmt: skip
+    square_spin = wx * wx + own_spin * own_spin + other_spin * other_spin
+    along = wx * b + own_spin * carried + other_spin * crossed
+    inertia = turn * b + own_spin * along - square_spin * carried + side * (roll * crossed + 2.0 * wx * crossed_rate)
+    work[FORCE, i] = -inertia - a * weight
+    work[n + (MASS + at.SHAPE), i] = shape
+    work[n + (MASS + at.ACROSS), i] = crossed
+    return tuple(map(add, sums, parts))
+
+
+@kernel()
 def bend_jib(
     first: int,
     last: int,
@@ -20,7 +59,7 @@ def bend_jib(
     other_last: int,
     side: float,
     spin: Vector,
-    turning: Vector,
+    turning: tuple[float, float],
     weight: float,
     xd: float,
     xdd: float,
@@ -33,7 +72,7 @@ def bend_jib(
     matrices: Any,
     tables: Any,
     work: Any,
-) -> tuple[float, float, float, float, float, float, float, float, float, float, float, float]:
+) -> Sums:
     """Force on the modes of one direction, and sums over its deflection.
 
     Parameters
@@ -44,8 +83,9 @@ def bend_jib(
         Coordinates of the other direction.
     side : float
         -1 for the modes to the left, 1 for those up: their cross products differ by this sign.
-    spin, turning : tuple of 3 floats
-        Angular velocity of the head, and its angular acceleration while all rates are constant.
+    spin, turning : tuples of 3 and 2 floats
+        Angular velocity of the head about e1, about the axis along this direction and about the other; its angular
+        acceleration while all rates are constant about e1 and, counted as it moves the jib this way, the other.
     weight : float
         Gravity along this direction [m/s^2].
     xd, xdd : float
@@ -59,20 +99,10 @@ def bend_jib(
 
     Returns
     -------
-    tuple of float
-        At the trolley the deflection, its rate, its acceleration without q'', its slope; A = a.q and its rate,
-        B = b.q and its rate; q.N q, q'.N q, and the same with the other direction's second q.
+    tuple of 12 floats
     """
     n = vectors.shape[1]
-    shapes, across = MASS + n + at.SHAPE, MASS + n + at.ACROSS
-    wx, own_spin, other_spin = spin
-    roll, pitch, turn = turning
-    if side > 0.0:
-        own_spin, other_spin, turn = other_spin, own_spin, -pitch
-    square_spin = wx * wx + own_spin * own_spin + other_spin * other_spin
-    deflection, rate, bias, slope = 0.0, 0.0, 0.0, 0.0
-    mass, mass_rate, moment, moment_rate = 0.0, 0.0, 0.0, 0.0
-    square, square_rate, mixed, mixed_rate = 0.0, 0.0, 0.0, 0.0
+    sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for i in range(first, last):
         shape, tangent, half_second = 0.0, 0.0, 0.0
         for c in range(tables.shape[2] - 1, -1, -1):
@@ -81,30 +111,12 @@ def bend_jib(
             shape = shape * xi + tables[cell, i - jib, c]
         carried, crossed, crossed_rate = 0.0, 0.0, 0.0
         for m in range(first, last):
-            carried += matrices[at.OWN, i, m] * y[m]
+            carried = carry(carried, i, m, m, y, matrices)
         for m in range(other, other_last):
-            crossed += matrices[at.OWN, i, m] * y[m]
-            crossed_rate += matrices[at.OWN, i, m] * y[rates + m]
-        q, qd, a, b = y[i], y[rates + i], vectors[at.JIB_MASS, i], vectors[at.JIB_MOMENT, i]
-        deflection += shape * q
-        rate += shape * qd + xd * tangent * q
-        bias += 2.0 * xd * tangent * qd + (xdd * tangent + 2.0 * xd * xd * half_second) * q
-        slope += tangent * q
-        mass += a * q
-        mass_rate += a * qd
-        moment += b * q
-        moment_rate += b * qd
-        square += carried * q
-        square_rate += carried * qd
-        mixed += crossed * q
-        mixed_rate += crossed * qd
-        along = wx * b + own_spin * carried + other_spin * crossed
-        inertia = (
-            turn * b + own_spin * along - square_spin * carried + side * (roll * crossed + 2.0 * wx * crossed_rate)
-        )
-        work[FORCE, i] = -inertia - a * weight
-        work[shapes, i] = shape
-        work[across, i] = crossed
-    return (
-        deflection, rate, bias, slope, mass, mass_rate, moment, moment_rate, square, square_rate, mixed, mixed_rate,
-    )  # fmt: skip
+            crossed = carry(crossed, i, m, m, y, matrices)
+            crossed_rate = carry(crossed_rate, i, m, rates + m, y, matrices)
+        sums = bend_mode(
+            sums, i, rates + i, n, side, spin, turning, weight, xd, xdd, (shape, tangent, half_second),
+            (carried, crossed, crossed_rate), y, vectors, work,
+        )  # fmt: skip
+    return sums

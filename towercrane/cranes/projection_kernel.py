@@ -2,25 +2,120 @@
 
 The head has five motions of its own: u_x and u_y of the tower's top, th_x and th_y of its tilt, and its turning.
 A tower mode along x moves u_x and th_y, one along y moves u_y and -th_x, torsion and slewing turn. In those motions
-and the jib's modes the mass matrix is that of a rigid body with deflections; each coordinate has one or two of them.
+and the jib's modes the mass matrix is that of a rigid body with deflections.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from functools import reduce
+from operator import add, mul
+from typing import TYPE_CHECKING, Any
 
 from modal.compiled import kernel
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.head_kernel import Head, Vector
 from towercrane.lane_choices import whole
 from towercrane.payload import FORCE, JACOBIAN, MASS
+from towercrane.traced import traced
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 Body = tuple[float, Vector, tuple[float, ...], Vector, Vector]
 """What turns, in the head's axes: mass, first moments, moments of inertia (xx, xy, xz, yy, yz, zz), force, moment."""
 
-SlewingRow = tuple[float, float, float, float, float, float, float, float, float]
-"""What belongs to the slewing: motion of the rope's upper end with it, in fixed axes (3); its row of the mass matrix
-with u_x, u_y, th_x, th_y and itself (5); its moment."""
+Motions = tuple[float, float, float, float, float]
+"""A number for each of the head's own motions u_x, u_y, th_x, th_y and turning."""
+
+Share = tuple[float, tuple[Vector, Vector], tuple[Vector, Vector, Vector], Motions, tuple[Vector, Vector, Vector]]
+"""What turns, in the head's own motions: mass; its couplings of u_x and of u_y with th_x, th_y and turning; inertia
+of these three; forces; and what these three do to the rope's upper end, in fixed axes (x, y, z by row)."""
+
+SlewingRow = tuple[Vector, Motions, float]
+"""What belongs to the slewing: motion of the rope's upper end with it, in fixed axes; its row of the mass matrix;
+its moment."""
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """Cross product."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def dot(a: Sequence[float], b: Sequence[float]) -> float:
+    """Sum of products."""
+    return reduce(add, map(mul, a, b))
+
+
+@traced
+def share_of(head: Head, body: Body, place: Vector) -> Share:
+    """What turns, with the rope's upper end at this place in the head's axes, in the head's own motions."""
+    (r00, r01, r02, r10, r11, r12, r20, r21, r22), turn_x, turn_y = head[:3]
+    mass, first, (ixx, ixy, ixz, iyy, iyz, izz), force, moment = body
+    along_x, along_y, along_z = (r00, r01, r02), (r10, r11, r12), (r20, r21, r22)
+    inertia = (ixx, ixy, ixz), (ixy, iyy, iyz), (ixz, iyz, izz)
+    momentum_x, momentum_y = ([dot(row, turn) for row in inertia] for turn in (turn_x, turn_y))
+    across = dot(turn_x, momentum_y)
+    turned = (
+        (dot(turn_x, momentum_x), across, momentum_x[2]),
+        (across, dot(turn_y, momentum_y), momentum_y[2]),
+        (momentum_x[2], momentum_y[2], izz),
+    )
+    arm_x, arm_y = cross(first, along_x), cross(first, along_y)
+    slid = (
+        (dot(turn_x, arm_x), dot(turn_y, arm_x), arm_x[2]),
+        (dot(turn_x, arm_y), dot(turn_y, arm_y), arm_y[2]),
+    )
+    forces = dot(along_x, force), dot(along_y, force), dot(turn_x, moment), dot(turn_y, moment), moment[2]
+    swept_x, swept_y = cross(turn_x, place), cross(turn_y, place)
+    end_x, end_y, end_z = (
+        (dot(along, swept_x), dot(along, swept_y), along[1] * place[0] - along[0] * place[1])
+        for along in (along_x, along_y, along_z)
+    )
+    return mass, slid, turned, forces, (end_x, end_y, end_z)
+
+
+def _write_jacobian(work: Any, i: int, up: int, end: Vector) -> None:
+    work[JACOBIAN, i] = end[0]
+    # In a plane the second axis is the vertical.
+    work[JACOBIAN + 1, i] = end[1]
+    work[up + JACOBIAN, i] = end[2]
+
+
+@traced
+def project_motion(i: int, up: int, share: Share, vectors: Any, work: Any) -> Motions:
+    """Add the force and write the Jacobian of the rope's upper end for one coordinate of tower or slewing.
+
+    Returns
+    -------
+    tuple of 5 floats
+        The coordinate's share in the momenta of the head's motions.
+    """
+    mass, (slid_x, slid_y), turned, forces, (end_x, end_y, end_z) = share
+    x, y, *turns = [vectors[motion, i] for motion in range(at.MOTIONS)]
+    work[FORCE, i] = work[FORCE, i] + dot(forces, (x, y, *turns))
+    _write_jacobian(work, i, up, (x + dot(end_x, turns), y + dot(end_y, turns), dot(end_z, turns)))
+    rolled, pitched, twisted = (slid_x[k] * x + slid_y[k] * y + dot(turned[k], turns) for k in range(3))
+    return mass * x + dot(slid_x, turns), mass * y + dot(slid_y, turns), rolled, pitched, twisted
+
+
+@traced
+def couple(i: int, m: int, row: Motions, vectors: Any, matrices: Any, work: Any) -> None:
+    """Write the mass matrix of a coordinate, with this share in the head's momenta, and one of tower or slewing."""
+    moved = [vectors[motion, m] for motion in range(at.MOTIONS)]
+    work[i + MASS, m] = matrices[at.OWN, i, m] + dot(row, moved)
+
+
+@traced
+def cap(i: int, vectors: Any, work: Any) -> None:
+    """Add the mass of a coordinate whose frequency is capped."""
+    work[i + MASS, i] = work[i + MASS, i] + vectors[at.CAP, i]
+
+
+@traced
+def slewing_row(share: Share) -> SlewingRow:
+    """What of it belongs to the slewing."""
+    _, (slid_x, slid_y), turned, forces, (end_x, end_y, end_z) = share
+    return (end_x[2], end_y[2], end_z[2]), (slid_x[2], slid_y[2], *turned[2]), forces[4]
 
 
 @kernel(inline=True)
@@ -31,74 +126,56 @@ def project_head(
 
     ``place`` is where the rope's upper end is in the head's axes.
     """
-    up = d - 1
-    to_y = whole(numbers[at.TOWER_X])
-    to_turn = to_y + whole(numbers[at.TOWER_Y])
-    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
-    r00, r01, r02, r10, r11, r12, r20, r21, r22 = head[0]
-    j1x, j1y, j1z = head[1]
-    j2x, j2y, j2z = head[2]
-    mass, (sx, sy, sz), (ixx, ixy, ixz, iyy, iyz, izz), (fx, fy, fz), (mx, my, mz) = body
-    x, dy, dz = place
-
-    # S x (R^T e_x) and S x (R^T e_y); inertia times what th_x and th_y turn.
-    c1x, c1y, c1z = sy * r02 - sz * r01, sz * r00 - sx * r02, sx * r01 - sy * r00
-    c2x, c2y, c2z = sy * r12 - sz * r11, sz * r10 - sx * r12, sx * r11 - sy * r10
-    l1x, l1y, l1z = (ixx * j1x + ixy * j1y + ixz * j1z, ixy * j1x + iyy * j1y + iyz * j1z,
-                     ixz * j1x + iyz * j1y + izz * j1z)  # fmt: skip
-    l2x, l2y, l2z = (ixx * j2x + ixy * j2y + ixz * j2z, ixy * j2x + iyy * j2y + iyz * j2z,
-                     ixz * j2x + iyz * j2y + izz * j2z)  # fmt: skip
-    h_x1, h_x2 = j1x * c1x + j1y * c1y + j1z * c1z, j2x * c1x + j2y * c1y + j2z * c1z
-    h_y1, h_y2 = j1x * c2x + j1y * c2y + j1z * c2z, j2x * c2x + j2y * c2y + j2z * c2z
-    h_11, h_12 = j1x * l1x + j1y * l1y + j1z * l1z, j1x * l2x + j1y * l2y + j1z * l2z
-    h_22 = j2x * l2x + j2y * l2y + j2z * l2z
-    force_x, force_y = r00 * fx + r01 * fy + r02 * fz, r10 * fx + r11 * fy + r12 * fz
-    moment_1, moment_2 = j1x * mx + j1y * my + j1z * mz, j2x * mx + j2y * my + j2z * mz
-    # Motion of the rope's upper end with the two tilts and with slewing, in fixed axes.
-    vx, vy, vz = j1y * dz - j1z * dy, j1z * x - j1x * dz, j1x * dy - j1y * x
-    k1x, k1y, k1z = r00 * vx + r01 * vy + r02 * vz, r10 * vx + r11 * vy + r12 * vz, r20 * vx + r21 * vy + r22 * vz
-    vx, vy, vz = j2y * dz - j2z * dy, j2z * x - j2x * dz, j2x * dy - j2y * x
-    k2x, k2y, k2z = r00 * vx + r01 * vy + r02 * vz, r10 * vx + r11 * vy + r12 * vz, r20 * vx + r21 * vy + r22 * vz
-    k3x, k3y, k3z = r01 * x - r00 * dy, r11 * x - r10 * dy, r21 * x - r20 * dy
-
-    for i in range(to_y):
-        ui, gi = vectors[at.TIP, i], vectors[at.SLOPE, i]
-        work[FORCE, i] += ui * force_x + gi * moment_2
-        work[JACOBIAN, i] = ui + gi * k2x
-        # In a plane the second axis is the vertical.
-        work[JACOBIAN + 1, i] = gi * k2y
-        work[JACOBIAN + up, i] = gi * k2z
-        lean, tip = ui * h_x2 + gi * h_22, ui * mass + gi * h_x2
+    share = share_of(head, body, place)
+    for i in range(whole(numbers[at.LATERAL])):
+        row = project_motion(i, d - 1, share, vectors, work)
         for m in range(i + 1):
-            work[MASS + i, m] = matrices[at.OWN, i, m] + tip * vectors[at.TIP, m] + lean * vectors[at.SLOPE, m]
-        work[MASS + i, i] += vectors[at.CAP, i]
-    for i in range(to_y, to_turn):
-        ui, gi = vectors[at.TIP, i], -vectors[at.SLOPE, i]
-        work[FORCE, i] += ui * force_y + gi * moment_1
-        work[JACOBIAN, i] = gi * k1x
-        work[JACOBIAN + 1, i] = ui + gi * k1y
-        work[JACOBIAN + up, i] = gi * k1z
-        lean, tip = ui * h_y2 + gi * h_12, gi * h_x1
-        for m in range(to_y):
-            work[MASS + i, m] = tip * vectors[at.TIP, m] + lean * vectors[at.SLOPE, m]
-        lean, tip = ui * h_y1 + gi * h_11, ui * mass + gi * h_y1
-        for m in range(to_y, i + 1):
-            work[MASS + i, m] = matrices[at.OWN, i, m] + tip * vectors[at.TIP, m] - lean * vectors[at.SLOPE, m]
-        work[MASS + i, i] += vectors[at.CAP, i]
-    for i in range(to_turn, to_jib):
-        ti = vectors[at.TWIST, i]
-        work[FORCE, i] += ti * mz
-        work[JACOBIAN, i] = ti * k3x
-        work[JACOBIAN + 1, i] = ti * k3y
-        work[JACOBIAN + up, i] = ti * k3z
-        for m in range(to_y):
-            work[MASS + i, m] = ti * (c1z * vectors[at.TIP, m] + l2z * vectors[at.SLOPE, m])
-        for m in range(to_y, to_turn):
-            work[MASS + i, m] = ti * (c2z * vectors[at.TIP, m] - l1z * vectors[at.SLOPE, m])
-        for m in range(to_turn, i + 1):
-            work[MASS + i, m] = matrices[at.OWN, i, m] + ti * izz * vectors[at.TWIST, m]
-        work[MASS + i, i] += vectors[at.CAP, i]
-    return k3x, k3y, k3z, c1z, c2z, l1z, l2z, izz, mz
+            couple(i, m, row, vectors, matrices, work)
+        cap(i, vectors, work)
+    return slewing_row(share)
+
+
+@traced
+def project_lateral(
+    i: int, n: int, up: int, head: Head, pull: Vector, place: Vector, trolley: float, vectors: Any, work: Any
+) -> Motions:
+    """Add the trolley's force and write the Jacobian of the rope's upper end for one jib mode along e2.
+
+    It turns about b e3 - c e1; returns as :func:`project_motion`.
+    """
+    rotation, turn_x, turn_y = head[:3]
+    shape = work[n + (MASS + at.SHAPE), i]
+    mass, moment = vectors[at.JIB_MASS, i] + trolley * shape, vectors[at.JIB_MOMENT, i] + trolley * shape * place[0]
+    crossed = work[n + (MASS + at.ACROSS), i] + trolley * shape * place[2]
+    work[FORCE, i] = work[FORCE, i] + shape * pull[1]
+    _write_jacobian(work, i, up, (shape * rotation[1], shape * rotation[4], shape * rotation[7]))
+    lean_x, lean_y = (moment * turn[2] - crossed * turn[0] for turn in (turn_x, turn_y))
+    return mass * rotation[1], mass * rotation[4], lean_x, lean_y, moment
+
+
+@traced
+def project_vertical(
+    i: int, n: int, up: int, head: Head, pull: Vector, place: Vector, trolley: float, vectors: Any, work: Any
+) -> Motions:
+    """Add the trolley's force and write the Jacobian of the rope's upper end for one jib mode along e3.
+
+    It turns about c e1 - b e2; returns as :func:`project_motion`.
+    """
+    rotation, turn_x, turn_y = head[:3]
+    shape = work[n + (MASS + at.SHAPE), i]
+    mass, moment = vectors[at.JIB_MASS, i] + trolley * shape, vectors[at.JIB_MOMENT, i] + trolley * shape * place[0]
+    crossed = work[n + (MASS + at.ACROSS), i] + trolley * shape * place[1]
+    work[FORCE, i] = work[FORCE, i] + shape * pull[2]
+    _write_jacobian(work, i, up, (shape * rotation[2], shape * rotation[5], shape * rotation[8]))
+    lean_x, lean_y = (crossed * turn[0] - moment * turn[1] for turn in (turn_x, turn_y))
+    return mass * rotation[2], mass * rotation[5], lean_x, lean_y, 0.0
+
+
+@traced
+def join(i: int, m: int, n: int, trolley: float, matrices: Any, work: Any) -> None:
+    """Write the mass matrix of two jib modes of one direction."""
+    carried = trolley * work[n + (MASS + at.SHAPE), i] * work[n + (MASS + at.SHAPE), m]
+    work[i + MASS, m] = matrices[at.OWN, i, m] + carried
 
 
 @kernel(inline=True)
@@ -109,40 +186,19 @@ def project_jib(
 
     ``pull`` is the force on the trolley and ``place`` where it is, in the head's axes.
     """
-    n = vectors.shape[1]
-    up, rotation, turn_x, turn_y = d - 1, head[0], head[1], head[2]
-    shapes, across = MASS + n + at.SHAPE, MASS + n + at.ACROSS
-    to_y = whole(numbers[at.TOWER_X])
-    to_turn = to_y + whole(numbers[at.TOWER_Y])
-    to_jib = to_turn + whole(numbers[at.TORSION]) + whole(numbers[at.DRIVEN])
-    to_vertical = to_jib + whole(numbers[at.LATERAL])
-    trolley, x = numbers[at.TROLLEY_MASS], place[0]
+    n, trolley = vectors.shape[1], numbers[at.TROLLEY_MASS]
+    to_jib, to_vertical = whole(numbers[at.LATERAL]), whole(numbers[at.VERTICAL])
     for i in range(to_jib, n):
-        shape = work[shapes, i]
-        a, b = vectors[at.JIB_MASS, i] + trolley * shape, vectors[at.JIB_MOMENT, i] + trolley * shape * x
+        first = to_jib
         if i < to_vertical:
-            # Along e2, turning about b e3 - c e1.
-            first, twist, ex, ey, ez = to_jib, b, rotation[1], rotation[4], rotation[7]
-            crossed = work[across, i] + trolley * shape * place[2]
-            lean_x, lean_y = b * turn_x[2] - crossed * turn_x[0], b * turn_y[2] - crossed * turn_y[0]
-            work[FORCE, i] += shape * pull[1]
+            row = project_lateral(i, n, d - 1, head, pull, place, trolley, vectors, work)
         else:
-            # Along e3, turning about c e1 - b e2.
-            first, twist, ex, ey, ez = to_vertical, 0.0, rotation[2], rotation[5], rotation[8]
-            crossed = work[across, i] + trolley * shape * place[1]
-            lean_x, lean_y = crossed * turn_x[0] - b * turn_x[1], crossed * turn_y[0] - b * turn_y[1]
-            work[FORCE, i] += shape * pull[2]
+            row = project_vertical(i, n, d - 1, head, pull, place, trolley, vectors, work)
+            first = to_vertical
             for m in range(to_jib, to_vertical):
                 work[MASS + i, m] = 0.0
-        work[JACOBIAN, i] = shape * ex
-        work[JACOBIAN + 1, i] = shape * ey
-        work[JACOBIAN + up, i] = shape * ez
-        for m in range(to_y):
-            work[MASS + i, m] = a * ex * vectors[at.TIP, m] + lean_y * vectors[at.SLOPE, m]
-        for m in range(to_y, to_turn):
-            work[MASS + i, m] = a * ey * vectors[at.TIP, m] - lean_x * vectors[at.SLOPE, m]
-        for m in range(to_turn, to_jib):
-            work[MASS + i, m] = twist * vectors[at.TWIST, m]
+        for m in range(to_jib):
+            couple(i, m, row, vectors, matrices, work)
         for m in range(first, i + 1):
-            work[MASS + i, m] = matrices[at.OWN, i, m] + trolley * shape * work[shapes, m]
-        work[MASS + i, i] += vectors[at.CAP, i]
+            join(i, m, n, trolley, matrices, work)
+        cap(i, vectors, work)

@@ -142,7 +142,7 @@ class RadialModel:
     def tip_shapes(self) -> Floats:
         """Displacement of the tower top and deflection of the jib tip per coordinate; shape (2, coordinates)."""
         shapes = np.zeros((2, self.coordinates))
-        shapes[0] = self.system.vectors[layout.TIP]
+        shapes[0] = self.system.vectors[layout.SLIDE_X]
         shapes[1, self.tower_modes :] = self.scene.crane.tip_shapes[:, 0]
         return shapes
 
