@@ -28,6 +28,7 @@ def arithmetic(a, pair, fixed):
         a / 3.0,
         -a,
         -(b - c),
+        b / c,
     ]
     return (sum(parts[:4], fixed[1]), (parts[4], tuple(parts[5:])), 7.0)
 
