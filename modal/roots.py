@@ -190,7 +190,7 @@ def _count(x: float, a_body: float, a_beam: float, j_body: float, j_beam: float,
     return below if below > 0 else 0
 
 
-@kernel()
+@kernel(inline=True)
 def _refine(low: float, high: float, a_body: float, a_beam: float, j_body: float, j_beam: float, h: float) -> float:
     """Root of F between two points of opposite sign (Brent 1973, Algorithms for Minimization, ch. 4)."""
     a, b = low, high

@@ -5,9 +5,9 @@ import pytest
 from numba import types
 
 from modal.compiled import kernel
+from modal.traced import traced
 from towercrane.lane_arrays import in_lanes
 from towercrane.lane_vector import LANES
-from towercrane.traced import traced
 
 
 def arithmetic(a, pair, fixed):

@@ -1,4 +1,4 @@
-"""The first compilation of the kernels, spread over processes."""
+"""The first compilation of the kernels, spread over two processes."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from importlib import import_module
 
 from modal.compiled import is_compiled
 
-STEPPER = "towercrane.stepper"
-
-FLEXIBLE = "towercrane.cranes.flexible_rhs", "modal.roots", "towercrane.cranes.head_motions"
+FLEXIBLE = "towercrane.cranes.flexible_rhs", "modal.roots"
 LUMPED = ("towercrane.cranes.lumped_kernel",)
 
 EQUATIONS = {
@@ -21,9 +19,6 @@ EQUATIONS = {
 }
 """Modules whose import compiles what a kind of crane needs; all other kinds are lumped."""
 
-AHEAD = {"towercrane.cranes.flexible_rhs": "towercrane.cranes.flexible_load"}
-"""Modules whose import compiles a part of another's kernels, so that a process beside it can be ahead with that."""
-
 
 def missing_kernels(kind: str, *needed: str) -> tuple[str, ...]:
     """Modules of kernels that a kind of crane, or a command besides, needs and that are not compiled yet."""
@@ -31,23 +26,13 @@ def missing_kernels(kind: str, *needed: str) -> tuple[str, ...]:
     return tuple(module for module in modules if not is_compiled(module))
 
 
-def compile_kernels(modules: tuple[str, ...]) -> None:
-    """Import modules of kernels, the first here, the others in two processes beside: all leave code in the cache."""
-    here, *others = modules
-    groups: list[list[str]] = [[AHEAD[here]] if here in AHEAD else [], []]
-    for module in others:
-        # The integrator takes about as long as the other parts of the equations; what is left is small.
-        groups[0 if module == STEPPER else 1].append(module)
-    # A process that fails does no harm: what it should have compiled is compiled where it is used.
-    beside = [
-        subprocess.Popen(
-            [sys.executable, "-c", f"import {', '.join(group)}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-        for group in groups
-        if group
-    ]
+def compile_kernels(here: str, *beside: str) -> None:
+    """Import modules of kernels, the first here, the others in a process beside: all leave code in the cache."""
+    command = [sys.executable, "-c", f"import {', '.join(beside)}"]
+    # If it fails, it does no harm: what it should have compiled is compiled where it is used.
+    other = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) if beside else None
     try:
         import_module(here)
     finally:
-        for process in beside:
-            process.wait()
+        if other:
+            other.wait()

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from modal.compiled import kernel
-from towercrane.traced import traced
+from modal.traced import traced
 
 AIR_DENSITY = 1.225
 """Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""
@@ -261,7 +261,7 @@ def _less(value: float, i: int, j: int, m: int, work: Any) -> float:
     return value - work[i + MASS, m] * work[j + MASS, m]
 
 
-@kernel()
+@kernel(inline=True)
 def _solve(work: Any, x: Any, n: int, first: int) -> None:
     """Solve M x = b in place by Cholesky; b and x are n entries of x from ``first``, M is overwritten."""
     for i in range(n):

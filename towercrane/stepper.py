@@ -36,7 +36,7 @@ _rhs = types.FunctionType(rhs_signature())
 _constants = (_two, _one, _two, _three, _three, _two)
 
 
-@kernel()
+@kernel(inline=True)
 def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, atol: Any) -> float:
     """Norm of the error estimate; at most 1 is accepted. Two rows are combined as in dop853.f."""
     first, second, active = 0.0, 0.0, 0
@@ -101,7 +101,7 @@ def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
         out[m] = y[m] + h * out[m]
 
 
-@kernel()
+@kernel(inline=True)
 def first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> float:
     """First guess of a step, from the size of state and slope."""
     size, speed = 0.0, 0.0

@@ -47,7 +47,7 @@ def announce_compilation(kind: str, *needed: str) -> None:
 
     if missing := missing_kernels(kind, *needed):
         say("compiling for the first time, some seconds; later runs start at once ...")
-        compile_kernels(missing)
+        compile_kernels(*missing)
 
 
 @contextmanager

@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from modal.compiled import kernel
+from modal.traced import traced
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.head_kernel import Head, Vector, move_head, tilt_functions
 from towercrane.cranes.jib_kernel import bend_jib
@@ -27,7 +28,6 @@ from towercrane.cranes.projection_kernel import Body, SlewingRow, dot, project_h
 from towercrane.lane_choices import nth, whole
 from towercrane.payload import BIAS, FORCE, VELOCITY, WIND
 from towercrane.polynomial import polynomial
-from towercrane.traced import traced
 
 
 @traced

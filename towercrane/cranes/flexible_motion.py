@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes.head_motions import ROTATION, SIZE, SPIN, move_heads
+from towercrane.cranes.head_motions import HeadMotion, head_motion
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -110,25 +110,22 @@ class FlexibleMotion:
         return self.twist + self.slewing[0]
 
     @cached_property
-    def heads(self) -> Floats:
-        """Rows of :func:`towercrane.cranes.head_kernel.move_head`, shape (p, SIZE)."""
+    def head(self) -> HeadMotion:
+        """Orientation and motion of the head."""
         (_, tilt), (velocity, tilting) = self.top(self.coordinates), self.top(self.rates)
         turning = self.along(layout.TURN, ("torsion",), self.rates) + self.slewing[1]
         acceleration = self.drive("slewing", 2)
-        columns = [*tilt.T, *tilting.T, self.heading, turning, acceleration, *velocity.T]
-        heads = np.empty((len(self.times), SIZE))
-        move_heads(np.ascontiguousarray(np.stack(columns, axis=1)), heads)
-        return heads
+        return head_motion(tilt, tilting, self.heading, turning, acceleration, velocity)
 
     @property
     def axes(self) -> Floats:
         """Axes of the head as columns: along the jib, to its left, up; shape (p, 3, 3)."""
-        return self.heads[:, ROTATION : ROTATION + 9].reshape(-1, 3, 3)
+        return self.head.rotation
 
     @property
     def spin(self) -> Floats:
         """Angular velocity of the head in its own axes [rad/s], shape (p, 3)."""
-        return self.heads[:, SPIN : SPIN + 3]
+        return self.head.spin
 
     def to_fixed(self, vectors: Floats) -> Floats:
         """From the head's axes to the fixed ones; shapes (p, 3)."""

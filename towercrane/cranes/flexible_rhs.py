@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from modal.compiled import kernel
+from modal.traced import traced
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.drive_kernel import coupling_torque
 from towercrane.cranes.flexible_kernel import structure
@@ -15,14 +16,13 @@ from towercrane.lane_choices import whole
 from towercrane.payload import ACCELERATION, DIRECTION, FORCE, HINGE, MASS, hang_load
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
-from towercrane.traced import traced
 
 if TYPE_CHECKING:
     from towercrane.cranes.head_kernel import Vector
     from towercrane.cranes.projection_kernel import Motions, SlewingRow
 
 
-@kernel()
+@kernel(inline=True)
 def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> tuple[float, float, float]:
     """Add the drive's torque to the slewing coordinate's force.
 

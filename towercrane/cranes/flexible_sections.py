@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes.head_motions import SPIN_BIAS, TURN_X, TURN_Y
 from towercrane.integrate import evaluate
 from towercrane.motion import phases
 
@@ -59,9 +58,8 @@ class SectionLoads:
         motion = self.motion
         straight, tilting = motion.top(self.accelerations)
         turning = motion.along(layout.TURN, ("torsion", "slewing"), self.accelerations)
-        spin = motion.heads[:, SPIN_BIAS : SPIN_BIAS + 3].copy()
-        spin += tilting[:, :1] * motion.heads[:, TURN_X : TURN_X + 3]
-        spin += tilting[:, 1:] * motion.heads[:, TURN_Y : TURN_Y + 3]
+        head = motion.head
+        spin = head.spin_bias + tilting[:, :1] * head.turn_x + tilting[:, 1:] * head.turn_y
         spin[:, 2] += turning
         return motion.to_head(np.column_stack([straight, np.zeros(len(spin))])), spin
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from modal.compiled import kernel
+from modal.traced import traced
 from towercrane.lane_choices import below, choose, everywhere
-from towercrane.traced import traced
 
 Vector = tuple[float, float, float]
 

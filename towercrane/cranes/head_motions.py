@@ -1,37 +1,61 @@
-"""Compiled motion of the head of a flexible crane over time, for what is observed of a run."""
+"""Motion of the head of a flexible crane over time, for what is observed of a run."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numba import types
 
-from modal.compiled import kernel
-from towercrane.cranes.head_kernel import move_head, tilt_functions
+from towercrane.cranes.head_kernel import NEARLY_UPRIGHT, leaning_functions, move_head, upright_functions
 
-ROTATION, TURN_X, TURN_Y, SPIN, SPIN_BIAS, TOP_VELOCITY, SIZE = 0, 9, 12, 15, 18, 21, 24
-"""Where these begin in a row of :func:`move_heads`, and how many numbers they are."""
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
 
 
-@kernel(types.void(types.float64[:, ::1], types.float64[:, ::1]))
-def move_heads(motions: Any, heads: Any) -> None:
-    """:func:`move_head` over time, for each row of ``heads`` (p, SIZE).
+class HeadMotion(NamedTuple):
+    """What :data:`towercrane.cranes.head_kernel.Head` is at an instant, at many of them."""
 
-    A row of motions holds tilt vector and rate, Psi, its rate and prescribed acceleration, and the top's velocity.
+    rotation: Floats
+    """From the head's axes to the fixed ones, shape (p, 3, 3)."""
+    turn_x: Floats
+    """What a rate of th_x turns, in the head's axes like all that follow; shape (p, 3)."""
+    turn_y: Floats
+    spin: Floats
+    """Angular velocity [rad/s]."""
+    spin_bias: Floats
+    """Angular acceleration while all rates are constant [rad/s^2]."""
+    top_velocity: Floats
+    """Velocity of the tower's top [m/s]."""
+
+
+def head_motion(
+    tilt: Floats, tilting: Floats, turn: Floats, turning: Floats, acceleration: Floats, velocity: Floats
+) -> HeadMotion:
+    """:func:`towercrane.cranes.head_kernel.move_head` over time.
+
+    Parameters
+    ----------
+    tilt, tilting, velocity : ndarray, shape (p, 2)
+        Tilt vector, its rate, and velocity of the tower's top.
+    turn, turning, acceleration : ndarray, shape (p,)
+        Psi, its rate, and the part of its second derivative that is prescribed.
     """
-    for row in range(motions.shape[0]):
-        tilt = motions[row, 0], motions[row, 1], motions[row, 2], motions[row, 3]
-        functions = tilt_functions(tilt[0] * tilt[0] + tilt[1] * tilt[1])
-        rotation, turn_x, turn_y, spin, bias, top = move_head(
-            tilt, functions, np.cos(motions[row, 4]), np.sin(motions[row, 4]), motions[row, 5], motions[row, 6],
-            motions[row, 7], motions[row, 8],
-        )  # fmt: skip
-        for k in range(9):
-            heads[row, ROTATION + k] = rotation[k]
-        for k in range(3):
-            heads[row, TURN_X + k] = turn_x[k]
-            heads[row, TURN_Y + k] = turn_y[k]
-            heads[row, SPIN + k] = spin[k]
-            heads[row, SPIN_BIAS + k] = bias[k]
-            heads[row, TOP_VELOCITY + k] = top[k]
+    square = np.einsum("ti,ti->t", tilt, tilt)
+    near = square < NEARLY_UPRIGHT
+    large = np.where(near, 1.0, square)
+    f = np.sqrt(large)
+    functions = [
+        np.where(near, upright, leaning)
+        for upright, leaning in zip(
+            upright_functions.py_func(square),
+            leaning_functions.py_func(f, large, np.sin(f), np.cos(f)),
+            strict=True,
+        )
+    ]
+    parts = move_head.py_func(
+        (*tilt.T, *tilting.T), functions, np.cos(turn), np.sin(turn), turning, acceleration, *velocity.T
+    )
+    rotation, *vectors = (np.stack(part, axis=-1) for part in parts)
+    return HeadMotion(rotation.reshape(-1, 3, 3), *vectors)

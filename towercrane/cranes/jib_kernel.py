@@ -6,9 +6,9 @@ from operator import add
 from typing import TYPE_CHECKING, Any
 
 from modal.compiled import kernel
+from modal.traced import traced
 from towercrane.cranes import flexible_layout as at
 from towercrane.payload import FORCE, MASS
-from towercrane.traced import traced
 
 if TYPE_CHECKING:
     from towercrane.cranes.head_kernel import Vector

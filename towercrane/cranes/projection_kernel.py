@@ -12,11 +12,11 @@ from operator import add, mul
 from typing import TYPE_CHECKING, Any
 
 from modal.compiled import kernel
+from modal.traced import traced
 from towercrane.cranes import flexible_layout as at
 from towercrane.cranes.head_kernel import Head, Vector
 from towercrane.lane_choices import whole
 from towercrane.payload import FORCE, JACOBIAN, MASS
-from towercrane.traced import traced
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

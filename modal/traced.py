@@ -16,8 +16,6 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 from numba.np import arrayobj
 
-from towercrane.lane_vector import VECTOR
-
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -29,7 +27,7 @@ _pointer: Any = cgutils.get_item_pointer
 
 
 class _Operand:
-    """A number, or lane vector, that is known when the kernel runs; without a builder only its type is wanted."""
+    """A number, or what numbers convert to, that is known when the kernel runs; without a builder only a type."""
 
     def __init__(self, kind: Any, value: Any = None, context: Any = None, builder: Any = None) -> None:
         self.kind, self.value, self.context, self.builder = kind, value, context, builder
@@ -42,7 +40,8 @@ class _Operand:
     def _with(self, instruction: str, other: Any, *, swapped: bool = False) -> _Operand:
         a, b = (_operand(other), self) if swapped else (self, _operand(other))
         whole = instruction != "div" and a.is_whole and b.is_whole
-        kind = types.int64 if whole else VECTOR if VECTOR in (a.kind, b.kind) else types.float64
+        wider = (own for own in (a.kind, b.kind) if not isinstance(own, types.Number))
+        kind = types.int64 if whole else next(wider, types.float64)
         if self.builder is None:
             return _Operand(kind)
         values = (self.context.cast(self.builder, operand.value, operand.kind, kind) for operand in (a, b))
@@ -147,6 +146,11 @@ def traced(function: Callable[..., Any]) -> Any:
         What Python does with tuples, with functions it calls and with what is known beforehand leaves no trace in
         the kernel. As the numbers themselves are not known yet, it cannot ask about them: a branch on one, or a loop
         over so many, goes into the kernel.
+
+    Returns
+    -------
+    callable
+        For kernels; its ``py_func`` is the function as it was, which takes numbers or arrays of them.
     """
 
     def typed(_context: Any, *kinds: Any) -> Any:
@@ -162,4 +166,6 @@ def traced(function: Callable[..., Any]) -> Any:
     parameters = inspect.signature(function).parameters.values()
     typed.__signature__ = inspect.Signature([asked, *parameters])  # type: ignore[attr-defined]
     typed.__name__, typed.__doc__ = function.__name__, function.__doc__
-    return _intrinsic(typed)
+    made = _intrinsic(typed)
+    made.py_func = function
+    return made
