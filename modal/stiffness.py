@@ -20,6 +20,7 @@ import numpy as np
 from numba import types
 
 from modal.compiled import kernel
+from modal.traced import traced
 
 (LENGTH, MASS, BENDING, SHEAR_FLEXIBILITY, ROTARY, RATIO, MASS_POWER, BENDING_POWER, SHEAR_POWER,
  COMPRESSION, WEIGHT, ENGESSER, SHORT) = range(13)  # fmt: skip
@@ -205,6 +206,40 @@ def state_series(series: Any, terms: int, state: Any) -> None:
     state[TERMS, 4] = 0.0
 
 
+@traced
+def _from_transfer(T: Any, unit: float, length: float, out: Any) -> None:
+    """Stiffness for near end and departure into ``out``, from what the near state gives at the far end, ``T``."""
+    # Departure d' = E d + F p, far forces p' = G d + (R^-T + H) p with the near motion d and the near forces p; R
+    # moves the far end rigidly. F is the block above right, inverted here.
+    determinant = T[0, 2] * T[1, 3] - T[0, 3] * T[1, 2]
+    i00, i01 = T[1, 3] / determinant, -T[0, 3] / determinant
+    i10, i11 = -T[1, 2] / determinant, T[0, 2] / determinant
+    # R^T H and R^T G, R = [[1, 1], [0, 1]] in lengths of the piece.
+    h00, h01 = T[2, 2], T[2, 3]
+    h10, h11 = T[2, 2] + T[3, 2], T[2, 3] + T[3, 3]
+    g00, g01 = T[2, 0], T[2, 1]
+    g11 = T[2, 1] + T[3, 1]
+    # Near, with departure: R^T H F^-1.
+    out[0, 2], out[0, 3] = h00 * i00 + h01 * i10, h00 * i01 + h01 * i11
+    out[1, 2], out[1, 3] = h10 * i00 + h11 * i10, h10 * i01 + h11 * i11
+    out[0, 0] = g00 - out[0, 2] * T[0, 0] - out[0, 3] * T[1, 0]
+    out[0, 1] = g01 - out[0, 2] * T[0, 1] - out[0, 3] * T[1, 1]
+    out[1, 1] = g11 - out[1, 2] * T[0, 1] - out[1, 3] * T[1, 1]
+    # Departure: (R^-T + H) F^-1, R^-T = [[1, 0], [-1, 1]].
+    out[2, 2] = (1.0 + T[2, 2]) * i00 + T[2, 3] * i10
+    out[2, 3] = (1.0 + T[2, 2]) * i01 + T[2, 3] * i11
+    out[3, 3] = (T[3, 2] - 1.0) * i01 + (1.0 + T[3, 3]) * i11
+    for i in range(4):
+        for j in range(i, 4):
+            value = out[i, j] * unit
+            if i % 2 == 1:
+                value = value * length
+            if j % 2 == 1:
+                value = value * length
+            out[i, j] = value
+            out[j, i] = value
+
+
 @kernel(types.void(_one, types.float64, types.float64, types.float64, types.float64, _two, _two, _two, _two))
 def relative_stiffness(
     segment: Any, start: float, length: float, omega2: float, load: float, series: Any, state: Any, T: Any, out: Any
@@ -231,50 +266,21 @@ def relative_stiffness(
             for k in range(TERMS, 0, -1):
                 total += state[k, i]
             T[i, column] = total
-    # Departure d' = E d + F p, far forces p' = G d + (R^-T + H) p with the near motion d and the near forces p; R
-    # moves the far end rigidly. F is the block above right, inverted here.
-    determinant = T[0, 2] * T[1, 3] - T[0, 3] * T[1, 2]
-    i00, i01 = T[1, 3] / determinant, -T[0, 3] / determinant
-    i10, i11 = -T[1, 2] / determinant, T[0, 2] / determinant
-    # R^T H and R^T G, R = [[1, 1], [0, 1]] in lengths of the piece.
-    h00, h01 = T[2, 2], T[2, 3]
-    h10, h11 = T[2, 2] + T[3, 2], T[2, 3] + T[3, 3]
-    g00, g01 = T[2, 0], T[2, 1]
-    g11 = T[2, 1] + T[3, 1]
-    # Near, with departure: R^T H F^-1.
-    out[0, 2], out[0, 3] = h00 * i00 + h01 * i10, h00 * i01 + h01 * i11
-    out[1, 2], out[1, 3] = h10 * i00 + h11 * i10, h10 * i01 + h11 * i11
-    out[0, 0] = g00 - out[0, 2] * T[0, 0] - out[0, 3] * T[1, 0]
-    out[0, 1] = g01 - out[0, 2] * T[0, 1] - out[0, 3] * T[1, 1]
-    out[1, 1] = g11 - out[1, 2] * T[0, 1] - out[1, 3] * T[1, 1]
-    # Departure: (R^-T + H) F^-1, R^-T = [[1, 0], [-1, 1]].
-    out[2, 2] = (1.0 + T[2, 2]) * i00 + T[2, 3] * i10
-    out[2, 3] = (1.0 + T[2, 2]) * i01 + T[2, 3] * i11
-    out[3, 3] = (T[3, 2] - 1.0) * i01 + (1.0 + T[3, 3]) * i11
     slope = (segment[RATIO] - 1.0) / segment[LENGTH]
     bending = segment[BENDING] * (1.0 + slope * start) ** segment[BENDING_POWER]
-    unit = bending / length**3
-    for i in range(4):
-        for j in range(i, 4):
-            value = out[i, j] * unit
-            if i % 2 == 1:
-                value *= length
-            if j % 2 == 1:
-                value *= length
-            out[i, j] = value
-            out[j, i] = value
+    _from_transfer(T, bending / length**3, length, out)
 
 
-@kernel(types.void(_two, types.float64))
+@traced
 def make_absolute(matrix: Any, length: float) -> None:
     """Turn a relative stiffness (4, 4) into that for (v, theta) at both ends, in place."""
     a, b, c = matrix[2, 2], matrix[2, 3], matrix[3, 3]
     # R^T C, then near with far B - R^T C, then near A - B R - R^T B^T + R^T C R.
     rows = (a, b, length * a + b, length * b + c)
     b00, b01, b10, b11 = matrix[0, 2], matrix[0, 3], matrix[1, 2], matrix[1, 3]
-    matrix[0, 0] += rows[0] - 2.0 * b00
-    matrix[0, 1] += rows[0] * length + rows[1] - b00 * length - b01 - b10
-    matrix[1, 1] += rows[2] * length + rows[3] - 2.0 * (b10 * length + b11)
+    matrix[0, 0] = matrix[0, 0] + rows[0] - 2.0 * b00
+    matrix[0, 1] = matrix[0, 1] + (rows[0] * length + rows[1] - b00 * length - b01 - b10)
+    matrix[1, 1] = matrix[1, 1] + (rows[2] * length + rows[3] - 2.0 * (b10 * length + b11))
     matrix[0, 2], matrix[0, 3] = b00 - rows[0], b01 - rows[1]
     matrix[1, 2], matrix[1, 3] = b10 - rows[2], b11 - rows[3]
     for i in range(4):
@@ -282,13 +288,23 @@ def make_absolute(matrix: Any, length: float) -> None:
             matrix[i, j] = matrix[j, i]
 
 
-@kernel(types.void(_one, types.float64, types.float64, types.float64, types.float64, _two, _two, _two, _two))
-def piece_stiffness(
-    segment: Any, start: float, length: float, omega2: float, load: float, series: Any, state: Any, T: Any, out: Any
-) -> None:
-    """Dynamic stiffness (4, 4) of one piece for (v, theta) at both its ends; arguments of `relative_stiffness`."""
-    relative_stiffness(segment, start, length, omega2, load, series, state, T, out)
-    make_absolute(out, length)
+@traced
+def _condense(near: Any, piece: Any, recovery: Any, i00: float, i01: float, i11: float) -> None:
+    """Take the node between out, of whose stiffness this is the inverse."""
+    for j in range(2):
+        recovery[0, j] = -(i00 * near[2, j] + i01 * near[3, j])
+        recovery[1, j] = -(i01 * near[2, j] + i11 * near[3, j])
+        recovery[0, 2 + j] = -(i00 * piece[0, 2 + j] + i01 * piece[1, 2 + j])
+        recovery[1, 2 + j] = -(i01 * piece[0, 2 + j] + i11 * piece[1, 2 + j])
+    for i in range(2):
+        for j in range(2):
+            near[i, j] = near[i, j] + (near[i, 2] * recovery[0, j] + near[i, 3] * recovery[1, j])
+    for i in range(2):
+        deflection, rotation = near[i, 2], near[i, 3]
+        for j in range(2, 4):
+            near[i, j] = deflection * recovery[0, j] + rotation * recovery[1, j]
+            near[j, i] = near[i, j]
+            near[2 + i, j] = piece[2 + i, j] + piece[2 + i, 0] * recovery[0, j] + piece[2 + i, 1] * recovery[1, j]
 
 
 @kernel(types.int64(_two, _two, _two))
@@ -306,19 +322,5 @@ def join(near: Any, piece: Any, recovery: Any) -> int:
         a *= 1.0 + 1e-15
         determinant = a * c - b * b
     negative = 1 if determinant < 0.0 else (2 if a + c < 0.0 else 0)
-    i00, i01, i11 = c / determinant, -b / determinant, a / determinant
-    for j in range(2):
-        recovery[0, j] = -(i00 * near[2, j] + i01 * near[3, j])
-        recovery[1, j] = -(i01 * near[2, j] + i11 * near[3, j])
-        recovery[0, 2 + j] = -(i00 * piece[0, 2 + j] + i01 * piece[1, 2 + j])
-        recovery[1, 2 + j] = -(i01 * piece[0, 2 + j] + i11 * piece[1, 2 + j])
-    for i in range(2):
-        for j in range(2):
-            near[i, j] += near[i, 2] * recovery[0, j] + near[i, 3] * recovery[1, j]
-    for i in range(2):
-        deflection, rotation = near[i, 2], near[i, 3]
-        for j in range(2, 4):
-            near[i, j] = deflection * recovery[0, j] + rotation * recovery[1, j]
-            near[j, i] = near[i, j]
-            near[2 + i, j] = piece[2 + i, j] + piece[2 + i, 0] * recovery[0, j] + piece[2 + i, 1] * recovery[1, j]
+    _condense(near, piece, recovery, c / determinant, -b / determinant, a / determinant)
     return negative

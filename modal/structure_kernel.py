@@ -15,21 +15,16 @@ from numba import types
 
 from modal.compiled import kernel
 from modal.stiffness import (
-    BENDING,
-    BENDING_POWER,
     LENGTH,
     RATIO,
     SHORT,
     TERMS,
     WEIGHT,
     cell_end,
-    coefficients,
     join,
     make_absolute,
-    piece_stiffness,
     pieces_within,
     relative_stiffness,
-    state_series,
 )
 
 UNSTABLE = 1 << 30
@@ -42,7 +37,7 @@ _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:,
 _structure = (_two, _three, _three)
 
 
-@kernel()
+@kernel(inline=True)
 def _segment_stiffness(
     segment: Any, omega2: float, load: float, series: Any, state: Any, T: Any, piece: Any, recovery: Any, total: Any
 ) -> int:
@@ -59,10 +54,10 @@ def _segment_stiffness(
             return UNSTABLE
         length = (far - near) / pieces
         for i in range(pieces):
-            if segment[SHORT] != 0.0:
-                relative_stiffness(segment, near, length, omega2, load, series, state, T, piece)
-            elif i == 0 or not uniform:
-                piece_stiffness(segment, near + i * length, length, omega2, load, series, state, T, piece)
+            if i == 0 or not uniform:
+                relative_stiffness(segment, near + i * length, length, omega2, load, series, state, T, piece)
+                if segment[SHORT] == 0.0:
+                    make_absolute(piece, length)
             if first:
                 for row in range(4):
                     for column in range(4):
@@ -100,7 +95,7 @@ def dynamic_stiffness(omega2: float, load: float, segments: Any, motions: Any, p
     return count
 
 
-@kernel(allocates=True)
+@kernel(inline=True)
 def _eigenvalues(matrix: Any, scale: Any, values: Any) -> None:
     """Eigenvalues (n,) of a symmetric matrix, scaled in place, into ``values``, ascending."""
     for i in range(matrix.shape[0]):
@@ -112,7 +107,7 @@ def _eigenvalues(matrix: Any, scale: Any, values: Any) -> None:
         values[i] = found[i]
 
 
-@kernel()
+@kernel(inline=True)
 def _crossing(inside: int, values: Any, k: int) -> float:
     """The eigenvalue that crosses zero, downward, at the k-th root."""
     if inside >= k:
@@ -121,7 +116,7 @@ def _crossing(inside: int, values: Any, k: int) -> float:
     return float(values[index]) if index < values.size else np.inf
 
 
-@kernel()
+@kernel(inline=True)
 def _between(near: float, f_near: float, far: float, f_far: float, third: float, f_third: float) -> float:
     """Next trial in a bracket: inverse quadratic interpolation where it is safe, else halving (Chandrupatla 1997)."""
     middle = 0.5 * (near + far)
@@ -153,11 +148,12 @@ def find_roots(
     are fewer below ``limit``.
     """
     n = points.shape[1]
-    matrix, values, static, scale = np.zeros((n, n)), np.zeros(n), np.zeros(n), np.zeros(n)
+    # Scratch is all of two axes: numba compiles what makes an array anew for each number of them.
+    matrix, sizes, bounds = np.zeros((n, n)), np.zeros((3, n)), np.zeros((2, roots.size))
+    (values, static, scale), (low, high) = (sizes[0], sizes[1], sizes[2]), (bounds[0], bounds[1])
     dynamic_stiffness(0.0, 0.0, segments, motions, points, matrix)
     for i in range(n):
         static[i] = matrix[i, i]
-    low, high = np.zeros(roots.size), np.zeros(roots.size)
     for i in range(roots.size):
         high[i] = np.inf
 
@@ -222,71 +218,3 @@ def piece_ends(segment: Any, omega2: float, load: float, out: Any) -> int:
                 out[total] = far if i == pieces else near + (far - near) * i / pieces
         near = far
     return total
-
-
-@kernel(types.void(_one, _one, types.float64, types.float64, _one, _three), allocates=True)
-def segment_shape(segment: Any, ends: Any, omega2: float, load: float, held: Any, out: Any) -> None:
-    """Taylor coefficients of (v, theta, V, M, v') in every piece of a segment, from (v, theta) at its two ends.
-
-    Parameters
-    ----------
-    segment : ndarray, shape (13,)
-    ends : ndarray, shape (p + 1,)
-        Ends of the pieces.
-    held : ndarray, shape (4,)
-        (v, theta) at the near and the far end; of a short segment the far end's departure.
-    out : ndarray, shape (p, TERMS + 1, 5)
-        Coefficients in the fraction of the piece's length.
-    """
-    pieces = ends.size - 1
-    series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
-    total, piece, recovery = np.zeros((4, 4)), np.zeros((4, 4)), np.zeros((pieces, 2, 4))
-    relative, nodes, departure = np.zeros((pieces, 4, 4)), np.zeros((pieces + 1, 2)), np.zeros(2)
-    for p in range(pieces):
-        length = ends[p + 1] - ends[p]
-        relative_stiffness(segment, ends[p], length, omega2, load, series, state, T, relative[p])
-        for i in range(4):
-            for j in range(4):
-                piece[i, j] = relative[p, i, j]
-        make_absolute(piece, length)
-        if p == 0:
-            for i in range(4):
-                for j in range(4):
-                    total[i, j] = piece[i, j]
-        else:
-            join(total, piece, recovery[p])
-    nodes[0, 0], nodes[0, 1], nodes[pieces, 0], nodes[pieces, 1] = held[0], held[1], held[2], held[3]
-    for p in range(pieces - 1, 0, -1):
-        for i in range(2):
-            nodes[p, i] = (
-                recovery[p, i, 0] * nodes[0, 0]
-                + recovery[p, i, 1] * nodes[0, 1]
-                + recovery[p, i, 2] * nodes[p + 1, 0]
-                + recovery[p, i, 3] * nodes[p + 1, 1]
-            )
-    for p in range(pieces):
-        length = ends[p + 1] - ends[p]
-        terms = coefficients(segment, ends[p], length, omega2, load, series)
-        breadth = 1.0 + (segment[RATIO] - 1.0) * ends[p] / segment[LENGTH]
-        bending = segment[BENDING] * breadth ** segment[BENDING_POWER]
-        departure[0], departure[1] = nodes[p + 1, 0], nodes[p + 1, 1]
-        if segment[SHORT] == 0.0:
-            departure[0] -= nodes[p, 0] + length * nodes[p, 1]
-            departure[1] -= nodes[p, 1]
-        # Force on the far end, then on the near end with the far one held, with which the state begins, negative.
-        K = relative[p]
-        far_force, far_moment, force, moment = 0.0, 0.0, 0.0, 0.0
-        for j in range(2):
-            far_force += K[2, j] * nodes[p, j] + K[2, 2 + j] * departure[j]
-            far_moment += K[3, j] * nodes[p, j] + K[3, 2 + j] * departure[j]
-            force -= K[0, j] * nodes[p, j] + K[0, 2 + j] * departure[j]
-            moment -= K[1, j] * nodes[p, j] + K[1, 2 + j] * departure[j]
-        force += far_force
-        moment += length * far_force + far_moment
-        units = (length, 1.0, bending / length**2, bending / length, 1.0)
-        state[0, 0], state[0, 1] = nodes[p, 0] / length, nodes[p, 1]
-        state[0, 2], state[0, 3] = force / units[2], moment / units[3]
-        state_series(series, terms, state)
-        for k in range(TERMS + 1):
-            for i in range(5):
-                out[p, k, i] = state[k, i] * units[i]

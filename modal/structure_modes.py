@@ -222,7 +222,8 @@ def _orthonormal(modes: StructureModes) -> Floats:
 
 def _part_shapes(ready: Assembly, part: str, vectors: Floats, omega: Floats) -> PartShapes:
     """Shapes along one part from the motion of its nodes."""
-    from modal.structure_kernel import piece_ends, segment_shape
+    from modal.shape_kernel import segment_shape
+    from modal.structure_kernel import piece_ends
 
     length, force, frequency = ready.units
     squares = (omega / frequency) ** 2

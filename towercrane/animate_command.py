@@ -82,7 +82,7 @@ def animate(
         _nothing(loaded, finished)
     duration = loaded.run.duration if finished is None else float(finished["time"][-1])
     playback = _playback(duration, start, end, speed, frames_per_second)
-    announce_compilation(loaded.kind, "towercrane.stepper")
+    announce_compilation(*loaded.uses, "runs")
     result = _run(loaded) if finished is None else finished
     if (over := float(result["time"][-1])) <= playback.start:
         _nothing(loaded, result)

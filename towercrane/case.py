@@ -197,6 +197,16 @@ class Case:
         words = " or ".join(f'"{kind}"' for kind in wanted)
         return CaseError([Fault(str(self.path), "crane.kind", f"a crane of kind {words}", f'"{self.kind}"')])
 
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """What its crane needs of :data:`towercrane.compilation.KERNELS`."""
+        from modal.beam import Beam
+        from towercrane.kinds import TOWER_CRANES
+        from towercrane.towers import tower_of
+
+        plain = self.kind not in TOWER_CRANES or isinstance(tower_of(self._tower_crane), Beam)
+        return (self.kind,) if plain else (self.kind, "chain")
+
     def tower(self) -> Beam | Chain:
         """The tower: a beam where it is uniform and clamped, else a chain; without what the tolerance leaves out."""
         from towercrane.effects import kept_tower

@@ -164,7 +164,7 @@ def modes(
         return
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
-    announce_compilation(loaded.kind, "modal.roots")
+    announce_compilation(*loaded.uses, "structure")
     from towercrane.natural import natural_frequencies
 
     report = natural_frequencies(loaded, actual=actual)
@@ -201,7 +201,7 @@ def run(
         fail(f"--verify: wanted a case of kind 'radial' or 'space', got {loaded.kind!r}")
     folder = out if out is not None else Path("results") / loaded.name
     folder_for_results(folder)
-    announce_compilation(loaded.kind, "towercrane.stepper")
+    announce_compilation(*loaded.uses, "runs")
     from towercrane.folder import remove_stale
     from towercrane.simulate import run_case
     from towercrane.summary import summarise
@@ -268,7 +268,7 @@ def figures(
 ) -> None:
     """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
     folder_for_results(out)
-    announce_compilation("radial", "towercrane.stepper")
+    announce_compilation("radial", "runs")
     from towercrane.plots import radial
     from towercrane.simulate import run_case
 

@@ -50,7 +50,7 @@ def compare(
         fail(f"--target {target:g}: wanted a fraction between 0 and 1")
     if loaded.kind not in ("radial", "space"):
         fail(f"{case}: wanted a case of kind 'radial' or 'space', whose modes count, got {loaded.kind!r}")
-    announce_compilation(loaded.kind, "towercrane.stepper")
+    announce_compilation(*loaded.uses, "runs")
     from towercrane.comparison import TARGET
 
     accepted = target or _asked(loaded) or TARGET

@@ -9,21 +9,29 @@ from importlib import import_module
 from modal.compiled import is_compiled
 
 FLEXIBLE = "towercrane.cranes.flexible_rhs", "modal.roots"
-LUMPED = ("towercrane.cranes.lumped_kernel",)
+STRUCTURE = "modal.structure_kernel"
+STEPPER = "towercrane.stepper"
 
-EQUATIONS = {
+KERNELS = {
     "radial": FLEXIBLE,
     "space": FLEXIBLE,
     "jib": ("towercrane.cranes.jib_crane_kernel",),
+    **dict.fromkeys(("multi-mass", "enhanced", "basic"), ("towercrane.cranes.lumped_kernel",)),
     "lanes": ("towercrane.cranes.radial_lane_rhs", "towercrane.cranes.radial_lanes"),
+    "structure": (STRUCTURE,),
+    "chain": (STRUCTURE, "modal.shape_kernel"),
+    "runs": (STEPPER,),
 }
-"""Modules whose import compiles what a kind of crane needs; all other kinds are lumped."""
+"""Modules whose import compiles: the equations of a kind of crane, those for many runs side by side, exact structures,
+towers that are chains of segments, and the integrator."""
 
 
-def missing_kernels(kind: str, *needed: str) -> tuple[str, ...]:
-    """Modules of kernels that a kind of crane, or a command besides, needs and that are not compiled yet."""
-    modules = dict.fromkeys((*EQUATIONS.get(kind, LUMPED), *needed))
-    return tuple(module for module in modules if not is_compiled(module))
+def missing_kernels(*uses: str) -> tuple[str, ...]:
+    """Modules of kernels for these uses that are not compiled yet, the one that takes longest first."""
+    modules = dict.fromkeys(module for use in uses for module in KERNELS[use])
+    return tuple(
+        sorted((module for module in modules if not is_compiled(module)), key=lambda name: name != STRUCTURE)
+    )
 
 
 def compile_kernels(here: str, *beside: str) -> None:

@@ -23,7 +23,7 @@ def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) ->
         fail(f"{case}: a crane of kind {loaded.kind!r} has no lattice; try: towercrane linearise {case}")
     if loaded.lattice() is None:
         fail(f"{case}: crane.tower.lattice: wanted the members of a uniform tower, got none")
-    announce_compilation(loaded.kind, "modal.structure_kernel")
+    announce_compilation("structure")
     try:
         report = lattice_report(loaded)
     except ValueError as error:

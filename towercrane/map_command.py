@@ -17,6 +17,7 @@ from towercrane.terminal import (
     Changes,
     Out,
     Pictures,
+    announce_compilation,
     fail,
     folder_for_results,
     load,
@@ -76,10 +77,7 @@ def frequency_map(
     masses = _masses(loaded, payload)
     reach = loaded.radial_crane().jib.length
     where = None if shapes is None else _position(shapes, reach)
-    from modal.compiled import is_compiled
-
-    if not is_compiled("modal.structure_kernel"):
-        say("compiling for the first time, about fifteen seconds; later runs start at once ...")
+    announce_compilation("chain")
     import numpy as np
 
     from towercrane.map_report import csv_text, map_report, provenance

@@ -40,14 +40,17 @@ def motions_of(case: Case) -> dict[str, Motion]:
     CaseError
         If a ramp is to be shaped for frequencies that the model does not have.
     """
-    from towercrane.cranes.sway_frequencies import SwayFrequencies
-    from towercrane.faults import CaseError, Fault
     from towercrane.plans import NotSettled, shaped_motions
-    from towercrane.system import NoEquilibrium
 
     modelled = [channel for channel, plan in case.plans.items() if plan.needs_model]
+    if not modelled:
+        return shaped_motions(case.plans, None)
+    from towercrane.cranes.sway_frequencies import SwayFrequencies
+    from towercrane.faults import CaseError, Fault
+    from towercrane.system import NoEquilibrium
+
     try:
-        return shaped_motions(case.plans, SwayFrequencies(flexible_model(case)) if modelled else None)
+        return shaped_motions(case.plans, SwayFrequencies(flexible_model(case)))
     except (NoEquilibrium, NotSettled) as failure:
         key = f"motion.{'hoist' if modelled[0] == 'rope' else modelled[0]}"
         wanted, hint = "frequencies that the model has, or a list of them", "towercrane modes shows what it has"

@@ -62,7 +62,7 @@ def sensitivity(
     if not names:
         known = ", ".join(parameters_of(parameters))
         fail(f"--vary {' '.join(vary or [])}: wanted patterns that match some of {known}")
-    announce_compilation(loaded.kind, "towercrane.stepper")
+    announce_compilation(*loaded.uses, "runs")
     study = _study(loaded, names, step, tolerance)
     from towercrane.sensitivity import report
 
@@ -106,7 +106,7 @@ def linearise(
         if out.suffix.lower() not in FILE_TYPES or out.is_dir():
             fail(f"--out {out}: wanted a file that ends in {' or '.join(FILE_TYPES)}")
         folder_for_results(out.parent)
-    announce_compilation(loaded.kind)
+    announce_compilation(*loaded.uses)
     from towercrane.linear_report import linear_model, linear_report
     from towercrane.system import NoEquilibrium
 
@@ -166,7 +166,7 @@ def shape(
         fail(f"{case}: wanted a crane of kind {' or '.join(TOWER_CRANES)}, whose modes are known; got {loaded.kind}")
     if not driven(loaded.plans):
         fail(f"{case}: wanted a trolley or a slewing drive that moves, got none")
-    announce_compilation(loaded.kind, "towercrane.stepper")
+    announce_compilation(*loaded.uses, "runs")
     from towercrane.drive_table import drive_table
     from towercrane.models import flexible_model
     from towercrane.rest_study import report, study
@@ -268,7 +268,7 @@ def bench(
 
 def _measured(quick: bool, subject: str, hard: bool, stability: bool) -> dict[str, Any]:
     """What the benchmark was asked for."""
-    announce_compilation("radial", "towercrane.stepper")
+    announce_compilation("radial", "runs")
     if hard:
         from towercrane.bench.hard import hard_cases
 

@@ -65,7 +65,7 @@ def sweep(
     values = _values(loaded, vary)
     from towercrane.variations import grid
 
-    announce_compilation("lanes" if loaded.kind == "radial" else loaded.kind, "towercrane.stepper")
+    announce_compilation("lanes" if loaded.kind == "radial" else loaded.kind, "runs")
     began = time.perf_counter()
     data = _with_progress(loaded, grid(values), threads)
     if not set(data["outcome"].values) - {INTERRUPTED_RUN}:

@@ -41,11 +41,11 @@ def load(name: str, changes: list[str] | None) -> Case:
     return load_case(name, changes or [])
 
 
-def announce_compilation(kind: str, *needed: str) -> None:
-    """Compile the kernels of a kind of crane, and what a command needs besides, if they are not yet, and say so."""
+def announce_compilation(*uses: str) -> None:
+    """Compile the kernels for uses of :data:`towercrane.compilation.KERNELS` if they are not yet, and say so."""
     from towercrane.compilation import compile_kernels, missing_kernels
 
-    if missing := missing_kernels(kind, *needed):
+    if missing := missing_kernels(*uses):
         say("compiling for the first time, some seconds; later runs start at once ...")
         compile_kernels(*missing)
 
