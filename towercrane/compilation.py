@@ -22,16 +22,15 @@ KERNELS = {
     "chain": (STRUCTURE, "modal.shape_kernel"),
     "runs": (STEPPER,),
 }
-"""Modules whose import compiles: the equations of a kind of crane, those for many runs side by side, exact structures,
-towers that are chains of segments, and the integrator."""
+"""Modules whose import compiles: the equations of a kind of crane, those for many runs side by side, exact
+structures, towers that are chains of segments, and the integrator."""
 
 
 def missing_kernels(*uses: str) -> tuple[str, ...]:
     """Modules of kernels for these uses that are not compiled yet, the one that takes longest first."""
     modules = dict.fromkeys(module for use in uses for module in KERNELS[use])
-    return tuple(
-        sorted((module for module in modules if not is_compiled(module)), key=lambda name: name != STRUCTURE)
-    )
+    missing = [module for module in modules if not is_compiled(module)]
+    return tuple(sorted(missing, key=lambda module: module != STRUCTURE))
 
 
 def compile_kernels(here: str, *beside: str) -> None:

@@ -184,7 +184,7 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
     for phase, inputs in enumerate(phases.inputs):
         run.restart(phases, phase)
         begin, t_end = run.time, float(phases.times[phase + 1] - phases.times[phase])
-        clock = np.array([0.0, step, run.smallest_step])
+        clock = np.array([0.0, step, run.smallest_step, tableau.longest_step(system.fastest)])
         mine = owner == phase
         first = int(np.count_nonzero(owner < phase))
         counts = np.zeros(len(run.counts), dtype=np.int64)

@@ -19,10 +19,10 @@ RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED = range(7)
 """Rows of a lane's places: run (-1: idle), phase, next sample, first sample of the next phase, whether the slope at
 the start is wanted, whether a stage has seen a guard fall, and the guard that fell (-1: none)."""
 
-BEGIN, END, TIME, STEP, GROWTH, TRIAL, ACCEPTED_STEP, STOP, FRACTION, MOMENT, LOW, HIGH = range(12)
-"""Rows of a lane's clock: start of the phase, its length, time since it began, next step, largest growth, step that
-is tried, 1 where it was accepted, time it reaches, and for a look inside the step its fraction, its time and the
-bracket of a guard's fall."""
+BEGIN, END, TIME, STEP, LONGEST, GROWTH, TRIAL, ACCEPTED_STEP, STOP, FRACTION, MOMENT, LOW, HIGH = range(13)
+"""Rows of a lane's clock: start of the phase, its length, time since it began, next step, longest step allowed,
+largest growth, step that is tried, 1 where it was accepted, time it reaches, and for a look inside the step its
+fraction, its time and the bracket of a guard's fall."""
 
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN = range(4)
 """Columns of a run's counts."""
@@ -42,6 +42,7 @@ class Queue(NamedTuple):
     waiting : ndarray of int, shape (up to runs,)
         The runs to take, in this order.
     starts, atol : ndarray, shapes (runs, size)
+    longest_steps : ndarray, shape (runs,)
     numbers, vectors, matrices : ndarray, shapes (runs, ...)
         Constants of each run, as its system has them.
     floors : ndarray, shape (runs, guards)
@@ -60,6 +61,7 @@ class Queue(NamedTuple):
     waiting: Any
     starts: Any
     atol: Any
+    longest_steps: Any
     numbers: Any
     vectors: Any
     matrices: Any
@@ -103,7 +105,7 @@ class Lanes(NamedTuple):
     next_run : ndarray of int, shape (1,)
         Place in ``waiting`` of the first run that no lane has taken.
     places : ndarray of int, shape (7, lanes)
-    clock : ndarray, shape (12, lanes)
+    clock : ndarray, shape (13, lanes)
     y, new, trial, slope, atol : ndarray, shape (size, lanes)
     k : ndarray, shape (m, size, lanes)
     guards, lowest, floors : ndarray, shape (guards, lanes)
@@ -140,7 +142,23 @@ def queue_type() -> Any:
     """Numba type of a :class:`Queue`."""
     one, two, three, four = (types.Array(types.float64, axes, "C") for axes in (1, 2, 3, 4))
     integers = types.Array(types.int64, 1, "C")
-    fields = [integers, two, two, two, three, four, two, three, integers, two, four, types.int64[:, ::1], one, three]
+    fields = [
+        integers,
+        two,
+        two,
+        one,
+        two,
+        three,
+        four,
+        two,
+        three,
+        integers,
+        two,
+        four,
+        types.int64[:, ::1],
+        one,
+        three,
+    ]
     return types.NamedTuple(fields, Queue)
 
 
@@ -172,7 +190,7 @@ def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int], outputs: i
     return Lanes(
         next_run=np.zeros(1, dtype=np.int64),
         places=places,
-        clock=lanes(12),
+        clock=lanes(13),
         y=lanes(size),
         new=lanes(size),
         trial=lanes(size),
@@ -202,6 +220,7 @@ def fill(queue: Any, lanes: Any, lane: int) -> None:
     lanes.places[RUN, lane] = run
     lanes.places[PHASE, lane] = 0
     lanes.clock[STEP, lane] = 0.0
+    lanes.clock[LONGEST, lane] = queue.longest_steps[run]
     for m in range(lanes.y.shape[0]):
         lanes.y[m, lane] = queue.starts[run, m]
         lanes.atol[m, lane] = queue.atol[run, m]

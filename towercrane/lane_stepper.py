@@ -22,6 +22,7 @@ from towercrane.lane_queue import (
     FRESH,
     GROWTH,
     HIGH,
+    LONGEST,
     LOW,
     NOT_FINITE,
     REJECTED,
@@ -57,6 +58,7 @@ def choose_steps(places: Any, clock: Any) -> bool:
     for lane in range(LANES):
         clock[TRIAL, lane] = 0.0
         if places[RUN, lane] >= 0:
+            clock[STEP, lane] = min(clock[STEP, lane], clock[LONGEST, lane])
             if clock[STEP, lane] < shortest(clock[END, lane]):
                 collapsed = True
             elif is_last(clock, lane):

@@ -38,7 +38,7 @@ from towercrane.lane_queue import FINISHED as FINISHED_CODE
 from towercrane.lane_queue import NOT_FINITE as NOT_FINITE_CODE
 from towercrane.lane_vector import LANES
 from towercrane.system import NoEquilibrium
-from towercrane.tableaus import TABLEAUS
+from towercrane.tableaus import TABLEAUS, Tableau
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -162,7 +162,7 @@ def integrate_many(
     def work(first: int) -> None:
         task = slice(first, first + share)
         mine = Answers(*(array[task] for array in answers))
-        queue = _queue(runs[task], mine, sample_times, atol)
+        queue = _queue(runs[task], mine, sample_times, atol, tableau)
         lanes = lanes_for(queue, len(tableau.a), system.work_shape, len(OUTPUTS))
         left = True
         while left and not stop.is_set():
@@ -210,7 +210,7 @@ def _start(run: LaneRun) -> tuple[Floats, int]:
         return run.model.start(inputs, "zero", run.swing_angle), NO_START
 
 
-def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float) -> Queue:
+def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, tableau: Tableau) -> Queue:
     """The runs' data as the compiled steps want them; runs with fewer phases are padded."""
     systems = [run.model.system for run in runs]
     starts = np.empty((len(runs), systems[0].size))
@@ -234,6 +234,7 @@ def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol
         waiting=np.flatnonzero(answers.outcomes == WAITING),
         starts=starts,
         atol=atol * np.array([system.scale for system in systems]),
+        longest_steps=np.array([tableau.longest_step(system.fastest) for system in systems]),
         numbers=np.array([system.numbers for system in systems]),
         vectors=np.array([system.vectors for system in systems]),
         matrices=np.array([system.matrices for system in systems]),

@@ -17,8 +17,8 @@ from towercrane.system import rhs_signature
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
 """What :func:`advance` returns."""
 
-TIME, STEP, SMALLEST = range(3)
-"""Entries of its clock: time since the phase began, next step, smallest step taken [s]."""
+TIME, STEP, SMALLEST, LONGEST = range(4)
+"""Entries of its clock: time since the phase began, next step, smallest step taken, longest step allowed [s]."""
 
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX, FRESH = range(6)
 """Entries of its counts; FRESH asks for the slope at the start, and is taken back."""
@@ -160,7 +160,7 @@ def advance(
         As in :func:`towercrane.system.rhs_signature`.
     stages, a, c, error, dense, error_order
         As in :class:`towercrane.tableaus.Tableau`.
-    clock, counts : ndarray, shapes (3,) and (6,)
+    clock, counts : ndarray, shapes (4,) and (6,)
         Read and written; a step of zero or less asks for a first guess.
     y : ndarray, shape (size,)
         State, carried on in place.
@@ -202,6 +202,7 @@ def advance(
         if h < shortest:
             clock[TIME], clock[STEP] = t, h
             return COLLAPSED
+        h = h if h < clock[LONGEST] else clock[LONGEST]
         last = t + h >= t_end - shortest
         step = t_end - t if last else h
         # The slopes go through a fixed array: a view of k per stage would cost a tenth of the right-hand side.

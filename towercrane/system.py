@@ -75,6 +75,8 @@ class System:
         Puts a state back on its constraints in place; called where the solver restarts.
     switch : Switch, optional
         What a guard does instead of ending the run.
+    fastest : callable, optional
+        Highest angular frequency of its small motions [rad/s], if it is known.
     """
 
     rhs: Any
@@ -89,6 +91,7 @@ class System:
     work_shape: tuple[int, int]
     restore: Callable[[Floats], None] | None = None
     switch: Switch | None = None
+    fastest: Callable[[], float] | None = None
 
     @property
     def constants(self) -> tuple[Floats, Floats, Floats, Floats]:

@@ -12,9 +12,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
+
+
+REACH_USED = 0.9
+"""Part of a pair's reach that its steps use: the fastest vibration is known for small motions only."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +48,9 @@ class Tableau:
         Weights of the error estimate; two rows are combined as in dop853.f.
     dense : ndarray, shape (m, degree)
         y(x) = y0 + h sum_i K_i sum_d dense[i, d] x^(d + 1) for 0 <= x <= 1.
+    reach : float
+        Largest step times angular frequency of a vibration at which no such step makes it grow; none where every
+        long step does.
     """
 
     name: str
@@ -53,6 +62,20 @@ class Tableau:
     c: Floats
     error: Floats
     dense: Floats
+    reach: float = np.inf
+
+    def longest_step(self, fastest: Callable[[], float] | None) -> float:
+        """Longest step that feeds no vibration [s]: the error estimate sees it late.
+
+        Parameters
+        ----------
+        fastest : callable or None
+            Angular frequency of the fastest vibration [rad/s], as in :class:`towercrane.system.System`.
+        """
+        if fastest is None or np.isinf(self.reach):
+            return np.inf
+        frequency = fastest()
+        return REACH_USED * self.reach / frequency if frequency > 0.0 else np.inf
 
 
 def _square(rows: tuple[tuple[float, ...], ...]) -> Floats:
@@ -179,6 +202,7 @@ DOP853 = Tableau(
     c=np.array(_DOP853_C),
     error=np.array(_DOP853_ERROR),
     dense=_dop853_dense(np.array(_DOP853_A[12]), np.array(_DOP853_D)),
+    reach=5.96,
 )
 
 TABLEAUS = {tableau.name: tableau for tableau in (DOP853, DOPRI5)}

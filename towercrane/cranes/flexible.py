@@ -13,6 +13,7 @@ from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.corner import Corner
 from towercrane.cranes.flexible_constants import geometric_stiffness, matrices, numbers, scale, vectors
 from towercrane.cranes.shape_table import shape_table
+from towercrane.cranes.small_motions import fastest_vibration
 from towercrane.cranes.wind import CHANNELS
 from towercrane.equilibrium import Unstable, stable_equilibrium
 from towercrane.payload import FORCE, JACOBIAN, Load, restore, work_shape
@@ -213,7 +214,13 @@ class FlexibleModel:
             work_shape=(rows + layout.ROWS, columns),
             restore=lambda state: restore(state, n, self.axes),
             switch=Corner(layout.INSIDE, layout.OUTSIDE, drive.soft != drive.stiff) if drive else None,
+            fastest=lambda: self.fastest,
         )
+
+    @cached_property
+    def fastest(self) -> float:
+        """Highest angular frequency of its small motions, whatever hangs on it [rad/s]; zero without coordinates."""
+        return fastest_vibration(self)
 
     def with_load(self, load: Load) -> FlexibleModel:
         """The same crane with another load: what does not depend on the load is shared, not made again."""
