@@ -19,15 +19,15 @@ if TYPE_CHECKING:
 
 @cache
 def cache_folder() -> Path:
-    """Folder of the machine code that belongs to exactly these sources."""
+    """Folder of the machine code that belongs to exactly these sources, of all folders with kernels."""
     if chosen := os.environ.get("NUMBA_CACHE_DIR"):
         return Path(chosen)
     import platformdirs
 
     here = Path(__file__).resolve().parent
     digest = hashlib.sha256()
-    for package in (here, here.parent / "towercrane"):
-        for source in sorted(package.rglob("*.py")):
+    for folder in (here, here.parent / "towercrane", here.parent / "towercrane" / "cranes"):
+        for source in sorted(folder.glob("*.py")):
             digest.update(source.read_bytes())
     return Path(platformdirs.user_cache_dir("towercrane", appauthor=False)) / digest.hexdigest()[:16]
 

@@ -79,6 +79,11 @@ def known_keys(table: type[Table] | None = None, prefix: str = "") -> Iterator[s
             yield from known_keys(inner, f"{prefix}{name}.")
 
 
+def knows(kind: str, key: str) -> bool:
+    """Whether a kind knows a dotted key."""
+    return key in _keys(kind)
+
+
 def known_to(key: str) -> list[str]:
     """Kinds that know a dotted key."""
     return [kind for kind in KINDS if key in _keys(kind)]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from towercrane.casefile import leaves
 from towercrane.drift import refusal
 from towercrane.faults import Fault, did_you_mean, shown
-from towercrane.kinds import known_to, plain_key
+from towercrane.kinds import knows, plain_key
 from towercrane.units import UnitError, split, to_si
 
 if TYPE_CHECKING:
@@ -50,6 +50,13 @@ class Range:
     likely: tuple[str, ...] = ()
     signed: bool = False
     kind: str = "*"
+
+    def is_for(self, key: str, kind: str) -> bool:
+        """Whether it is the range of a dotted key of this kind of crane."""
+        # To compile the patterns of all rows takes longer than all other checks of a case.
+        beginning, wild, _ = self.key.partition("*")
+        own = fnmatchcase(key, self.key) if wild and key.startswith(beginning) else key == self.key
+        return own and fnmatchcase(kind, self.kind)
 
     def fault(self, key: str, value: object) -> Fault | None:
         """Fault if ``value`` lies outside the range; a value that cannot be read is for others to report."""
@@ -169,10 +176,10 @@ def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> It
     """Values outside their range for this kind of crane, except where the case allows them."""
     ruled = {}
     for key, value in leaves(tree):
-        if kind not in known_to(plain_key(key)):
+        if not knows(kind, plain_key(key)):
             continue
         for rule in RANGES:
-            if fnmatchcase(key, rule.key) and fnmatchcase(kind, rule.kind):
+            if rule.is_for(key, kind):
                 ruled[key] = rule.fault(key, value)
     for key in allowed:
         if key not in ruled:

@@ -1,0 +1,85 @@
+"""What commands compile before they begin: every module that they need, in a cache that no change leaves stale."""
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import modal
+import towercrane
+from modal import compiled
+from towercrane.case import load_case
+from towercrane.compilation import KERNELS, compile_kernels, missing_kernels
+
+PACKAGES = [Path(module.__file__).parent for module in (modal, towercrane)]
+
+
+def test_kernels_are_in_the_folders_whose_sources_name_the_cache():
+    covered = {PACKAGES[0], PACKAGES[1], PACKAGES[1] / "cranes"}
+    makers = {
+        source.parent
+        for package in PACKAGES
+        for source in package.rglob("*.py")
+        if "compiled import kernel" in source.read_text() or "import traced" in source.read_text()
+    }
+    assert makers == covered
+
+
+def test_a_change_of_a_source_names_another_cache(tmp_path, monkeypatch):
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    for folder in ("modal", "towercrane/cranes"):
+        (tmp_path / folder).mkdir(parents=True)
+    kernel, layout = tmp_path / "modal/roots.py", tmp_path / "towercrane/cranes/layout.py"
+    monkeypatch.setattr(compiled, "__file__", str(tmp_path / "modal" / "compiled.py"))
+    found = []
+    for changed in (kernel, layout, kernel):
+        changed.write_text(f"x = {len(found)}\n")
+        found.append(compiled.cache_folder.__wrapped__())
+    assert len(set(found)) == 3
+    assert compiled.cache_folder.__wrapped__() == found[-1]
+
+
+def test_all_modules_of_kernels_are_there():
+    for modules in KERNELS.values():
+        assert all(importlib.util.find_spec(module) for module in modules)
+
+
+@pytest.mark.parametrize(
+    ("name", "uses"),
+    [
+        ("qtz5613/condition-3", {"radial"}),
+        ("qtz5613/manoeuvre", {"space"}),
+        ("towers/stepped", {"radial", "chain"}),
+        ("slewing/basic/example-1", {"basic"}),
+        ("jib-crane/plan", {"jib"}),
+    ],
+)
+def test_a_case_names_what_its_crane_needs(name, uses):
+    case = load_case(name, [])
+    assert set(case.uses) == uses <= set(KERNELS)
+
+
+def test_what_is_compiled_here_or_beside_is_missing_no_more(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    # This process has compiled its own kernels elsewhere: a fresh one finds them missing, and makes them.
+    code = (
+        "from towercrane.compilation import compile_kernels as c, missing_kernels as m\n"
+        "before = m('jib', 'runs'); c(*before); print(len(before), len(m('jib', 'runs')))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["2", "0"]
+
+
+def test_exact_structures_come_first_as_they_take_longest(monkeypatch):
+    monkeypatch.setattr("towercrane.compilation.is_compiled", lambda module: module == "modal.roots")
+    assert missing_kernels("radial", "chain", "runs") == (
+        "modal.structure_kernel", "towercrane.cranes.flexible_rhs", "modal.shape_kernel", "towercrane.stepper",
+    )  # fmt: skip
+    assert missing_kernels("basic") == ("towercrane.cranes.lumped_kernel",)
+
+
+def test_nothing_beside_starts_no_process(monkeypatch):
+    monkeypatch.setattr(subprocess, "Popen", None)
+    compile_kernels("towercrane.polynomial")
