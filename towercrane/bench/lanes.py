@@ -82,7 +82,6 @@ def many_runs(repeats: int) -> dict[str, Any]:
             "off runs at rtol 1e-11, lanes as loop: " + ", ".join(
                 f"{name.replace('_', ' ')} {short(error)}" for name, error in zip(OUTPUTS, errors, strict=True)
             ),
-            "the tension follows the accelerations, which loose steps at the edge of stability leave noisy",
         ],
     }  # fmt: skip
 
