@@ -135,6 +135,26 @@ def project_head(
     return slewing_row(share)
 
 
+def _project_bending(
+    i: int, n: int, up: int, axis: int, across: float, head: Head, pull: Vector, place: Vector, trolley: float,
+    vectors: Any, work: Any,
+) -> tuple[float, float, float, float]:  # fmt: skip
+    """Force and Jacobian of one jib mode along an axis of the head, ``across`` the trolley's place along the other.
+
+    Returns
+    -------
+    tuple of 4 floats
+        Mass along the fixed axes x and y, moment b, and c, all with the trolley's.
+    """
+    rotation = head[0]
+    shape = work[n + (MASS + at.SHAPE), i]
+    mass, moment = vectors[at.JIB_MASS, i] + trolley * shape, vectors[at.JIB_MOMENT, i] + trolley * shape * place[0]
+    work[FORCE, i] = work[FORCE, i] + shape * pull[axis]
+    _write_jacobian(work, i, up, (shape * rotation[axis], shape * rotation[3 + axis], shape * rotation[6 + axis]))
+    crossed = work[n + (MASS + at.ACROSS), i] + trolley * shape * across
+    return mass * rotation[axis], mass * rotation[3 + axis], moment, crossed
+
+
 @traced
 def project_lateral(
     i: int, n: int, up: int, head: Head, pull: Vector, place: Vector, trolley: float, vectors: Any, work: Any
@@ -143,14 +163,9 @@ def project_lateral(
 
     It turns about b e3 - c e1; returns as :func:`project_motion`.
     """
-    rotation, turn_x, turn_y = head[:3]
-    shape = work[n + (MASS + at.SHAPE), i]
-    mass, moment = vectors[at.JIB_MASS, i] + trolley * shape, vectors[at.JIB_MOMENT, i] + trolley * shape * place[0]
-    crossed = work[n + (MASS + at.ACROSS), i] + trolley * shape * place[2]
-    work[FORCE, i] = work[FORCE, i] + shape * pull[1]
-    _write_jacobian(work, i, up, (shape * rotation[1], shape * rotation[4], shape * rotation[7]))
-    lean_x, lean_y = (moment * turn[2] - crossed * turn[0] for turn in (turn_x, turn_y))
-    return mass * rotation[1], mass * rotation[4], lean_x, lean_y, moment
+    along_x, along_y, b, c = _project_bending(i, n, up, 1, place[2], head, pull, place, trolley, vectors, work)
+    lean_x, lean_y = (b * turn[2] - c * turn[0] for turn in (head[1], head[2]))
+    return along_x, along_y, lean_x, lean_y, b
 
 
 @traced
@@ -161,14 +176,9 @@ def project_vertical(
 
     It turns about c e1 - b e2; returns as :func:`project_motion`.
     """
-    rotation, turn_x, turn_y = head[:3]
-    shape = work[n + (MASS + at.SHAPE), i]
-    mass, moment = vectors[at.JIB_MASS, i] + trolley * shape, vectors[at.JIB_MOMENT, i] + trolley * shape * place[0]
-    crossed = work[n + (MASS + at.ACROSS), i] + trolley * shape * place[1]
-    work[FORCE, i] = work[FORCE, i] + shape * pull[2]
-    _write_jacobian(work, i, up, (shape * rotation[2], shape * rotation[5], shape * rotation[8]))
-    lean_x, lean_y = (crossed * turn[0] - moment * turn[1] for turn in (turn_x, turn_y))
-    return mass * rotation[2], mass * rotation[5], lean_x, lean_y, 0.0
+    along_x, along_y, b, c = _project_bending(i, n, up, 2, place[1], head, pull, place, trolley, vectors, work)
+    lean_x, lean_y = (c * turn[0] - b * turn[1] for turn in (head[1], head[2]))
+    return along_x, along_y, lean_x, lean_y, 0.0
 
 
 @traced

@@ -1,0 +1,42 @@
+"""The head's motion over time against finite rotations, on both sides of where its functions change form."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from towercrane.cranes.head_kernel import NEARLY_UPRIGHT
+from towercrane.cranes.head_motions import head_motion
+
+SIZES = (0.01, 0.99 * NEARLY_UPRIGHT**0.5, 1.01 * NEARLY_UPRIGHT**0.5, 0.5)
+
+
+def rotation(tilt, turn):
+    """exp(tilt) Rz(turn)."""
+    return (Rotation.from_rotvec([*tilt, 0.0]) * Rotation.from_rotvec([0.0, 0.0, turn])).as_matrix()
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_axes_and_spin_are_those_of_the_finite_rotation(size):
+    rng = np.random.default_rng(3)
+    tilt, tilting = rng.normal(size=2), rng.normal(size=2)
+    tilt *= size / np.linalg.norm(tilt)
+    turn, turning, velocity = 0.7, -0.4, rng.normal(size=2)
+    one = [np.array([value]) for value in (tilt, tilting, turn, turning, 0.0, velocity)]
+    found = head_motion(*one)
+    exact = rotation(tilt, turn)
+    np.testing.assert_allclose(found.rotation[0], exact, atol=4e-16)
+    h = 1e-4
+    steps = [rotation(tilt + k * h * tilting, turn + k * h * turning) for k in (-2, -1, 1, 2)]
+    rate = (steps[0] - 8.0 * steps[1] + 8.0 * steps[2] - steps[3]) / (12.0 * h)
+    spin = exact.T @ rate
+    np.testing.assert_allclose(found.spin[0], [spin[2, 1], spin[0, 2], spin[1, 0]], atol=2e-11)
+    np.testing.assert_allclose(found.top_velocity[0], exact.T @ [*velocity, 0.0], atol=1e-15)
+    turned = found.turn_x[0] * tilting[0] + found.turn_y[0] * tilting[1] + [0.0, 0.0, turning]
+    np.testing.assert_allclose(found.spin[0], turned, atol=1e-15)
+    # With constant rates the change of the spin is its bias.
+    later, earlier = (
+        head_motion(*(np.array([v]) for v in (tilt + k * h * tilting, tilting, turn + k * h * turning, turning, 0.0,
+                                              velocity)))
+        for k in (1, -1)
+    )  # fmt: skip
+    np.testing.assert_allclose(found.spin_bias[0], (later.spin[0] - earlier.spin[0]) / (2.0 * h), atol=1e-8)
