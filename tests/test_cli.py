@@ -63,7 +63,10 @@ def test_help_loads_nothing_heavy():
 @pytest.mark.parametrize(
     ("arguments", "idle"),
     [
-        (("run", "qtz5613/condition-3", "--no-pictures"), {"pint", "matplotlib", "scipy.optimize", "scipy.sparse"}),
+        (
+            ("run", "qtz5613/condition-3", "--no-pictures"),
+            {"pint", "matplotlib", "scipy.optimize", "scipy.sparse", "xarray", "pandas"},
+        ),
         (("modes", "qtz5613/condition-3"), {"pint", "matplotlib", "scipy.optimize", "xarray", "pandas"}),
     ],
     ids=["run", "modes"],

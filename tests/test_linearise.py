@@ -20,7 +20,7 @@ from towercrane.linear_report import linear_model
 from towercrane.linearise import linearise
 from towercrane.motion import rest, trapezoid
 from towercrane.payload import Load
-from towercrane.results import Quantity
+from towercrane.recording import Quantity
 from towercrane.simulate import simulate
 from towercrane.statespace import OperatingPoint, Signal, StateSpace
 from towercrane.system import plain_system

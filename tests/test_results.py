@@ -4,16 +4,49 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 from numpy.testing import assert_allclose
 from qtz5613 import model, motions
 
 from towercrane import results
-from towercrane.simulate import simulate
+from towercrane.case import load_case
+from towercrane.simulate import record, record_case, simulate
 
 
 @pytest.fixture(scope="module")
-def result():
-    return simulate(model(2, 3), motions(), 10.0)
+def recording():
+    return record(model(2, 3), motions(), 10.0)
+
+
+@pytest.fixture(scope="module")
+def result(recording):
+    return recording.dataset()
+
+
+@pytest.mark.parametrize("name", ["qtz5613/manoeuvre", "jib-crane/plan"], ids=["axes and modes", "joints"])
+def test_recording_is_written_as_its_data_set(name, tmp_path):
+    case = load_case(name, ["solver.rtol=1e-4"])
+    recording = record_case(case)
+    labelled = recording.dataset()
+    results.save(recording, tmp_path / "short.nc")
+    results.save(labelled, tmp_path / "long.nc")
+    short, long = (results.load(tmp_path / name) for name in ("short.nc", "long.nc"))
+    xr.testing.assert_identical(short, long)
+    xr.testing.assert_identical(short, labelled)
+    assert list(short.variables) == list(long.variables)
+    assert short["axis"].values.tolist() == ["outward", "sideways", "up"]
+    assert len(short.dims) > 2
+
+
+def test_recording_reads_like_its_data_set(recording, result):
+    assert "time" in recording
+    assert "swing_angle" in recording
+    assert "outward" not in recording
+    for name in ("time", *recording.data_vars):
+        assert recording[name].dims == result[name].dims
+        assert recording[name].attrs == result[name].attrs
+        assert np.array_equal(recording[name].values, result[name].values)
+    xr.testing.assert_equal(simulate(model(2, 3), motions(), 10.0), result)
 
 
 def test_every_variable_has_a_unit_and_a_name(result):
@@ -45,17 +78,19 @@ def test_file_gives_back_every_number_and_the_provenance(result, tmp_path):
     assert [p.name for p in path.parent.iterdir()] == ["result.nc"]
 
 
-def test_csv_has_units_in_its_header_and_the_same_numbers(result, tmp_path):
+def test_csv_has_units_in_its_header_and_the_same_numbers(recording, tmp_path):
     path = tmp_path / "result.csv"
-    results.save_csv(result, path)
+    results.save_csv(recording, path)
     lines = path.read_text(encoding="utf-8").splitlines()
     header = next(line for line in lines if not line.startswith("#")).split(",")
     assert header[0] == "time [s]"
     assert "tower_tip_displacement [m]" in header
     assert "payload_position outward [m]" in header
     table = np.loadtxt(path, delimiter=",", skiprows=sum(line.startswith("#") for line in lines) + 1)
-    assert table.shape == (len(result.time), len(header))
-    assert_allclose(table[:, header.index("swing_angle [rad]")], result["swing_angle"], rtol=1e-11, atol=1e-15)
+    assert table.shape == (len(recording.times), len(header))
+    assert_allclose(
+        table[:, header.index("swing_angle [rad]")], recording["swing_angle"].values, rtol=1e-11, atol=1e-15
+    )
 
 
 def test_failed_write_leaves_the_old_file_and_no_half_one(tmp_path):

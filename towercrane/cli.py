@@ -203,10 +203,10 @@ def run(
     folder_for_results(folder)
     announce_compilation(*loaded.uses, "runs")
     from towercrane.folder import remove_stale
-    from towercrane.simulate import run_case
+    from towercrane.simulate import record_case
     from towercrane.summary import summarise
 
-    result = with_progress(loaded, run_case)
+    result = with_progress(loaded, record_case)
     summary = summarise(loaded, result)
     interrupted = summary["outcome"] == "interrupted"
     if verify and summary["outcome"] == "finished":
@@ -222,7 +222,7 @@ def run(
     if csv:
         files["result.csv"] = result
     if pictures and not interrupted:
-        files |= _pictures(loaded, result)
+        files |= _pictures(loaded, result.dataset())
     write(folder, files)
     stale = remove_stale(folder, files)
     if as_json:

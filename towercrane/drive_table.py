@@ -6,17 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.results import Quantity, dataset
+from towercrane.recording import Quantity, Recording
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import xarray as xr
-
     from towercrane.motion import Motion
 
 
-def drive_table(motion: Motion, step: float, unit: str, about: Mapping[str, str | float]) -> xr.Dataset:
+def drive_table(motion: Motion, step: float, unit: str, about: Mapping[str, str | float]) -> Recording:
     """Position, speed and acceleration at even times, from rest until the first row at which it rests again.
 
     Parameters
@@ -40,4 +38,4 @@ def drive_table(motion: Motion, step: float, unit: str, about: Mapping[str, str 
     times = step * np.arange(rows, dtype=float)
     names = (("position", unit, 0), ("speed", f"{unit}/s", 1), ("acceleration", f"{unit}/s^2", 2))
     columns = {name: Quantity(("time",), motion(times, order), units, name) for name, units, order in names}
-    return dataset(times, columns, {**about, "step": f"{step:g} s"})
+    return Recording(times, columns, {**about, "step": f"{step:g} s"})

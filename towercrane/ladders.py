@@ -22,11 +22,11 @@ from towercrane.system import NoEquilibrium
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import xarray as xr
     from numpy.typing import NDArray
 
     from towercrane.integrate import Progress
     from towercrane.readings import Tolerance
+    from towercrane.recording import Recording
     from towercrane.space_scene import SpaceScene
 
     Floats = NDArray[np.float64]
@@ -69,10 +69,10 @@ class Ladders:
 
     scene: SpaceScene
     base: SpaceSetting
-    runs: dict[SpaceSetting, xr.Dataset] = field(default_factory=dict)
+    runs: dict[SpaceSetting, Recording] = field(default_factory=dict)
     differences: dict[tuple[SpaceSetting, SpaceSetting], Floats] = field(default_factory=dict)
 
-    def run(self, setting: SpaceSetting, progress: Progress | None = None) -> xr.Dataset:
+    def run(self, setting: SpaceSetting, progress: Progress | None = None) -> Recording:
         """The scene in a setting, from an earlier run if there was one.
 
         Raises
@@ -122,7 +122,7 @@ def measured_choice(
     targets: Mapping[str, Tolerance],
     stated: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
-) -> tuple[Choice[SpaceSetting], xr.Dataset]:
+) -> tuple[Choice[SpaceSetting], Recording]:
     """The setting with the fewest modes that is expected to keep all targets, and the run in it.
 
     Parameters
@@ -224,7 +224,7 @@ def _counts(
 
 def _solved(
     ladders: Ladders, setting: SpaceSetting, allowed: Floats, stated: dict[str, Any], progress: Progress | None
-) -> tuple[SpaceSetting, xr.Dataset, Floats]:
+) -> tuple[SpaceSetting, Recording, Floats]:
     """A setting with tolerances for the solver's part, the run, and what its steps cost; shape (outputs,)."""
     if "rtol" in stated or "atol" in stated:
         tighter = setting.tightened(TIGHTER)

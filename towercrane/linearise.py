@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.results import Quantity
+    from towercrane.recording import Quantity
     from towercrane.system import Model
 
     Floats = NDArray[np.float64]
@@ -175,7 +175,7 @@ def _observed(model: Model, state: Floats, drives: Floats, guards: Floats | None
 
 
 def _components(name: str, quantity: Quantity) -> list[Signal]:
-    from towercrane.results import labels
+    from towercrane.recording import labels
 
     if len(quantity.dims) == 1:
         return [Signal(name, quantity.units)]

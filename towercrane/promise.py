@@ -16,10 +16,9 @@ from towercrane.scene import Setting, provenance, scene_of, setting_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import xarray as xr
-
     from towercrane.case import Case
     from towercrane.integrate import Progress
+    from towercrane.recording import Recording
     from towercrane.space_scene import SpaceSetting
 
 KEPT = "promised"
@@ -52,7 +51,7 @@ def stated(case: Case) -> dict[str, Any]:
     return {key: value for key, value in written.items() if key in fields}
 
 
-def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice[Any], xr.Dataset]:
+def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice[Any], Recording]:
     """Setting for the error that a case asks for, and the run in it.
 
     Raises
@@ -73,7 +72,7 @@ def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice[Any], x
     return choice, scene.run(choice.setting, progress=progress)
 
 
-def promise(case: Case, choice: Choice[Any], result: xr.Dataset) -> dict[str, Any]:
+def promise(case: Case, choice: Choice[Any], result: Recording) -> dict[str, Any]:
     """What was asked for, chosen and is expected, ready for JSON.
 
     Returns
@@ -140,7 +139,7 @@ def finer_in_space(setting: SpaceSetting, described: tuple[str, ...]) -> SpaceSe
     return replace(setting.with_counts(counts).tightened(_fine(setting.rtol)), planar=False)
 
 
-def verification(case: Case, result: xr.Dataset) -> dict[str, Any]:
+def verification(case: Case, result: Recording) -> dict[str, Any]:
     """Estimated errors of a run beside its differences from a richer model's.
 
     Returns
@@ -176,11 +175,11 @@ def verification(case: Case, result: xr.Dataset) -> dict[str, Any]:
     }
 
 
-Verified = tuple[Any, Any, Estimate, tuple[str, ...], "xr.Dataset"]
+Verified = tuple[Any, Any, Estimate, tuple[str, ...], "Recording"]
 """Setting of a run and a finer one, estimate of the first and doubts of it, run of the second."""
 
 
-def _in_plane(case: Case, result: xr.Dataset) -> Verified:
+def _in_plane(case: Case, result: Recording) -> Verified:
     scene, picked = scene_of(case), picked_in(result)
     setting = Setting(**{**picked, "cap": picked["cap"] or np.inf}) if picked else setting_of(case)
     indicators, better = Indicators(scene), finer(setting)
@@ -193,7 +192,7 @@ def _in_plane(case: Case, result: xr.Dataset) -> Verified:
     )
 
 
-def _in_space(case: Case, result: xr.Dataset) -> Verified:
+def _in_space(case: Case, result: Recording) -> Verified:
     from towercrane.ladders import measured_choice
     from towercrane.space_scene import SpaceSetting, space_scene_of, space_setting_of
 
@@ -206,7 +205,7 @@ def _in_space(case: Case, result: xr.Dataset) -> Verified:
 
 
 def _figures(
-    units: dict[str, str], estimate: Estimate, targets: Mapping[str, Tolerance], result: xr.Dataset
+    units: dict[str, str], estimate: Estimate, targets: Mapping[str, Tolerance], result: Recording
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
     """Estimated and allowed errors and the run's peaks, by output, in the output's unit."""
     peaks = np.array([peak(result, name) for name in units])

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    import xarray as xr
     from numpy.typing import NDArray
+
+    from towercrane.recording import Result
 
     Floats = NDArray[np.float64]
 
@@ -50,21 +51,21 @@ class Tolerance(NamedTuple):
     relative: bool
 
 
-def peak(result: xr.Dataset, name: str) -> float:
+def peak(result: Result, name: str) -> float:
     """Largest magnitude of an output; of the load's place, its largest way from where it would hang at rest."""
     if name == PLACE:
         return float(np.linalg.norm(departures(result), axis=1).max())
     return float(abs(result[name].values).max())
 
 
-def gap(one: xr.Dataset, other: xr.Dataset, name: str) -> float:
+def gap(one: Result, other: Result, name: str) -> float:
     """Largest difference of an output over the time that both runs reached."""
-    rows = min(one.sizes["time"], other.sizes["time"])
+    rows = min(len(one["time"].values), len(other["time"].values))
     apart = one[name].values[:rows] - other[name].values[:rows]
     return float(np.linalg.norm(apart.reshape(rows, -1), axis=1).max())
 
 
-def departures(result: xr.Dataset) -> Floats:
+def departures(result: Result) -> Floats:
     """Way of the load from where it would hang on a rigid crane at rest [m], shape (times, 3)."""
     trolley, rope = result["trolley_position"].values, result["rope_length"].values
     heading = result["slewing_angle"].values if "slewing_angle" in result else np.zeros_like(trolley)
@@ -72,6 +73,6 @@ def departures(result: xr.Dataset) -> Floats:
     return np.asarray(result["payload_position"].values - hung)
 
 
-def picked_in(result: xr.Dataset) -> dict[str, Any]:
+def picked_in(result: Result) -> dict[str, Any]:
     """Setting that was chosen for a run by the error asked for; empty where the case stated it."""
     return dict(json.loads(result.attrs["accuracy"])["setting"]) if "accuracy" in result.attrs else {}

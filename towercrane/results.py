@@ -5,72 +5,26 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.recording import Recording
+
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     import xarray as xr
-    from numpy.typing import NDArray
 
 
-LABELS: dict[str, list[Any]] = {"axis": ["outward", "sideways", "up"], "joint": ["slew", "luff", "fold"]}
-"""Entries of dimensions that have names."""
-
-
-@dataclass(frozen=True, eq=False)
-class Quantity:
-    """One variable of a result.
-
-    Parameters
-    ----------
-    dims : tuple of str
-    values : ndarray
-    units : str
-        SI, in words that pint reads.
-    long_name : str
-    """
-
-    dims: tuple[str, ...]
-    values: NDArray[np.float64]
-    units: str
-    long_name: str
-
-
-def dataset(
-    times: NDArray[np.float64], quantities: Mapping[str, Quantity], provenance: Mapping[str, Any]
-) -> xr.Dataset:
-    """Labelled data set over time, with units on every variable and the provenance in its attributes."""
-    import pandas as pd
-    import xarray as xr
-
-    # xarray would turn other sequences into an index itself, and import pint, dask and all for it where installed.
-    coordinates: dict[str, Any] = {"time": ("time", pd.Index(times), {"units": "s", "long_name": "time"})}
-    variables = {}
-    for name, quantity in quantities.items():
-        for dimension, size in zip(quantity.dims, quantity.values.shape, strict=True):
-            coordinates.setdefault(dimension, pd.Index(labels(dimension, size)))
-        variables[name] = (
-            quantity.dims,
-            quantity.values,
-            {"units": quantity.units, "long_name": quantity.long_name},
-        )
-    return xr.Dataset(variables, coordinates, dict(provenance))
-
-
-def labels(dimension: str, size: int) -> list[Any]:
-    """What the entries along a dimension are called: directions, joints, or numbers from 1."""
-    return LABELS.get(dimension, list(range(1, size + 1)))
-
-
-def save(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
+def save(result: Recording | xr.Dataset, path: str | os.PathLike[str]) -> None:
     """Write a result as NetCDF; a file that was there stays until the new one is whole."""
     with replacing(path) as temporary:
-        result.to_netcdf(temporary, engine="h5netcdf")
+        if isinstance(result, Recording):
+            _write(result, temporary)
+        else:
+            result.to_netcdf(temporary, engine="h5netcdf")
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:
@@ -81,13 +35,30 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
         return opened.load()
 
 
-def save_csv(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
+def _write(recording: Recording, path: Path) -> None:
+    """The file that xarray writes of the same data set."""
+    import h5netcdf
+    import h5py
+
+    with h5netcdf.File(path, "w") as file:
+        file.attrs.update(recording.attrs)
+        file.dimensions = {name: len(entries) for name, entries in recording.coordinates.items()}
+        for name, entries in recording.coordinates.items():
+            kind = h5py.string_dtype() if isinstance(entries[0], str) else None
+            file.create_variable(name, (name,), data=np.array(entries, kind))
+        for name, quantity in recording.data_vars.items():
+            file.create_variable(name, quantity.dims, data=quantity.values)
+        for name in ("time", *recording.data_vars):
+            file.variables[name].attrs.update(recording[name].attrs)
+
+
+def save_csv(result: Recording, path: str | os.PathLike[str]) -> None:
     """Write every variable over time as columns with units in the header, after comment lines on the origin."""
-    columns, names = [result["time"].values], ["time [s]"]
+    columns, names = [result.times], ["time [s]"]
     for name, variable in result.data_vars.items():
         flat = variable.values.reshape(len(columns[0]), -1)
-        tails = [""] if variable.ndim == 1 else [f" {label}" for label in result[variable.dims[1]].values]
-        names += [f"{name}{tail} [{variable.attrs['units']}]" for tail in tails]
+        tails = [""] if variable.values.ndim == 1 else [f" {label}" for label in result.coordinates[variable.dims[1]]]
+        names += [f"{name}{tail} [{variable.units}]" for tail in tails]
         columns += list(flat.T)
     origin = "".join(f"# {key}: {value}\n" for key, value in result.attrs.items() if "\n" not in str(value))
     with replacing(path) as temporary, open(temporary, "w", encoding="utf-8", newline="\n") as file:

@@ -12,14 +12,13 @@ import numpy as np
 from towercrane.readings import RADIAL
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from towercrane.case import Case
     from towercrane.cranes.radial import RadialModel
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.integrate import Progress
     from towercrane.motion import Motion
     from towercrane.payload import Load
+    from towercrane.recording import Recording
     from towercrane.system import Model
 
 
@@ -82,15 +81,15 @@ class Scene(ABC, Generic[AnySetting]):
     def model(self, setting: AnySetting) -> Model:
         """The crane in the setting's coordinates."""
 
-    def run(self, setting: AnySetting, *, progress: Progress | None = None) -> xr.Dataset:
-        """Simulate the scene, see :func:`towercrane.simulate.simulate`."""
+    def run(self, setting: AnySetting, *, progress: Progress | None = None) -> Recording:
+        """Simulate the scene, see :func:`towercrane.simulate.record`."""
         from towercrane.drift import EnergyDriftWarning
-        from towercrane.simulate import simulate
+        from towercrane.simulate import record
 
         with warnings.catch_warnings():
             # What a loose tolerance damps is in the estimate.
             warnings.simplefilter("ignore", EnergyDriftWarning)
-            return simulate(
+            return record(
                 self.model(setting),
                 self.motions,
                 self.duration,

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import platform
 import time
 import warnings
-from typing import TYPE_CHECKING, Any
+from functools import wraps
+from typing import TYPE_CHECKING, Any, ParamSpec
 
 import numpy as np
 
@@ -15,17 +17,21 @@ from towercrane.integrate import FINISHED, Trajectory, evaluate, integrate
 from towercrane.kinds import TOWER_CRANES
 from towercrane.models import flexible_model, model_of
 from towercrane.motion import Motion, phases
-from towercrane.results import dataset
+from towercrane.recording import Recording
 from towercrane.system import Model, NoEquilibrium
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import xarray as xr
 
     from towercrane.case import Case
     from towercrane.integrate import Progress
 
+Arguments = ParamSpec("Arguments")
 
-def simulate(
+
+def record(
     model: Model,
     motions: dict[str, Motion],
     duration: float,
@@ -38,8 +44,8 @@ def simulate(
     atol: float = 1e-10,
     split: bool = True,
     progress: Progress | None = None,
-) -> xr.Dataset:
-    """Simulate a crane.
+) -> Recording:
+    """Simulate a crane: a `Recording`, from :func:`simulate` an `xarray.Dataset`.
 
     Parameters
     ----------
@@ -60,7 +66,7 @@ def simulate(
 
     Returns
     -------
-    xarray.Dataset
+    Recording, xarray.Dataset
         Variables over ``time`` with units; the attribute ``outcome`` is "finished" or names what ended the run,
         with ``end_time`` [s].
 
@@ -80,7 +86,7 @@ def simulate(
         if reason := drift.refusal(method, rtol, atol):
             raise ValueError(f"rtol, atol: {reason}, got {rtol:g}, {atol:g}")
         if said := drift.notice(method, rtol, atol):
-            warnings.warn(said, drift.EnergyDriftWarning, stacklevel=2)
+            warnings.warn(said, drift.EnergyDriftWarning, stacklevel=3)
     began = time.perf_counter()
     cut = phases(tuple(motions[channel] for channel in model.channels), duration)
     sample_times = rows_of(duration, output_step)
@@ -120,12 +126,13 @@ def simulate(
         "wall_seconds": time.perf_counter() - began,
         "versions": json.dumps(versions()),
     }
-    return dataset(times, quantities, provenance)
+    return Recording(times, quantities, provenance)
 
 
-def run_case(case: Case, *, model: Model | None = None, progress: Progress | None = None) -> xr.Dataset:
-    """Simulate a case, or another model of its crane; text and assumed values go into the result's attributes.
+def record_case(case: Case, *, model: Model | None = None, progress: Progress | None = None) -> Recording:
+    """Simulate a case, or another model of its crane: a `Recording`, from :func:`run_case` an `xarray.Dataset`.
 
+    Text and assumed values go into the result's attributes.
     Where the case asks for an error, model and solver are chosen by it, and the attribute ``accuracy`` says how.
     """
     with warnings.catch_warnings():
@@ -138,7 +145,7 @@ def run_case(case: Case, *, model: Model | None = None, progress: Progress | Non
             except NoEquilibrium:
                 # Nothing can be chosen for a tower that its weight buckles; the run says so at its start.
                 model = flexible_model(case, weight_softening=True)
-        result = chosen or simulate(
+        result = chosen or record(
             model_of(case) if model is None else model,
             case.motions,
             case.run.duration,
@@ -158,7 +165,7 @@ def run_case(case: Case, *, model: Model | None = None, progress: Progress | Non
     return result
 
 
-def _to_target(case: Case, progress: Progress | None) -> xr.Dataset | None:
+def _to_target(case: Case, progress: Progress | None) -> Recording | None:
     """The run of a case that asks for an error; None for one that does not."""
     if case.kind not in TOWER_CRANES or not case.accuracy.targets:
         return None
@@ -167,6 +174,23 @@ def _to_target(case: Case, progress: Progress | None) -> xr.Dataset | None:
     choice, result = chosen(case, progress)
     result.attrs["accuracy"] = json.dumps(promise(case, choice, result))
     return result
+
+
+def _labelled(name: str, recorded: Callable[Arguments, Recording]) -> Callable[Arguments, xr.Dataset]:
+    """The same simulation, under its own name, with a labelled data set as its result."""
+
+    @wraps(recorded)
+    def labelled(*args: Arguments.args, **kwargs: Arguments.kwargs) -> xr.Dataset:
+        return recorded(*args, **kwargs).dataset()
+
+    labelled.__name__ = labelled.__qualname__ = name
+    returns = inspect.signature(recorded).replace(return_annotation="xr.Dataset")
+    labelled.__signature__ = returns  # type: ignore[attr-defined]
+    return labelled
+
+
+simulate = _labelled("simulate", record)
+run_case = _labelled("run_case", record_case)
 
 
 def rows_of(duration: float, output_step: float) -> np.ndarray[Any, np.dtype[np.float64]]:

@@ -17,10 +17,9 @@ from towercrane.spectrum import spectrum_peaks, swing_period
 from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from towercrane.case import Case
     from towercrane.cranes.small_motions import NaturalMode
+    from towercrane.recording import Result
 
 TUNED = 0.05
 """Structure and twice the swing count as tuned when their frequencies differ by less than this fraction."""
@@ -67,7 +66,7 @@ SIGNALS = {
 SLEWING_SIGNALS = Signals("jib_moment_vertical", "sway_radial")
 
 
-def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
+def summarise(case: Case, result: Result) -> dict[str, Any]:
     """Summary of a run of a case, ready for JSON.
 
     Returns
@@ -122,20 +121,20 @@ def summarise(case: Case, result: xr.Dataset) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def accuracy(result: xr.Dataset) -> dict[str, Any] | None:
+def accuracy(result: Result) -> dict[str, Any] | None:
     """What a run promises of its errors; None where none was asked for."""
     found: dict[str, Any] | None = json.loads(result.attrs.get("accuracy", "null"))
     return found
 
 
-def assumed(result: xr.Dataset) -> list[tuple[str, str, str]]:
+def assumed(result: Result) -> list[tuple[str, str, str]]:
     """Key, value and reason of every value that no source gives."""
     return [tuple(entry) for entry in json.loads(result.attrs.get("assumed", "[]"))]
 
 
-def peaks(result: xr.Dataset) -> dict[str, dict[str, Any]]:
+def peaks(result: Result) -> dict[str, dict[str, Any]]:
     """Extremes of every variable over time alone, with their times."""
-    found = {}
+    found, times = {}, result["time"].values
     for name, variable in result.data_vars.items():
         if variable.dims != ("time",):
             continue
@@ -143,20 +142,20 @@ def peaks(result: xr.Dataset) -> dict[str, dict[str, Any]]:
         high, low = int(np.argmax(values)), int(np.argmin(values))
         found[str(name)] = {
             "maximum": float(values[high]),
-            "maximum_time_s": float(result["time"][high]),
+            "maximum_time_s": float(times[high]),
             "minimum": float(values[low]),
-            "minimum_time_s": float(result["time"][low]),
+            "minimum_time_s": float(times[low]),
             "units": variable.attrs["units"],
         }
     return found
 
 
-def energy_balance(result: xr.Dataset) -> dict[str, float]:
+def energy_balance(result: Result) -> dict[str, float]:
     """Gap between energy gained and work put in: the run's own check of its equations and steps."""
     energy, work = result["total_energy"].values, result["input_work"].values
     gap = abs(energy - energy[0] - work)
     # A crane at rest exchanges nothing; its gap is then judged by the load's energy at a radian of swing.
-    pendulum = result.attrs["payload_mass"] * result.attrs["gravity"] * float(result["rope_length"][0])
+    pendulum = result.attrs["payload_mass"] * result.attrs["gravity"] * float(result["rope_length"].values[0])
     scale = max(float(np.ptp(energy)), float(np.ptp(work)), 1e-3 * pendulum)
     return {
         "largest_gap_j": float(gap.max()),
@@ -166,7 +165,7 @@ def energy_balance(result: xr.Dataset) -> dict[str, float]:
     }
 
 
-def expected(case: Case, result: xr.Dataset) -> dict[str, Any] | None:
+def expected(case: Case, result: Result) -> dict[str, Any] | None:
     """What the case expects beside what the run came to; None for a case that expects nothing.
 
     Returns
@@ -185,7 +184,7 @@ def expected(case: Case, result: xr.Dataset) -> dict[str, Any] | None:
     return {"met": not misses, "misses": misses}
 
 
-def notices(case: Case, result: xr.Dataset, natural: Natural, free: slice) -> list[str]:
+def notices(case: Case, result: Result, natural: Natural, free: slice) -> list[str]:
     """What deserves a second look, in sentences."""
     found = []
     if result.attrs["outcome"] != FINISHED:
@@ -195,7 +194,7 @@ def notices(case: Case, result: xr.Dataset, natural: Natural, free: slice) -> li
         found.append(f"the error asked for is {promised['outcome']}: {'; '.join(promised['reasons'])}")
     tension = result["rope_tension"].values
     if case.rope.slack == "rod" and tension.min() < 0.0:
-        first = float(result["time"][int(np.argmax(tension < 0.0))])
+        first = float(result["time"].values[int(np.argmax(tension < 0.0))])
         found.append(
             f"the rope pushes from {first:.2f} s on (down to {tension.min():.0f} N): "
             "a real rope would be slack there; this case takes it as a rod"
@@ -214,7 +213,7 @@ def notices(case: Case, result: xr.Dataset, natural: Natural, free: slice) -> li
     if case.kind == "space":
         lengths += tuple((f"{name}_sideways", length) for name, length in lengths)
     for name, length in lengths:
-        share = float(abs(result[name]).max()) / length
+        share = float(abs(result[name].values).max()) / length
         if share > SMALL:
             what = name.replace("_", " ")
             found.append(f"{what} reaches {share:.0%} of the beam's length: beyond the small slopes of the model")
@@ -223,7 +222,7 @@ def notices(case: Case, result: xr.Dataset, natural: Natural, free: slice) -> li
     return found
 
 
-def _parametric(result: xr.Dataset, frequencies: list[float], signal: str, swing: int, free: slice) -> list[str]:
+def _parametric(result: Result, frequencies: list[float], signal: str, swing: int, free: slice) -> list[str]:
     """Structure at twice the swing frequency: a small ringing then pumps the swing."""
     own = frequencies[swing]
     tuned = [f for f in frequencies if abs(f / (2.0 * own) - 1.0) < TUNED]
@@ -241,15 +240,15 @@ def _parametric(result: xr.Dataset, frequencies: list[float], signal: str, swing
     return [f"2:1 tuning ({ratio}): a ringing structure can pump the swing; in this run it did not"]
 
 
-def _natural(case: Case, result: xr.Dataset) -> Natural:
+def _natural(case: Case, result: Result) -> Natural:
     """Natural frequencies where the run ended; nothing for a tower that buckles."""
     picked = picked_in(result)
     try:
         if case.kind not in TOWER_CRANES:
             return Natural(_linearised(case), [], {})
-        position, length = float(result["trolley_position"][-1]), float(result["rope_length"][-1])
+        position, length = float(result["trolley_position"].values[-1]), float(result["rope_length"].values[-1])
         if case.kind == "space":
-            angle = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"][-1])
+            angle = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"].values[-1])
             # A load that only swings along the jib may swing across it.
             model = space_model(case, **{**picked, "planar": False})
             return _in_space(natural_modes(model, position, length, angle))

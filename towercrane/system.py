@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.motion import Motion
-    from towercrane.results import Quantity
+    from towercrane.recording import Quantity
 
     Floats = NDArray[np.float64]
 

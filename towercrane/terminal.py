@@ -14,8 +14,6 @@ import typer
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    import xarray as xr
-
     from towercrane.case import Case
 
 Found = TypeVar("Found")
@@ -76,7 +74,7 @@ def held_interrupts() -> Iterator[Callable[[], None]]:
     ask()
 
 
-def with_progress(case: Case, simulate: Callable[..., xr.Dataset]) -> xr.Dataset:
+def with_progress(case: Case, simulate: Callable[..., Found]) -> Found:
     """Run with a progress bar if somebody is looking; Ctrl-C ends the run and keeps what is finished."""
     if not sys.stderr.isatty():
         return simulate(case)

@@ -18,7 +18,7 @@ from towercrane.integrate import INTERRUPTED
 from towercrane.kinds import unit_of
 from towercrane.models import radial_model
 from towercrane.motion import Phases, phases
-from towercrane.simulate import rows_of, run_case, versions
+from towercrane.simulate import record_case, rows_of, versions
 from towercrane.summary import accuracy, peaks
 from towercrane.tableaus import TABLEAUS
 from towercrane.units import UnitError, to_si
@@ -272,7 +272,7 @@ def _one_by_one(case: Case, values: dict[str, list[Value]], progress: Progress |
     promises = [""] * count
     for run in range(count):
         try:
-            result = run_case(load_case(case.path, [*case.changes, *_changes(values, run, list(values))]))
+            result = record_case(load_case(case.path, [*case.changes, *_changes(values, run, list(values))]))
         except KeyboardInterrupt:
             break
         if result.attrs["outcome"] == INTERRUPTED:

@@ -19,9 +19,9 @@ from towercrane.scene import Setting
 from towercrane.system import NoEquilibrium
 
 if TYPE_CHECKING:
-    import xarray as xr
     from numpy.typing import NDArray
 
+    from towercrane.recording import Recording
     from towercrane.scene import RadialScene
 
     Floats = NDArray[np.float64]
@@ -130,7 +130,7 @@ def measured_scene(scene: RadialScene, target: float, outputs: tuple[str, ...]) 
     errors = _errors(run, reference, outputs)
     outcome = KEPT if choice.kept else OUT_OF_REACH
     estimates = choice.estimate.errors(choice.peaks)[[OUTPUTS.index(name) for name in outputs]]
-    peaks = np.maximum([float(abs(run[name]).max()) for name in outputs], SMALLEST_PEAK)
+    peaks = np.maximum([float(abs(run[name].values).max()) for name in outputs], SMALLEST_PEAK)
     cheapest = _cheapest(scene, choice, target, reference, outputs) if choice.kept else None
     return {
         "outcome": "may resonate or swing wide" if choice.doubts else outcome,
@@ -147,7 +147,7 @@ def measured_scene(scene: RadialScene, target: float, outputs: tuple[str, ...]) 
 
 
 def _cheapest(
-    scene: RadialScene, choice: Choice[Setting], target: float, reference: xr.Dataset, outputs: tuple[str, ...]
+    scene: RadialScene, choice: Choice[Setting], target: float, reference: Recording, outputs: tuple[str, ...]
 ) -> float | None:
     """CPU time of the cheapest run that keeps the target, among all settings that are predicted to be cheaper."""
     chosen, best = choice.setting, None
@@ -170,7 +170,7 @@ def _cheapest(
     return best
 
 
-def _errors(run: xr.Dataset, reference: xr.Dataset, outputs: tuple[str, ...]) -> Floats:
+def _errors(run: Recording, reference: Recording, outputs: tuple[str, ...]) -> Floats:
     """Largest difference over the reference's peak, per output."""
     return np.array([gap(run, reference, name) / max(peak(reference, name), SMALLEST_PEAK) for name in outputs])
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.flexible_crane import FlexibleCrane
     from towercrane.cranes.lumped_data import Drive
     from towercrane.motion import Motion
-    from towercrane.results import Quantity
+    from towercrane.recording import Quantity
 
     Floats = NDArray[np.float64]
 

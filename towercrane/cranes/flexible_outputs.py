@@ -10,7 +10,7 @@ from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.flexible_energy import total_energy
 from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.cranes.flexible_sections import SectionLoads
-from towercrane.results import Quantity
+from towercrane.recording import Quantity
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

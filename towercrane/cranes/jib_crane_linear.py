@@ -15,7 +15,7 @@ import numpy as np
 from towercrane.cranes import jib_crane_kernel as kernel
 from towercrane.cranes.jib_crane import PlannedJibCrane
 from towercrane.payload import FORCE, JACOBIAN, MASS
-from towercrane.results import Quantity
+from towercrane.recording import Quantity
 from towercrane.system import System
 
 if TYPE_CHECKING:

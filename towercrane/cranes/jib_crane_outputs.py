@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import jib_crane_kernel as kernel
-from towercrane.results import Quantity
+from towercrane.recording import Quantity
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.motion import Motion
-    from towercrane.results import Quantity
+    from towercrane.recording import Quantity
     from towercrane.system import System
 
     Floats = NDArray[np.float64]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.lumped_data import LumpedCrane
     from towercrane.motion import Motion
-    from towercrane.results import Quantity
+    from towercrane.recording import Quantity
 
     Floats = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import lumped_kernel as kernel
-from towercrane.results import Quantity
+from towercrane.recording import Quantity
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

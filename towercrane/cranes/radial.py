@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower_crane import TowerCrane
     from towercrane.motion import Motion
     from towercrane.payload import Load
-    from towercrane.results import Quantity
+    from towercrane.recording import Quantity
     from towercrane.system import System
 
     Floats = NDArray[np.float64]

@@ -9,7 +9,7 @@ import numpy as np
 from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.flexible_energy import total_energy
 from towercrane.cranes.flexible_motion import FlexibleMotion
-from towercrane.results import Quantity
+from towercrane.recording import Quantity
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

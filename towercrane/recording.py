@@ -1,0 +1,107 @@
+"""What a run leaves: its quantities over time, with units and the provenance of the numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy as np
+    import xarray as xr
+    from numpy.typing import NDArray
+
+
+LABELS: dict[str, list[Any]] = {"axis": ["outward", "sideways", "up"], "joint": ["slew", "luff", "fold"]}
+"""Entries of dimensions that have names."""
+
+
+def labels(dimension: str, size: int) -> list[Any]:
+    """What the entries along a dimension are called: directions, joints, or numbers from 1."""
+    return LABELS.get(dimension, list(range(1, size + 1)))
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """One variable of a result.
+
+    Parameters
+    ----------
+    dims : tuple of str
+    values : ndarray
+    units : str
+        SI, in words that pint reads.
+    long_name : str
+    """
+
+    dims: tuple[str, ...]
+    values: NDArray[np.float64]
+    units: str
+    long_name: str
+
+    @property
+    def attrs(self) -> dict[str, str]:
+        """Units and name, as a data set has them."""
+        return {"units": self.units, "long_name": self.long_name}
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """A run's quantities over time, read like an :class:`xarray.Dataset`: by name, ``dims``, ``values``, ``attrs``.
+
+    It is there because a run should not wait for pandas and xarray, which take longer to import than it takes.
+
+    Parameters
+    ----------
+    times : ndarray, shape (times,)
+        [s]
+    data_vars : mapping of str to Quantity
+    attrs : dict
+        Provenance: text, numbers and arrays of numbers.
+    """
+
+    times: NDArray[np.float64]
+    data_vars: Mapping[str, Quantity]
+    attrs: dict[str, Any]
+
+    def __getitem__(self, name: str) -> Quantity:
+        return self.time if name == "time" else self.data_vars[name]
+
+    def __contains__(self, name: str) -> bool:
+        return name == "time" or name in self.data_vars
+
+    @property
+    def time(self) -> Quantity:
+        """The times as a quantity over themselves."""
+        return Quantity(("time",), self.times, "s", "time")
+
+    @property
+    def coordinates(self) -> dict[str, Any]:
+        """Times, and what the entries along the other dimensions are called."""
+        found: dict[str, Any] = {"time": self.times}
+        for quantity in self.data_vars.values():
+            for dimension, size in zip(quantity.dims[1:], quantity.values.shape[1:], strict=True):
+                found.setdefault(dimension, labels(dimension, size))
+        return found
+
+    def dataset(self) -> xr.Dataset:
+        """The same as a labelled data set."""
+        import pandas as pd
+        import xarray as xr
+
+        def parts(quantity: Quantity) -> tuple[Any, ...]:
+            return quantity.dims, quantity.values, quantity.attrs
+
+        # xarray would make an index of other sequences itself, and import pint, dask and all for it where installed.
+        found = xr.Dataset(
+            {name: parts(quantity) for name, quantity in self.data_vars.items()},
+            {name: pd.Index(entries) for name, entries in self.coordinates.items()},
+            dict(self.attrs),
+        )
+        found["time"].attrs.update(self.time.attrs)
+        return found
+
+
+if TYPE_CHECKING:
+    Result = Recording | xr.Dataset
