@@ -39,7 +39,12 @@ def is_compiled(module: str) -> bool:
 
 
 def kernel(
-    signature: Any = None, *, inline: bool = False, allocates: bool = False, parallel_calls: bool = False
+    signature: Any = None,
+    *,
+    inner: bool = False,
+    inline: bool = False,
+    allocates: bool = False,
+    parallel_calls: bool = False,
 ) -> Callable[[Callable[..., Any]], Any]:
     """Compile a function with numba, cached; with a signature at once, without one at its first call.
 
@@ -47,6 +52,8 @@ def kernel(
     ----------
     signature : numba signature, optional
         A function with a signature can be passed to other kernels as a function pointer.
+    inner : bool
+        Only kernels call it, directly: no doors for Python and for function pointers are compiled.
     inline : bool
         Copy the function into each kernel that calls it: tuples that a call returns go through memory.
     allocates : bool
@@ -69,7 +76,14 @@ def kernel(
             arguments = () if signature is None else (signature,)
             inlining = "always" if inline else "never"
             return compile_(
-                *arguments, cache=True, error_model="numpy", inline=inlining, _nrt=allocates, nogil=parallel_calls
+                *arguments,
+                cache=True,
+                error_model="numpy",
+                inline=inlining,
+                _nrt=allocates,
+                nogil=parallel_calls,
+                no_cpython_wrapper=inner,
+                no_cfunc_wrapper=inner,
             )(function)
         finally:
             config.CACHE_DIR = before

@@ -164,7 +164,7 @@ class _Run:
         self.system, self.rtol, self.atol = system, rtol, atol * system.scale
         self.state, self.samples = state, samples
         self.time, self.smallest_step = 0.0, np.inf
-        self.counts = np.zeros(6, dtype=np.int64)
+        self.counts = np.zeros(5, dtype=np.int64)
 
     def restart(self, phases: Phases, phase: int) -> None:
         """Begin a phase: its start time, and the state back on its constraints."""
@@ -196,18 +196,22 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
 
         if system.switch is not None:
             system.switch.begin(run.state, numbers, floors, guards_at)
-        counts[stepper.FRESH] = 1
         arguments = (
             system.rhs, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
             tableau.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, k, scratch,
             np.minimum(sample_times[mine] - begin, t_end), run.samples[first : first + np.count_nonzero(mine)],
             STEPS_PER_CALL, inputs, *constants, work, guards, floors,
         )  # fmt: skip
-        status, interrupted, stalled = stepper.PAUSED, False, 0
+        status, interrupted, stalled, fresh = stepper.PAUSED, False, 0, True
         while status == stepper.PAUSED and not interrupted:
             before = clock[stepper.TIME]
             try:
-                status = stepper.advance(*arguments)
+                if fresh:
+                    guards_at()
+                    status = _enter(run, scratch[0], guards, floors, clock, counts, t_end)
+                    k[0], fresh = scratch[0], False
+                if status == stepper.PAUSED:
+                    status = stepper.advance(*arguments)
                 if progress is not None:
                     progress(begin + clock[stepper.TIME])
             except KeyboardInterrupt:
@@ -221,7 +225,7 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
                     return STALLED
                 crossed = int(counts[stepper.GUARD_INDEX])
                 if system.switch.cross(crossed, run.state, numbers, floors, guards_at):
-                    status, counts[stepper.FRESH] = stepper.PAUSED, 1
+                    status, fresh = stepper.PAUSED, True
         run.counts += counts
         run.time, run.smallest_step = begin + float(clock[stepper.TIME]), float(clock[stepper.SMALLEST])
         step = float(clock[stepper.STEP])
@@ -234,6 +238,23 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
         if status == stepper.NOT_FINITE:
             return NOT_FINITE
     return FINISHED
+
+
+def _enter(
+    run: _Run, slope: Floats, guards: Floats, floors: Floats, clock: Floats, counts: NDArray[np.int64], t_end: float
+) -> int:
+    """Whether the run goes on, with the slope and the guards where it stands; a first step if it has none."""
+    from towercrane import stepper
+
+    counts[EVALUATIONS] += 1
+    if not np.all(np.isfinite(slope)):
+        return stepper.NOT_FINITE
+    if len(fallen := np.flatnonzero(guards < floors)):
+        counts[stepper.GUARD_INDEX] = fallen[0]
+        return stepper.GUARD
+    if clock[stepper.STEP] <= 0.0:
+        clock[stepper.STEP] = stepper.first_step.py_func(run.state, slope, run.rtol, run.atol, t_end)
+    return stepper.PAUSED
 
 
 def _scipy(

@@ -146,7 +146,7 @@ ToleranceIfAny = Annotated[float | None, Quantity("1", least=1e-9, most=0.1)]
 class Table(BaseModel):
     """A table of the file: known keys only, unchangeable once read."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
 class Payload(Table):

@@ -80,13 +80,13 @@ class RadialCase(Table):
     payload: Payload
     rope: Rope
     motion: Motions
-    model: Model = Model()
-    start: Start = Start()
+    model: Model = Field(default_factory=Model)
+    start: Start = Field(default_factory=Start)
     run: Run
-    solver: Solver = Solver()
-    modes: ModesRequest = ModesRequest()
-    map: MapRequest = MapRequest()
-    accuracy: Accuracy = Accuracy()
+    solver: Solver = Field(default_factory=Solver)
+    modes: ModesRequest = Field(default_factory=ModesRequest)
+    map: MapRequest = Field(default_factory=MapRequest)
+    accuracy: Accuracy = Field(default_factory=Accuracy)
     allow_implausible: tuple[str, ...] = ()
     expect: Expect | None = None
 
@@ -137,12 +137,12 @@ class SpaceCase(Table):
     rope: Rope
     motion: SpaceMotions
     wind: Wind | None = None
-    model: SpaceModel = SpaceModel()
-    start: Start = Start()
+    model: SpaceModel = Field(default_factory=SpaceModel)
+    start: Start = Field(default_factory=Start)
     run: Run
-    solver: Solver = Solver()
-    modes: SpaceModesRequest = SpaceModesRequest()
-    accuracy: SpaceAccuracy = SpaceAccuracy()
+    solver: Solver = Field(default_factory=Solver)
+    modes: SpaceModesRequest = Field(default_factory=SpaceModesRequest)
+    accuracy: SpaceAccuracy = Field(default_factory=SpaceAccuracy)
     allow_implausible: tuple[str, ...] = ()
     expect: Expect | None = None
 
@@ -169,9 +169,9 @@ class SlewingCase(Table):
     payload: Payload
     rope: Rope
     motion: SlewingMotions
-    start: SlewingStart = SlewingStart()
+    start: SlewingStart = Field(default_factory=SlewingStart)
     run: Run
-    solver: Solver = Solver()
+    solver: Solver = Field(default_factory=Solver)
     allow_implausible: tuple[str, ...] = ()
     expect: Expect | None = None
 
@@ -202,9 +202,9 @@ class JibCase(Table):
     payload: Payload
     rope: Rope
     motion: JibMotions
-    start: JibStart = JibStart()
+    start: JibStart = Field(default_factory=JibStart)
     run: Run
-    solver: Solver = Solver()
+    solver: Solver = Field(default_factory=Solver)
     allow_implausible: tuple[str, ...] = ()
     expect: Expect | None = None
 

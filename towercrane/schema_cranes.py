@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import Field
+
 from towercrane.schema import (
     Acceleration,
     Corner,
@@ -174,7 +176,7 @@ class SlewingCrane(Table):
     damping: Table
     drive: Drive
     friction: Friction = Friction(law="none")
-    drag: BasicDrag = BasicDrag()
+    drag: BasicDrag = Field(default_factory=BasicDrag)
 
 
 class BasicCrane(SlewingCrane):
@@ -183,7 +185,7 @@ class BasicCrane(SlewingCrane):
     kind: Literal["basic"]
     mass: BasicMass
     stiffness: BasicStiffness
-    damping: BasicDamping = BasicDamping()
+    damping: BasicDamping = Field(default_factory=BasicDamping)
 
 
 class EnhancedCrane(SlewingCrane):
@@ -193,8 +195,8 @@ class EnhancedCrane(SlewingCrane):
     mass: EnhancedMass
     inertia: TowerInertia
     stiffness: EnhancedStiffness
-    damping: EnhancedDamping = EnhancedDamping()
-    drag: EnhancedDrag = EnhancedDrag()
+    damping: EnhancedDamping = Field(default_factory=EnhancedDamping)
+    drag: EnhancedDrag = Field(default_factory=EnhancedDrag)
 
 
 class MultiMassCrane(SlewingCrane):
@@ -205,8 +207,8 @@ class MultiMassCrane(SlewingCrane):
     mass: MultiMass
     inertia: TowerInertia
     stiffness: MultiMassStiffness
-    damping: MultiMassDamping = MultiMassDamping()
-    drag: MultiMassDrag = MultiMassDrag()
+    damping: MultiMassDamping = Field(default_factory=MultiMassDamping)
+    drag: MultiMassDrag = Field(default_factory=MultiMassDrag)
 
 
 class Post(Table):

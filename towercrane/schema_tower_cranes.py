@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import Field
+
 from towercrane.schema import (
     Acceleration,
     AreaOrNone,
@@ -87,12 +89,12 @@ class Crane(Table):
     kind: str
     gravity: Acceleration = 9.81
     tower: Tower
-    foundation: Foundation = Foundation()
+    foundation: Foundation = Field(default_factory=Foundation)
     jib: Jib
     counter_jib: CounterJib
     trolley: Trolley
     roll_inertia: InertiaOrNone = 0.0
-    wind_areas: WindAreas = WindAreas()
+    wind_areas: WindAreas = Field(default_factory=WindAreas)
     drive: SlewingDrive | None = None
     friction: SmoothFriction = SmoothFriction(law="none")
 

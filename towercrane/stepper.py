@@ -15,13 +15,13 @@ from modal.compiled import kernel
 from towercrane.system import rhs_signature
 
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
-"""What :func:`advance` returns."""
+"""How far a phase has come."""
 
 TIME, STEP, SMALLEST, LONGEST = range(4)
 """Entries of its clock: time since the phase began, next step, smallest step taken, longest step allowed [s]."""
 
-ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX, FRESH = range(6)
-"""Entries of its counts; FRESH asks for the slope at the start, and is taken back."""
+ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
+"""Entries of its counts."""
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 10.0
 
@@ -62,7 +62,7 @@ def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, ato
     return h * np.sqrt(first / active)
 
 
-@kernel()
+@kernel(inner=True)
 def _fallen(guards: Any, floors: Any) -> int:
     """Index of the first guard below its floor, or -1."""
     for g in range(guards.size):
@@ -71,7 +71,7 @@ def _fallen(guards: Any, floors: Any) -> int:
     return -1
 
 
-@kernel()
+@kernel(inner=True)
 def stage_state(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
     """State of stage ``row``: out = y + h sum_j a[row, j] k[j]."""
     for m in range(y.size):
@@ -85,7 +85,7 @@ def stage_state(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
         out[m] = y[m] + h * out[m]
 
 
-@kernel()
+@kernel(inner=True)
 def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
     """State at the fraction x of the step that began at y."""
     for m in range(y.size):
@@ -160,12 +160,12 @@ def advance(
         As in :func:`towercrane.system.rhs_signature`.
     stages, a, c, error, dense, error_order
         As in :class:`towercrane.tableaus.Tableau`.
-    clock, counts : ndarray, shapes (4,) and (6,)
-        Read and written; a step of zero or less asks for a first guess.
+    clock, counts : ndarray, shapes (4,) and (5,)
+        Read and written.
     y : ndarray, shape (size,)
         State, carried on in place.
     k, scratch : ndarray, shapes (m, size) and (3, size)
-        Stages; the first must not be touched between two calls of one phase.
+        Stages, of which the first is the slope at the start; they must not be touched between two calls of one phase.
     sample_times, samples : ndarray, shapes (p,) and (p, size)
         Times since the phase began at which the state is wanted, increasing; the states.
     guards, floors : ndarray, shape (g,)
@@ -174,50 +174,39 @@ def advance(
     Returns
     -------
     int
-        One of FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE.
+        One of FINISHED, PAUSED, GUARD, COLLAPSED.
     """
     new, trial, slope = scratch[0], scratch[1], scratch[2]
     t, h = clock[TIME], clock[STEP]
-    all_stages = a.shape[0]
-    if counts[FRESH]:
-        counts[FRESH] = 0
-        rhs(t, y, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-        counts[EVALUATIONS] += 1
-        for m in range(y.size):
-            k[0, m] = slope[m]
-            if not np.isfinite(slope[m]):
-                return NOT_FINITE
-        counts[GUARD_INDEX] = _fallen(guards, floors)
-        if counts[GUARD_INDEX] >= 0:
-            return GUARD
-    if h <= 0.0:
-        h = first_step(y, slope, rtol, atol, t_end)
     shortest = SHORTEST * t_end
-    taken = 0
-    grow = GROW
+    taken, grow = 0, GROW
     while t < t_end:
-        if taken == max_steps:
+        if taken == max_steps or h < shortest:
             clock[TIME], clock[STEP] = t, h
-            return PAUSED
-        if h < shortest:
-            clock[TIME], clock[STEP] = t, h
-            return COLLAPSED
+            return PAUSED if taken == max_steps else COLLAPSED
         h = h if h < clock[LONGEST] else clock[LONGEST]
         last = t + h >= t_end - shortest
         step = t_end - t if last else h
-        # The slopes go through a fixed array: a view of k per stage would cost a tenth of the right-hand side.
-        suspect = False
-        for i in range(1, stages + 1):
+        t_new = t_end if last else t + step
+        suspect, norm = False, 0.0
+        for i in range(1, a.shape[0]):
             stage_state(y, a, i, k, step, trial)
+            # The slopes go through a fixed array: a view of k per stage would cost a tenth of the right-hand side.
             rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-            suspect = suspect or _fallen(guards, floors) >= 0
+            counts[EVALUATIONS] += 1
             for m in range(y.size):
                 k[i, m] = slope[m]
-        for m in range(y.size):
-            new[m] = trial[m]
-        t_new = t_end if last else t + step
-        counts[EVALUATIONS] += stages
-        norm = _error_norm(error, k, y, new, step, rtol, atol)
+            if i > stages:
+                continue
+            suspect = suspect or _fallen(guards, floors) >= 0
+            if i == stages:
+                for m in range(y.size):
+                    new[m] = trial[m]
+                norm = _error_norm(error, k, y, new, step, rtol, atol)
+                wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
+                # The stages beyond are for the dense output alone.
+                if not (norm <= 1.0 and (suspect or wanted)):
+                    break
         if not norm <= 1.0:
             counts[REJECTED] += 1
             # A norm that is not a number (a trial left the model's domain) shrinks the step as far as allowed.
@@ -226,37 +215,24 @@ def advance(
             grow = 1.0
             continue
 
-        wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
-        if suspect or wanted:
-            for i in range(stages + 1, all_stages):
-                stage_state(y, a, i, k, step, trial)
-                rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-                for m in range(y.size):
-                    k[i, m] = slope[m]
-            counts[EVALUATIONS] += all_stages - stages - 1
-        crossed, stop = -1, t_new
         # A stage is only an estimate of the state there; the dense output decides, also over a dip that recovers.
-        part = 0
-        while suspect and crossed < 0 and part < LOOKS:
-            part += 1
-            low, high = (part - 1.0) / LOOKS, part / LOOKS
-            _dense(y, dense, k, step, high, trial)
-            rhs(t + high * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+        low, high, crossed = 0.0, 1.0 / LOOKS, -1
+        while suspect:
+            x = high if crossed < 0 else 0.5 * (low + high)
+            _dense(y, dense, k, step, x, trial)
+            rhs(t + x * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
             counts[EVALUATIONS] += 1
-            crossed = _fallen(guards, floors)
-            while crossed >= 0 and high - low > 1e-12:
-                middle = 0.5 * (low + high)
-                _dense(y, dense, k, step, middle, trial)
-                rhs(t + middle * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-                counts[EVALUATIONS] += 1
-                first = _fallen(guards, floors)
-                if first >= 0:
-                    high, crossed = middle, first
-                else:
-                    low = middle
-            if crossed >= 0:
-                stop = t + high * step
-                _dense(y, dense, k, step, high, new)
+            guard = _fallen(guards, floors)
+            if guard >= 0:
+                high, crossed = x, guard
+                for m in range(y.size):
+                    new[m] = trial[m]
+            elif crossed >= 0:
+                low = x
+            else:
+                low, high = x, x + 1.0 / LOOKS
+            suspect = high <= 1.0 if crossed < 0 else high - low > 1e-12
+        stop = t_new if crossed < 0 else t + high * step
         while counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= stop:
             row = counts[WRITTEN]
             _dense(y, dense, k, step, (sample_times[row] - t) / step, samples[row])
