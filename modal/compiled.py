@@ -41,19 +41,20 @@ def is_compiled(module: str) -> bool:
 def kernel(
     signature: Any = None,
     *,
-    inner: bool = False,
+    door: bool = False,
     inline: bool = False,
     allocates: bool = False,
     parallel_calls: bool = False,
 ) -> Callable[[Callable[..., Any]], Any]:
-    """Compile a function with numba, cached; with a signature at once, without one at its first call.
+    """Compile a function with numba: with a signature at once, cached; without one into the kernels that call it.
 
     Parameters
     ----------
     signature : numba signature, optional
-        A function with a signature can be passed to other kernels as a function pointer.
-    inner : bool
-        Only kernels call it, directly: no doors for Python and for function pointers are compiled.
+        A function with a signature can be called from Python, and be passed to kernels as a function pointer. One
+        without stays as it is for Python.
+    door : bool
+        Compile a function without a signature for Python as well, cached, at its first call.
     inline : bool
         Copy the function into each kernel that calls it: tuples that a call returns go through memory.
     allocates : bool
@@ -65,26 +66,23 @@ def kernel(
     """
     import numba
     from numba.core import config as numba_config
+    from numba.extending import register_jitable
 
     # Both are typed more narrowly than they are used here, or not at all.
     config: Any = numba_config
     compile_: Any = numba.njit
+    options = {"error_model": "numpy", "_nrt": allocates}
+    if signature is None and not (door or inline):
+        # A door for Python takes longer to compile than many a function behind it.
+        callee: Any = register_jitable(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
+        return lambda function: callee(function)
 
     def decorate(function: Callable[..., Any]) -> Any:
         before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
         try:
             arguments = () if signature is None else (signature,)
             inlining = "always" if inline else "never"
-            return compile_(
-                *arguments,
-                cache=True,
-                error_model="numpy",
-                inline=inlining,
-                _nrt=allocates,
-                nogil=parallel_calls,
-                no_cpython_wrapper=inner,
-                no_cfunc_wrapper=inner,
-            )(function)
+            return compile_(*arguments, cache=True, inline=inlining, nogil=parallel_calls, **options)(function)
         finally:
             config.CACHE_DIR = before
 

@@ -107,7 +107,7 @@ def _check_ratios(mass_ratio: float, inertia_ratio: float, offset_ratio: float) 
         raise ValueError(f"offset_ratio: wanted a finite number, got {offset_ratio!r}")
 
 
-@kernel(inner=True)
+@kernel()
 def _products(x: float) -> tuple[float, float, float, float, float]:
     """1 + cC, 1 - cC, sC - cS, sC + cS and sS of x, all divided by cosh x.
 
@@ -139,7 +139,7 @@ def _products(x: float) -> tuple[float, float, float, float, float]:
     return sech + c, sech - c, s - c * t, s + c * t, s * t
 
 
-@kernel(inner=True)
+@kernel()
 def _characteristic(x: float, a_body: float, a_beam: float, j_body: float, j_beam: float, h: float) -> float:
     """F over cosh x, (1 + a), (1 + j) and its growth with x, all of them positive.
 
@@ -164,7 +164,7 @@ def _characteristic(x: float, a_body: float, a_beam: float, j_body: float, j_bea
     return float(value / ((a_beam + a_x) * (j_beam + j_x)))
 
 
-@kernel()
+@kernel(types.int64(*[types.float64] * 6))
 def _count(x: float, a_body: float, a_beam: float, j_body: float, j_beam: float, h: float) -> int:
     """Number of roots below x, those at zero that infinite ratios leave behind excepted."""
     if x == 0.0:

@@ -81,5 +81,5 @@ def test_exact_structures_come_first_as_they_take_longest(monkeypatch):
 
 
 def test_nothing_beside_starts_no_process(monkeypatch):
-    monkeypatch.setattr(subprocess, "Popen", None)
+    monkeypatch.setattr("multiprocessing.get_context", None)
     compile_kernels("towercrane.polynomial")

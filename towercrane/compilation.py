@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
+from contextlib import suppress
 from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from modal.compiled import is_compiled
+
+if TYPE_CHECKING:
+    from multiprocessing.process import BaseProcess
 
 FLEXIBLE = "towercrane.cranes.flexible_rhs", "modal.roots"
 STRUCTURE = "modal.structure_kernel"
@@ -35,12 +39,31 @@ def missing_kernels(*uses: str) -> tuple[str, ...]:
 
 def compile_kernels(here: str, *beside: str) -> None:
     """Import modules of kernels, the first here, the others in a process beside: all leave code in the cache."""
-    # Without looking for garbage it is a twentieth faster, and it does not live long.
-    command = [sys.executable, "-c", f"import gc; gc.disable(); import {', '.join(beside)}"]
-    # If it fails, it does no harm: what it should have compiled is compiled where it is used.
-    other = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) if beside else None
+    other = _started(beside) if beside else None
     try:
         import_module(here)
     finally:
         if other:
-            other.wait()
+            other.join()
+
+
+def _started(modules: tuple[str, ...]) -> BaseProcess:
+    """A process that imports these modules."""
+    import multiprocessing
+
+    import numba
+
+    # A third of numba loads with the first function that it compiles. A fork then need not load it once more;
+    # elsewhere than on Linux libraries do not bear one.
+    numba.njit("float64(float64)")(lambda x: x)
+    context: Any = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+    process: BaseProcess = context.Process(target=_import, args=modules)
+    process.start()
+    return process
+
+
+def _import(*modules: str) -> None:
+    # If it fails, it does no harm: what it should have compiled is compiled where it is used.
+    with suppress(Exception, KeyboardInterrupt):
+        for module in modules:
+            import_module(module)

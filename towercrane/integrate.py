@@ -253,7 +253,7 @@ def _enter(
         counts[stepper.GUARD_INDEX] = fallen[0]
         return stepper.GUARD
     if clock[stepper.STEP] <= 0.0:
-        clock[stepper.STEP] = stepper.first_step.py_func(run.state, slope, run.rtol, run.atol, t_end)
+        clock[stepper.STEP] = stepper.first_step(run.state, slope, run.rtol, run.atol, t_end)
     return stepper.PAUSED
 
 

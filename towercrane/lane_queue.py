@@ -11,11 +11,9 @@ import numpy as np
 from numba import types
 
 from modal.compiled import kernel
-from towercrane import payload
 from towercrane.lane_vector import LANES
+from towercrane.payload import restore
 from towercrane.stepper import GROW
-
-restore = kernel(inline=True)(payload.restore)
 
 RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED = range(7)
 """Rows of a lane's places: run (-1: idle), phase, next sample, first sample of the next phase, whether the slope at

@@ -74,6 +74,7 @@ def work_shape(coordinates: int) -> tuple[int, int]:
     return MASS + coordinates, max(coordinates, 3)
 
 
+@kernel()
 def restore(state: Any, coordinates: int, axes: int) -> None:
     """Put the rope's direction back to unit length and its rate at right angles, in place.
 
@@ -129,7 +130,7 @@ def _bind(i: int, m: int, carried: float, work: Any) -> None:
     work[i + MASS, m] = work[i + MASS, m] + carried * work[ALONG, m]
 
 
-@kernel(inner=True)
+@kernel()
 def hang_load(
     y: Any,
     dy: Any,

@@ -7,7 +7,7 @@ from typing import Any
 from modal.compiled import kernel
 
 
-@kernel(inner=True)
+@kernel()
 def polynomial(inputs: Any, channel: int, t: float) -> tuple[float, float, float]:
     """Value and first two derivatives of an input channel.
 

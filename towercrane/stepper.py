@@ -62,7 +62,7 @@ def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, ato
     return h * np.sqrt(first / active)
 
 
-@kernel(inner=True)
+@kernel()
 def _fallen(guards: Any, floors: Any) -> int:
     """Index of the first guard below its floor, or -1."""
     for g in range(guards.size):
@@ -71,7 +71,7 @@ def _fallen(guards: Any, floors: Any) -> int:
     return -1
 
 
-@kernel(inner=True)
+@kernel()
 def stage_state(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
     """State of stage ``row``: out = y + h sum_j a[row, j] k[j]."""
     for m in range(y.size):
@@ -85,7 +85,7 @@ def stage_state(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
         out[m] = y[m] + h * out[m]
 
 
-@kernel(inner=True)
+@kernel()
 def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
     """State at the fraction x of the step that began at y."""
     for m in range(y.size):
@@ -101,7 +101,7 @@ def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
         out[m] = y[m] + h * out[m]
 
 
-@kernel(inline=True)
+@kernel()
 def first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> float:
     """First guess of a step, from the size of state and slope."""
     size, speed = 0.0, 0.0

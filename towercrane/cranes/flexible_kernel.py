@@ -207,7 +207,7 @@ def path_of(rotation: tuple[float, ...], left: float, up: float) -> Vector:
     )
 
 
-@kernel()
+@kernel(door=True)
 def structure(
     d: int,
     t: float,

@@ -51,7 +51,7 @@ def bend_mode(
     return tuple(map(add, sums, parts))
 
 
-@kernel(inner=True)
+@kernel()
 def bend_jib(
     first: int,
     last: int,
