@@ -46,17 +46,17 @@ def places(i, n, numbers, table, out):
 traced_arithmetic, traced_places = traced(arithmetic), traced(places)
 
 
-@kernel()
+@kernel(door=True)
 def compute(a, b, c, fixed):
     return traced_arithmetic(a, (b, c), fixed)
 
 
-@kernel()
+@kernel(door=True)
 def place(i, n, numbers, table, out):
     traced_places(i, n, numbers, table, out)
 
 
-@kernel()
+@kernel(door=True)
 def in_every_lane(numbers, found):
     lanes, results = in_lanes(numbers), in_lanes(found)
     total, (first, others), constant = traced_arithmetic(lanes[0], (lanes[1], 0.3), lanes)
