@@ -89,6 +89,9 @@ def main() -> None:
         raise
     except OSError as error:
         fail(f"cannot write the output: {error.strerror or error}")
+    finally:
+        # Nor are they searched once more at the end.
+        gc.freeze()
 
 
 def _version(wanted: bool) -> None:
