@@ -132,9 +132,11 @@ def integrate(
             f"got {method!r}"
         )
     began, began_cpu = time.perf_counter(), time.process_time()
-    run = _Run(system, rtol, atol, np.array(start, dtype=float), np.empty((len(sample_times), system.size)))
+    run = Run(system, rtol, atol, np.array(start, dtype=float), np.empty((len(sample_times), system.size)))
     if method not in TABLEAUS:
-        outcome = _scipy(run, phases, sample_times, SCIPY_METHODS[method], split, progress)
+        from towercrane.scipy_solver import solve
+
+        outcome = solve(run, phases, sample_times, SCIPY_METHODS[method], split, progress)
     elif split:
         outcome = _compiled(run, phases, sample_times, TABLEAUS[method], progress)
     else:
@@ -157,7 +159,7 @@ def integrate(
     )
 
 
-class _Run:
+class Run:
     """What a run has reached: both kinds of solver carry it on."""
 
     def __init__(self, system: System, rtol: float, atol: float, state: Floats, samples: Floats) -> None:
@@ -173,7 +175,7 @@ class _Run:
             self.system.restore(self.state)
 
 
-def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau, progress: Progress | None) -> str:
+def _compiled(run: Run, phases: Phases, sample_times: Floats, tableau: Tableau, progress: Progress | None) -> str:
     from towercrane import stepper
 
     system = run.system
@@ -241,7 +243,7 @@ def _compiled(run: _Run, phases: Phases, sample_times: Floats, tableau: Tableau,
 
 
 def _enter(
-    run: _Run, slope: Floats, guards: Floats, floors: Floats, clock: Floats, counts: NDArray[np.int64], t_end: float
+    run: Run, slope: Floats, guards: Floats, floors: Floats, clock: Floats, counts: NDArray[np.int64], t_end: float
 ) -> int:
     """Whether the run goes on, with the slope and the guards where it stands; a first step if it has none."""
     from towercrane import stepper
@@ -255,75 +257,6 @@ def _enter(
     if clock[stepper.STEP] <= 0.0:
         clock[stepper.STEP] = stepper.first_step(run.state, slope, run.rtol, run.atol, t_end)
     return stepper.PAUSED
-
-
-def _scipy(
-    run: _Run,
-    phases: Phases,
-    sample_times: Floats,
-    method: str,
-    split: bool,
-    progress: Progress | None,
-) -> str:
-    from scipy.integrate import solve_ivp
-
-    system = run.system
-    slope, guards, work = np.empty(system.size), np.empty(len(system.guards)), np.zeros(system.work_shape)
-    current = 0
-
-    def rhs(t: float, y: Floats) -> Floats:
-        phase = current if split else int(phase_of(np.array([t]), phases)[0])
-        local = t - phases.times[phase]
-        system.rhs(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards)
-        return slope.copy()
-
-    def watch(index: int) -> Any:
-        def guard(t: float, y: Floats) -> float:
-            rhs(t, y)
-            return float(guards[index] - system.floors[index])
-
-        guard.terminal, guard.direction = True, -1.0  # type: ignore[attr-defined]
-        return guard
-
-    run.counts[REJECTED] = -1
-    # A state that must not steer the step gets a tolerance that it always meets.
-    atol = np.where(np.isinf(run.atol), 1e300, run.atol)
-    watched = [index for index, floor in enumerate(system.floors) if np.isfinite(floor)]
-    owner = phase_of(sample_times, phases)
-    legs = range(len(phases.inputs)) if split else range(1)
-    for current in legs:
-        run.restart(phases, current)
-        stop = float(phases.times[current + 1] if split else phases.times[-1])
-        wanted = sample_times[owner == current] if split else sample_times
-        if not np.all(np.isfinite(rhs(run.time, run.state))):
-            return NOT_FINITE
-        if fallen := [index for index in watched if guards[index] < system.floors[index]]:
-            return system.guards[fallen[0]]
-        try:
-            # Radau widens the difference of a state that no slope depends on, such as the work, until it is infinite.
-            with np.errstate(over="ignore"):
-                solution = solve_ivp(
-                    rhs, (run.time, stop), run.state, method=method, rtol=run.rtol, atol=atol, dense_output=True,
-                    events=[watch(index) for index in watched],
-                )  # fmt: skip
-        except KeyboardInterrupt:
-            return INTERRUPTED
-        reached = wanted[wanted <= solution.t[-1]]
-        first = int(run.counts[WRITTEN])
-        run.samples[first : first + len(reached)] = solution.sol(reached).T
-        run.counts[[ACCEPTED, EVALUATIONS, WRITTEN]] += (len(solution.t) - 1, solution.nfev, len(reached))
-        run.smallest_step = min(run.smallest_step, float(np.diff(solution.t).min()))
-        run.time, run.state = float(solution.t[-1]), solution.y[:, -1].copy()
-        if progress is not None:
-            progress(run.time)
-        for index, times in zip(watched, solution.t_events or (), strict=True):
-            if len(times):
-                return system.guards[index]
-        if not np.all(np.isfinite(run.state)):
-            return NOT_FINITE  # LSODA calls that a success.
-        if not solution.success:
-            return COLLAPSED
-    return FINISHED
 
 
 def phase_of(times: Floats, phases: Phases) -> NDArray[np.int64]:
