@@ -77,13 +77,13 @@ class Assembly:
     def angular_frequencies(self, count: int) -> Floats:
         """Lowest natural angular frequencies [rad/s]; shape (count,)."""
         roots = np.zeros(count)
-        find_roots(*self._arrays, False, 1.0, inf, roots)
+        find_roots(dynamic_stiffness, *self._arrays, False, 1.0, inf, roots)
         return roots * self.units[2]
 
     def buckling_factor(self) -> float:
         """Lowest factor on all weights and axial loads at which the structure buckles [1]; ``inf``: it never does."""
         roots = np.zeros(1)
-        return float(roots[0]) if find_roots(*self._arrays, True, 1.0, FOREVER, roots) else inf
+        return float(roots[0]) if find_roots(dynamic_stiffness, *self._arrays, True, 1.0, FOREVER, roots) else inf
 
     def stiffness(self, unknowns: int) -> Floats:
         """Static stiffness of the original's unknowns under all weights and loads [N/m, N, N m], shape (n, n)."""

@@ -66,24 +66,40 @@ def kernel(
     """
     import numba
     from numba.core import config as numba_config
-    from numba.extending import register_jitable
 
     # Both are typed more narrowly than they are used here, or not at all.
     config: Any = numba_config
     compile_: Any = numba.njit
-    options = {"error_model": "numpy", "_nrt": allocates}
-    if signature is None and not (door or inline):
-        # A door for Python takes longer to compile than many a function behind it.
-        callee: Any = register_jitable(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
-        return lambda function: callee(function)
+    # A door for Python takes longer to compile than many a function behind it.
+    inner = signature is None and not (door or inline)
 
     def decorate(function: Callable[..., Any]) -> Any:
         before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
         try:
-            arguments = () if signature is None else (signature,)
-            inlining = "always" if inline else "never"
-            return compile_(*arguments, cache=True, inline=inlining, nogil=parallel_calls, **options)(function)
+            made = compile_(
+                *(() if signature is None else (signature,)),
+                cache=True,
+                error_model="numpy",
+                inline="always" if inline else "never",
+                _nrt=allocates,
+                nogil=parallel_calls,
+                no_cpython_wrapper=inner,
+                no_cfunc_wrapper=inner,
+            )(function)
         finally:
             config.CACHE_DIR = before
+        if inner:
+            made.__class__ = _inner(type(made))
+        return made
 
     return decorate
+
+
+@cache
+def _inner(dispatcher: type) -> type:
+    """Class of compiled functions without a door: Python, which would crash without it, calls what they were."""
+
+    def call(self: Any, *arguments: Any) -> Any:
+        return self.py_func(*arguments)
+
+    return type("Inner", (dispatcher,), {"__call__": call})

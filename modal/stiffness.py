@@ -17,7 +17,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import types
 
 from modal.compiled import kernel
 from modal.traced import traced
@@ -44,10 +43,8 @@ LEAST_SHEAR = 1e-4
 """Part of the shear stiffness that compression must leave (Engesser); with less a segment counts as unstable: the
 number of pieces grows without bound towards none."""
 
-_one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 
-
-@kernel(types.float64(_one, types.float64))
+@kernel()
 def mass_passed(segment: Any, distance: float) -> float:
     """Mass between the near end and a distance from it."""
     slope = (segment[RATIO] - 1.0) / segment[LENGTH]
@@ -57,7 +54,7 @@ def mass_passed(segment: Any, distance: float) -> float:
     return float(segment[MASS] * ((1.0 + slope * distance) ** power - 1.0) / (slope * power))
 
 
-@kernel(types.int64(_one, types.float64, types.float64, types.float64, types.float64))
+@kernel()
 def pieces_within(segment: Any, near: float, far: float, omega2: float, load: float) -> int:
     """Number of equal pieces between two distances, short enough to have no fixed-end mode; 0: unstable in shear.
 
@@ -98,7 +95,7 @@ def pieces_within(segment: Any, near: float, far: float, omega2: float, load: fl
     return 1 + int(max(pieces, (far - near) * np.sqrt(squared / REACH)))
 
 
-@kernel(types.float64(_one, types.float64))
+@kernel()
 def cell_end(segment: Any, near: float) -> float:
     """Far end of the cell that starts at a distance: breadth changes by about `TAPER` in it.
 
@@ -119,7 +116,7 @@ def _power_series(value: float, relative_slope: float, power: float, out: Any, t
         out[i] = out[i - 1] * relative_slope * (power - i + 1.0) / i
 
 
-@kernel(types.int64(_one, types.float64, types.float64, types.float64, types.float64, _two))
+@kernel()
 def coefficients(segment: Any, start: float, length: float, omega2: float, load: float, out: Any) -> int:
     """Series of m w^2, 1/EI, a, b, P and rho I w^2 along a piece, in the units of the piece; their number of terms.
 
@@ -177,7 +174,7 @@ def coefficients(segment: Any, start: float, length: float, omega2: float, load:
     return int(terms)
 
 
-@kernel(types.void(_two, types.int64, _two))
+@kernel()
 def state_series(series: Any, terms: int, state: Any) -> None:
     """Taylor coefficients of (v, theta, V, M) along a piece of unit length; ``state[0]`` holds the start.
 
@@ -240,7 +237,7 @@ def _from_transfer(T: Any, unit: float, length: float, out: Any) -> None:
             out[j, i] = value
 
 
-@kernel(types.void(_one, types.float64, types.float64, types.float64, types.float64, _two, _two, _two, _two))
+@kernel()
 def relative_stiffness(
     segment: Any, start: float, length: float, omega2: float, load: float, series: Any, state: Any, T: Any, out: Any
 ) -> None:
@@ -307,7 +304,7 @@ def _condense(near: Any, piece: Any, recovery: Any, i00: float, i01: float, i11:
             near[2 + i, j] = piece[2 + i, j] + piece[2 + i, 0] * recovery[0, j] + piece[2 + i, 1] * recovery[1, j]
 
 
-@kernel(types.int64(_two, _two, _two))
+@kernel()
 def join(near: Any, piece: Any, recovery: Any) -> int:
     """Append a piece to a segment's stiffness ``near`` (4, 4), in place; negative eigenvalues of the node between.
 

@@ -69,7 +69,10 @@ def _segment_stiffness(
     return count
 
 
-@kernel(types.int64(types.float64, types.float64, *_structure, _two), allocates=True)
+_stiffness = types.int64(types.float64, types.float64, *_structure, _two)
+
+
+@kernel(_stiffness, allocates=True)
 def dynamic_stiffness(omega2: float, load: float, segments: Any, motions: Any, points: Any, out: Any) -> int:
     """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments."""
     series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
@@ -137,11 +140,16 @@ def _between(near: float, f_near: float, far: float, f_far: float, third: float,
     return min(max(x, near + margin), far - margin)
 
 
-@kernel(types.boolean(*_structure, types.boolean, types.float64, types.float64, _one), allocates=True)
+@kernel(
+    types.boolean(types.FunctionType(_stiffness), *_structure, types.boolean, types.float64, types.float64, _one),
+    allocates=True,
+)
 def find_roots(
-    segments: Any, motions: Any, points: Any, by_load: bool, guess: float, limit: float, roots: Any
+    stiffness: Any, segments: Any, motions: Any, points: Any, by_load: bool, guess: float, limit: float, roots: Any
 ) -> bool:
     """Lowest circular frequencies, or critical load factors, ascending and with their multiplicity, into ``roots``.
+
+    ``stiffness`` is :func:`dynamic_stiffness`: behind a pointer it is not compiled into this kernel once more.
 
     The k-th is bracketed by counts and then followed as the zero of one eigenvalue, whose sign changes at no other
     place in the bracket; where a fixed-end mode of a segment lies in the bracket, by halving alone. False if there
@@ -151,7 +159,7 @@ def find_roots(
     # Scratch is all of two axes: numba compiles what makes an array anew for each number of them.
     matrix, sizes, bounds = np.zeros((n, n)), np.zeros((3, n)), np.zeros((2, roots.size))
     (values, static, scale), (low, high) = (sizes[0], sizes[1], sizes[2]), (bounds[0], bounds[1])
-    dynamic_stiffness(0.0, 0.0, segments, motions, points, matrix)
+    stiffness(0.0, 0.0, segments, motions, points, matrix)
     for i in range(n):
         static[i] = matrix[i, i]
     for i in range(roots.size):
@@ -164,7 +172,7 @@ def find_roots(
         third, f_third = far, f_far
         for _ in range(400):
             omega2, load = (0.0, x) if by_load else (x * x, 1.0)
-            inside = dynamic_stiffness(omega2, load, segments, motions, points, matrix)
+            inside = stiffness(omega2, load, segments, motions, points, matrix)
             count = inside
             if inside != UNSTABLE:
                 # Every unknown is scaled by what springs, segments at rest and bodies put on it, so that no heavy
