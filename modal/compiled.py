@@ -41,7 +41,7 @@ def is_compiled(module: str) -> bool:
 def kernel(
     signature: Any = None,
     *,
-    door: bool = False,
+    door: bool | tuple[Any, ...] = False,
     inline: bool = False,
     allocates: bool = False,
     parallel_calls: bool = False,
@@ -53,8 +53,9 @@ def kernel(
     signature : numba signature, optional
         A function with a signature can be called from Python, and be passed to kernels as a function pointer. One
         without stays as it is for Python.
-    door : bool
-        Compile a function without a signature for Python as well, cached, at its first call.
+    door : bool or tuple of numba types
+        Python calls a function without a signature: compile it for that at its first call, or for arguments of these
+        types at once.
     inline : bool
         Copy the function into each kernel that calls it: tuples that a call returns go through memory.
     allocates : bool
@@ -78,7 +79,8 @@ def kernel(
         try:
             made = compile_(
                 *(() if signature is None else (signature,)),
-                cache=True,
+                # numba would take the machine code of a function without a door for that of the same one with a door.
+                cache=not inner,
                 error_model="numpy",
                 inline="always" if inline else "never",
                 _nrt=allocates,
@@ -90,12 +92,13 @@ def kernel(
             config.CACHE_DIR = before
         if inner:
             made.__class__ = _inner(type(made))
+        if isinstance(door, tuple):
+            made.compile(door)
         return made
 
     return decorate
 
 
-@cache
 def _inner(dispatcher: type) -> type:
     """Class of compiled functions without a door: Python, which would crash without it, calls what they were."""
 

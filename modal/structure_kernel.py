@@ -30,6 +30,9 @@ from modal.stiffness import (
 UNSTABLE = 1 << 30
 """Count where a segment has no shear stiffness left (Engesser)."""
 
+WORK = TERMS + 23, TERMS
+"""Shape of the scratch array."""
+
 SPRINGS, GEOMETRIC, BODIES = range(3)
 """Entries of ``points``."""
 
@@ -69,14 +72,18 @@ def _segment_stiffness(
     return count
 
 
-_stiffness = types.int64(types.float64, types.float64, *_structure, _two)
+_stiffness = types.int64(types.float64, types.float64, *_structure, _two, _two)
 
 
-@kernel(_stiffness, allocates=True)
-def dynamic_stiffness(omega2: float, load: float, segments: Any, motions: Any, points: Any, out: Any) -> int:
-    """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments."""
-    series, state, T = np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
-    piece, recovery, total = np.zeros((4, 4)), np.zeros((2, 4)), np.zeros((4, 4))
+@kernel(_stiffness)
+def dynamic_stiffness(
+    omega2: float, load: float, segments: Any, motions: Any, points: Any, work: Any, out: Any
+) -> int:
+    """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments. ``work`` is scratch."""
+    series, state, T, piece, recovery, total = (
+        work[:8], work[8 : TERMS + 9], work[TERMS + 9 : TERMS + 13], work[TERMS + 13 : TERMS + 17],
+        work[TERMS + 17 : TERMS + 19], work[TERMS + 19 :],
+    )  # fmt: skip
     n = out.shape[0]
     for i in range(n):
         for j in range(n):
@@ -141,11 +148,21 @@ def _between(near: float, f_near: float, far: float, f_far: float, third: float,
 
 
 @kernel(
-    types.boolean(types.FunctionType(_stiffness), *_structure, types.boolean, types.float64, types.float64, _one),
+    types.boolean(
+        types.FunctionType(_stiffness), *_structure, _two, types.boolean, types.float64, types.float64, _one
+    ),
     allocates=True,
 )
 def find_roots(
-    stiffness: Any, segments: Any, motions: Any, points: Any, by_load: bool, guess: float, limit: float, roots: Any
+    stiffness: Any,
+    segments: Any,
+    motions: Any,
+    points: Any,
+    work: Any,
+    by_load: bool,
+    guess: float,
+    limit: float,
+    roots: Any,
 ) -> bool:
     """Lowest circular frequencies, or critical load factors, ascending and with their multiplicity, into ``roots``.
 
@@ -159,7 +176,7 @@ def find_roots(
     # Scratch is all of two axes: numba compiles what makes an array anew for each number of them.
     matrix, sizes, bounds = np.zeros((n, n)), np.zeros((3, n)), np.zeros((2, roots.size))
     (values, static, scale), (low, high) = (sizes[0], sizes[1], sizes[2]), (bounds[0], bounds[1])
-    stiffness(0.0, 0.0, segments, motions, points, matrix)
+    stiffness(0.0, 0.0, segments, motions, points, work, matrix)
     for i in range(n):
         static[i] = matrix[i, i]
     for i in range(roots.size):
@@ -172,7 +189,7 @@ def find_roots(
         third, f_third = far, f_far
         for _ in range(400):
             omega2, load = (0.0, x) if by_load else (x * x, 1.0)
-            inside = stiffness(omega2, load, segments, motions, points, matrix)
+            inside = stiffness(omega2, load, segments, motions, points, work, matrix)
             count = inside
             if inside != UNSTABLE:
                 # Every unknown is scaled by what springs, segments at rest and bodies put on it, so that no heavy

@@ -4,8 +4,10 @@ import importlib.util
 import subprocess
 import sys
 from pathlib import Path
+from threading import Thread
 
 import pytest
+from numba import types
 
 import modal
 import towercrane
@@ -72,12 +74,44 @@ def test_what_is_compiled_here_or_beside_is_missing_no_more(tmp_path, monkeypatc
     assert done.stdout.split() == ["2", "0"]
 
 
-def test_exact_structures_come_first_as_they_take_longest(monkeypatch):
+@pytest.mark.parametrize(
+    ("uses", "here", "beside"),
+    [
+        (("radial", "runs"), ["towercrane.cranes.flexible_rhs"], ["towercrane.stepper"]),
+        (
+            ("radial", "chain", "runs"),
+            ["modal.structure_kernel", "modal.shape_kernel"],
+            ["towercrane.cranes.flexible_rhs", "towercrane.stepper"],
+        ),
+        (("basic",), ["towercrane.cranes.lumped_kernel"], None),
+    ],
+)
+def test_exact_structures_share_a_process(uses, here, beside, monkeypatch):
+    imported, started = [], []
     monkeypatch.setattr("towercrane.compilation.is_compiled", lambda module: module == "modal.roots")
-    assert missing_kernels("radial", "chain", "runs") == (
-        "modal.structure_kernel", "towercrane.cranes.flexible_rhs", "modal.shape_kernel", "towercrane.stepper",
-    )  # fmt: skip
-    assert missing_kernels("basic") == ("towercrane.cranes.lumped_kernel",)
+    monkeypatch.setattr("towercrane.compilation.import_module", imported.append)
+    monkeypatch.setattr("towercrane.compilation._started", lambda modules: started.append(modules) or Thread())
+    monkeypatch.setattr(Thread, "join", lambda self: None)
+    compile_kernels(*missing_kernels(*uses))
+    assert imported == here
+    assert started == ([] if beside is None else [beside])
+
+
+def _doubled(x):
+    return x + x
+
+
+def test_what_kernels_call_is_python_to_python_until_it_has_a_door():
+    inner, outer = compiled.kernel()(_doubled), compiled.kernel(door=True)(_doubled)
+    assert inner("a") == "aa"
+    assert not inner.signatures
+    assert outer(1.5) == inner(1.5) == 3.0
+    assert outer.signatures
+    caller = compiled.kernel(types.float64(types.float64))(lambda x: inner(x) + 1.0)
+    assert caller(1.5) == 4.0
+    assert inner.signatures
+    # What a kernel has compiled for itself is no door.
+    assert inner(1.5) == 3.0
 
 
 def test_nothing_beside_starts_no_process(monkeypatch):

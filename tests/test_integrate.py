@@ -164,7 +164,7 @@ def _blows_up(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards
 def _system(rhs, size, guards=()):
     return dataclasses.replace(
         oscillator().system,
-        rhs=rhs,
+        equations=lambda: rhs,
         size=size,
         guards=guards,
         floors=np.zeros(len(guards)),

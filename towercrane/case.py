@@ -200,12 +200,17 @@ class Case:
     @property
     def uses(self) -> tuple[str, ...]:
         """What its crane needs of :data:`towercrane.compilation.KERNELS`."""
+        return (self.kind, *self.tower_uses)
+
+    @property
+    def tower_uses(self) -> tuple[str, ...]:
+        """The part of it that is for the tower."""
         from modal.beam import Beam
         from towercrane.kinds import TOWER_CRANES
         from towercrane.towers import tower_of
 
         plain = self.kind not in TOWER_CRANES or isinstance(tower_of(self._tower_crane), Beam)
-        return (self.kind,) if plain else (self.kind, "chain")
+        return () if plain else ("chain",)
 
     def tower(self) -> Beam | Chain:
         """The tower: a beam where it is uniform and clamped, else a chain; without what the tolerance leaves out."""

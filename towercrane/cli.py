@@ -167,7 +167,7 @@ def modes(
         return
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
-    announce_compilation(*loaded.uses, "structure")
+    announce_compilation("modes", "chain")
     from towercrane.natural import natural_frequencies
 
     report = natural_frequencies(loaded, actual=actual)

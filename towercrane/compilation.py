@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess
 
 FLEXIBLE = "towercrane.cranes.flexible_rhs", "modal.roots"
-STRUCTURE = "modal.structure_kernel"
+AT_REST = "towercrane.cranes.flexible_kernel", "modal.roots"
+STRUCTURE, SHAPES = "modal.structure_kernel", "modal.shape_kernel"
 STEPPER = "towercrane.stepper"
 
 KERNELS = {
@@ -22,32 +23,36 @@ KERNELS = {
     "jib": ("towercrane.cranes.jib_crane_kernel",),
     **dict.fromkeys(("multi-mass", "enhanced", "basic"), ("towercrane.cranes.lumped_kernel",)),
     "lanes": ("towercrane.cranes.radial_lane_rhs", "towercrane.cranes.radial_lanes"),
+    "modes": AT_REST,
     "structure": (STRUCTURE,),
-    "chain": (STRUCTURE, "modal.shape_kernel"),
+    "chain": (STRUCTURE, SHAPES),
     "runs": (STEPPER,),
 }
-"""Modules whose import compiles: the equations of a kind of crane, those for many runs side by side, exact
-structures, towers that are chains of segments, and the integrator."""
+"""Modules whose import compiles: the equations of a kind of crane, those for many runs side by side, a
+flexible crane at rest, exact structures, towers that are chains of segments, and the integrator."""
 
 
 def missing_kernels(*uses: str) -> tuple[str, ...]:
-    """Modules of kernels for these uses that are not compiled yet, the one that takes longest first."""
+    """Modules of kernels for these uses that are not compiled yet."""
     modules = dict.fromkeys(module for use in uses for module in KERNELS[use])
-    missing = [module for module in modules if not is_compiled(module)]
-    return tuple(sorted(missing, key=lambda module: module != STRUCTURE))
+    return tuple(module for module in modules if not is_compiled(module))
 
 
-def compile_kernels(here: str, *beside: str) -> None:
-    """Import modules of kernels, the first here, the others in a process beside: all leave code in the cache."""
+def compile_kernels(*modules: str) -> None:
+    """Import modules of kernels, some here, the others in a process beside: all leave code in the cache."""
+    # Those of exact structures call the same functions, which are compiled once in a process.
+    here = [module for module in modules if module in (STRUCTURE, SHAPES)] or list(modules[:1])
+    beside = [module for module in modules if module not in here]
     other = _started(beside) if beside else None
     try:
-        import_module(here)
+        for module in here:
+            import_module(module)
     finally:
         if other:
             other.join()
 
 
-def _started(modules: tuple[str, ...]) -> BaseProcess:
+def _started(modules: list[str]) -> BaseProcess:
     """A process that imports these modules."""
     import multiprocessing
 

@@ -29,7 +29,7 @@ def space_modes(case: Case, name: str, changes: list[str] | None, out: Path | No
     """
     if out is not None:
         folder_for_results(out)
-    announce_compilation(*case.uses)
+    announce_compilation("modes", *case.tower_uses)
     from towercrane.space_modes import space_frequencies
 
     report = space_frequencies(case)

@@ -106,7 +106,7 @@ def linearise(
         if out.suffix.lower() not in FILE_TYPES or out.is_dir():
             fail(f"--out {out}: wanted a file that ends in {' or '.join(FILE_TYPES)}")
         folder_for_results(out.parent)
-    announce_compilation(*loaded.uses)
+    announce_compilation(*loaded.uses, "runs")
     from towercrane.linear_report import linear_model, linear_report
     from towercrane.system import NoEquilibrium
 

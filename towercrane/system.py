@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -57,8 +58,8 @@ class System:
 
     Parameters
     ----------
-    rhs : compiled function
-        As in :func:`rhs_signature`.
+    equations : callable
+        Gives the compiled right-hand side, as in :func:`rhs_signature`; called when it is first wanted.
     size : int
         Number of states.
     guards : tuple of str
@@ -79,7 +80,7 @@ class System:
         Highest angular frequency of its small motions [rad/s], if it is known.
     """
 
-    rhs: Any
+    equations: Callable[[], Any]
     size: int
     guards: tuple[str, ...]
     floors: Floats
@@ -92,6 +93,11 @@ class System:
     restore: Callable[[Floats], None] | None = None
     switch: Switch | None = None
     fastest: Callable[[], float] | None = None
+
+    @cached_property
+    def rhs(self) -> Any:
+        """Compiled right-hand side."""
+        return self.equations()
 
     @property
     def constants(self) -> tuple[Floats, Floats, Floats, Floats]:
@@ -154,7 +160,7 @@ class Model(Protocol):
 def plain_system(rhs: Any, size: int, numbers: tuple[float, ...] = ()) -> System:
     """System without guards or scratch, for equations that are not cranes."""
     return System(
-        rhs=rhs,
+        equations=lambda: rhs,
         size=size,
         guards=(),
         floors=np.empty(0),

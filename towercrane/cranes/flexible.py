@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from towercrane.cranes import flexible_kernel, flexible_rhs
+from towercrane.cranes import drive_kernel, flexible_kernel
 from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.corner import Corner
 from towercrane.cranes.flexible_constants import geometric_stiffness, matrices, numbers, scale, vectors
@@ -202,7 +202,7 @@ class FlexibleModel:
         rows, columns = work_shape(n)
         recorded = ("corner", "corner", "slewing torque", "trolley force")
         return System(
-            rhs=flexible_rhs.rhs,
+            equations=_equations,
             size=self.size,
             guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded),
             floors=floors,
@@ -334,7 +334,7 @@ class FlexibleModel:
         work, constants = np.zeros(self.system.work_shape), self.system.constants
         flexible_kernel.structure(self.axes, 0.0, y, fixed, *constants, work)
         if self.drive is not None:
-            flexible_rhs.drive(0.0, y, fixed, constants[0], work)
+            drive_kernel.drive(0.0, y, fixed, constants[0], work)
         return work
 
     def observe(
@@ -355,6 +355,13 @@ class FlexibleModel:
             "payload_mass": self.load.mass,
             "gravity": self.crane.gravity,
         }
+
+
+def _equations() -> Any:
+    # Here, since what is asked at rest need not wait until these are compiled.
+    from towercrane.cranes.flexible_rhs import rhs
+
+    return rhs
 
 
 def added_mass(angular_frequencies: Floats, order: NDArray[np.int64], cap: float) -> Floats:

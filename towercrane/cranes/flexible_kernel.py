@@ -18,6 +18,7 @@ from operator import add
 from typing import Any
 
 import numpy as np
+from numba import types
 
 from modal.compiled import kernel
 from modal.traced import traced
@@ -28,6 +29,9 @@ from towercrane.cranes.projection_kernel import Body, SlewingRow, dot, project_h
 from towercrane.lane_choices import nth, whole
 from towercrane.payload import BIAS, FORCE, VELOCITY, WIND
 from towercrane.polynomial import polynomial
+from towercrane.system import rhs_signature
+
+_of_rhs = rhs_signature().args
 
 
 @traced
@@ -207,7 +211,7 @@ def path_of(rotation: tuple[float, ...], left: float, up: float) -> Vector:
     )
 
 
-@kernel(door=True)
+@kernel(door=(types.int64, *_of_rhs[:2], *_of_rhs[3:-1]))
 def structure(
     d: int,
     t: float,

@@ -4,46 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from modal.compiled import kernel
 from modal.traced import traced
 from towercrane.cranes import flexible_layout as at
-from towercrane.cranes.drive_kernel import coupling_torque
+from towercrane.cranes.drive_kernel import drive
 from towercrane.cranes.flexible_kernel import structure
 from towercrane.cranes.projection_kernel import dot
 from towercrane.lane_choices import whole
-from towercrane.payload import ACCELERATION, DIRECTION, FORCE, HINGE, MASS, hang_load
+from towercrane.payload import ACCELERATION, DIRECTION, HINGE, MASS, hang_load
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
 
 if TYPE_CHECKING:
     from towercrane.cranes.head_kernel import Vector
     from towercrane.cranes.projection_kernel import Motions, SlewingRow
-
-
-@kernel(inline=True)
-def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> tuple[float, float, float]:
-    """Add the drive's torque to the slewing coordinate's force.
-
-    Returns
-    -------
-    tuple of float
-        Torque of the coupling with its damper [N m], power of shaft, damper and friction [W], and way beyond the
-        coupling's corner [rad].
-    """
-    rates = (y.size - 1) // 2
-    turned = whole(numbers[at.DRIVEN])
-    shaft, shaft_rate, _ = polynomial(inputs, at.SLEWING, t)
-    angle, rate = y[turned], y[rates + turned]
-    slip = rate - shaft_rate
-    spring = coupling_torque(angle - shaft, numbers[at.SOFT], numbers[at.STIFF], numbers[at.CORNER])
-    torque = -spring - numbers[at.DRIVE_DAMPING] * slip
-    friction = -numbers[at.FRICTION_TORQUE] * np.tanh(rate / numbers[at.FRICTION_RATE])
-    work[FORCE, turned] += torque + friction
-    # What the shaft puts in is stored in the coupling, turns the head or is lost between them.
-    power = torque * shaft_rate - numbers[at.DRIVE_DAMPING] * slip * slip + friction * rate
-    return torque, power, abs(angle - shaft) - numbers[at.CORNER]
 
 
 @traced

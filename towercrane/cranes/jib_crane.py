@@ -137,7 +137,7 @@ class JibModel:
         scale = np.ones(works[-1] + 1)
         scale[list(works)] = np.inf  # It steers no step.
         return System(
-            rhs=rhs,
+            equations=lambda: rhs,
             size=works[-1] + 1,
             guards=guards,
             floors=floors,

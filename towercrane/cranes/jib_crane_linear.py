@@ -63,7 +63,7 @@ class LinearSway:
         numbers = self._planned.numbers
         numbers[kernel.HEAVE] = float(self.heave)
         return System(
-            rhs=kernel.linear_sway_rhs,
+            equations=lambda: kernel.linear_sway_rhs,
             size=4,
             guards=(),
             floors=np.empty(0),

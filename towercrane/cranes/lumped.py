@@ -119,7 +119,7 @@ class LumpedModel:
         scale[-1] = np.inf
         rows, width = work_shape(n)
         return System(
-            rhs=kernel.rhs,
+            equations=lambda: kernel.rhs,
             size=self.size,
             guards=(SLACK_ROPE, "corner", "corner", "slip", "stick", "needed"),
             floors=np.array([-np.inf if self.rope_as_rod or self.elastic else 0.0, *[-np.inf] * 5]),
