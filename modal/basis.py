@@ -77,10 +77,12 @@ def evaluate(
     """
     values = np.empty((roots.size, z.size))
     low = roots < SERIES_BELOW
-    x, cycle = roots[low, None], derivative % 4
-    P, Q = coefficients[low, 0, None], coefficients[low, 1, None]
-    first = _series(x, z, 2 - cycle) if cycle < 3 else x**4 * _series(x, z, 3)
-    values[low] = x ** (derivative - cycle) * (P * first + Q * _series(x, z, 3 - cycle))
+    cycle = derivative % 4
+    if low.any():
+        x = roots[low, None]
+        P, Q = coefficients[low, 0, None], coefficients[low, 1, None]
+        first = _series(x, z, 2 - cycle) if cycle < 3 else x**4 * _series(x, z, 3)
+        values[low] = x ** (derivative - cycle) * (P * first + Q * _series(x, z, 3 - cycle))
 
     x = roots[~low, None]
     A, B, D, E = (coefficients[~low, k, None] for k in range(4))

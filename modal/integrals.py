@@ -72,15 +72,14 @@ def product_integrals(
     ndarray, shape (n, n)
         Symmetric matrix of integrals, in the coefficients' unit squared.
     """
-    terms = _exponentials(roots, coefficients, derivative)
-    amplitude, left, right = terms[0]
-    both_waves = [(0.5 * amplitude, left, right), (0.5 * amplitude.conj(), left.conj(), right.conj())]
-    result = np.zeros((roots.size, roots.size))
+    terms = np.array(_exponentials(roots, coefficients, derivative))
+    wave = terms[:1] * np.array([0.5, 1.0, 1.0])[:, None]
     # With the second factor written out in full, real, the real part of the first can be taken at the end.
-    for amplitude, left, right in terms:
-        for other_amplitude, other_left, other_right in both_waves + terms[1:]:
-            integral = _exponential_integral(np.add.outer(left, other_left), np.add.outer(right, other_right), weight)
-            result += (np.multiply.outer(amplitude, other_amplitude) * integral).real
+    amplitude, left, right = (terms[:, None, k, :, None] for k in range(3))
+    others = np.concatenate([wave, wave.conj(), terms[1:]])
+    other_amplitude, other_left, other_right = (others[:, k, None, :] for k in range(3))
+    integral = _exponential_integral(left + other_left, right + other_right, weight)
+    result: NDArray[np.float64] = (amplitude * other_amplitude * integral).real.sum(axis=(0, 1))
     low = np.flatnonzero(roots < SERIES_BELOW)
     if low.size:
         z, weights = _quadrature(roots.max(), weight)

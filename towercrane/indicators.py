@@ -149,7 +149,7 @@ def drift(rich: Vibration, poor: Vibration) -> tuple[Floats, Floats]:
         phases of its parts are not known.
     """
     nodes = rich.nodes
-    overlap = abs(np.einsum("iak,iab,ibm->km", rich.shapes, nodes.mass, poor.shapes, optimize=True))
+    overlap = abs((rich.shapes.transpose(0, 2, 1) @ nodes.mass @ poor.shapes).sum(axis=0))
     partner = overlap.argmax(axis=0)
     mutual = overlap.argmax(axis=1)[partner] == np.arange(len(partner))
     mine, other = partner[mutual], np.flatnonzero(mutual)
@@ -166,10 +166,14 @@ def drift(rich: Vibration, poor: Vibration) -> tuple[Floats, Floats]:
 
 def _combined(parts: Complex, phase: Floats) -> Floats:
     """Sum of squares over modes and groups of events; parts (nodes, outputs, k, E) and phases (E, k)."""
-    rotated = parts * np.exp(-1j * phase.T)
-    far = np.diff(phase, axis=0, prepend=phase[:1]) > COHERENT
-    group = np.cumsum(far, axis=0).T
-    total = np.zeros(parts.shape[:2])
+    far = np.diff(phase, axis=0) > COHERENT
+    # Where every event is a group of its own, no phase matters.
+    alone = far.all(axis=0)
+    total = np.asarray((abs(parts[:, :, alone]) ** 2).sum(axis=(2, 3)))
+    if alone.all():
+        return total
+    rotated = parts[:, :, ~alone] * np.exp(-1j * phase[:, ~alone].T)
+    group = np.cumsum(np.vstack([np.zeros_like(far[:1]), far])[:, ~alone], axis=0).T
     for number in range(int(group.max(initial=0)) + 1):
         total += (abs((rotated * (group == number)).sum(axis=3)) ** 2).sum(axis=2)
     return total
