@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modal.stiffness import TERMS
 from modal.structure import HELD, Structure
-from modal.structure_kernel import WORK, dynamic_stiffness, find_roots, piece_ends
+from modal.structure_kernel import ROWS, dynamic_stiffness, find_roots, piece_ends
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -55,15 +56,13 @@ class Assembly:
     composition: Floats
 
     @property
-    def _arrays(self) -> tuple[Floats, Floats, Floats]:
-        return self.segments, self.motions, self.points
+    def _arrays(self) -> tuple[Floats, Floats, Floats, Floats]:
+        return self.segments, self.motions, self.points, np.zeros((ROWS, TERMS))
 
     def matrix(self, angular_frequency: float, load: float = 1.0) -> tuple[Floats, int]:
         """Dynamic stiffness in the arrays' units, and the count of fixed-end modes of the segments."""
         matrix = np.zeros_like(self.composition)
-        inside = dynamic_stiffness(
-            (angular_frequency / self.units[2]) ** 2, load, *self._arrays, np.zeros(WORK), matrix
-        )
+        inside = dynamic_stiffness((angular_frequency / self.units[2]) ** 2, load, *self._arrays, matrix)
         return matrix, int(inside)
 
     def count(self, angular_frequency: float) -> int:
@@ -79,13 +78,13 @@ class Assembly:
     def angular_frequencies(self, count: int) -> Floats:
         """Lowest natural angular frequencies [rad/s]; shape (count,)."""
         roots = np.zeros(count)
-        find_roots(dynamic_stiffness, *self._arrays, np.zeros(WORK), False, 1.0, inf, roots)
+        find_roots(dynamic_stiffness, *self._arrays, False, 1.0, inf, roots)
         return roots * self.units[2]
 
     def buckling_factor(self) -> float:
         """Lowest factor on all weights and axial loads at which the structure buckles [1]; ``inf``: it never does."""
         roots = np.zeros(1)
-        found = find_roots(dynamic_stiffness, *self._arrays, np.zeros(WORK), True, 1.0, FOREVER, roots)
+        found = find_roots(dynamic_stiffness, *self._arrays, True, 1.0, FOREVER, roots)
         return float(roots[0]) if found else inf
 
     def stiffness(self, unknowns: int) -> Floats:

@@ -8,6 +8,7 @@ load factor say which dynamic stiffness is meant.
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -30,8 +31,8 @@ from modal.stiffness import (
 UNSTABLE = 1 << 30
 """Count where a segment has no shear stiffness left (Engesser)."""
 
-WORK = TERMS + 23, TERMS
-"""Shape of the scratch array."""
+STATE, TRANSFER, PIECE, TOTAL, RECOVERY, ROWS = accumulate((8, TERMS + 1, 4, 4, 4, 2))
+"""Rows of the scratch array where its parts begin, after a segment's series; the last is their number."""
 
 SPRINGS, GEOMETRIC, BODIES = range(3)
 """Entries of ``points``."""
@@ -79,11 +80,9 @@ _stiffness = types.int64(types.float64, types.float64, *_structure, _two, _two)
 def dynamic_stiffness(
     omega2: float, load: float, segments: Any, motions: Any, points: Any, work: Any, out: Any
 ) -> int:
-    """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes of the segments. ``work`` is scratch."""
-    series, state, T, piece, recovery, total = (
-        work[:8], work[8 : TERMS + 9], work[TERMS + 9 : TERMS + 13], work[TERMS + 13 : TERMS + 17],
-        work[TERMS + 17 : TERMS + 19], work[TERMS + 19 :],
-    )  # fmt: skip
+    """Dynamic stiffness (n, n) into ``out``; count of fixed-end modes. ``work`` (ROWS, TERMS) is scratch."""
+    series, state, T = work[:STATE], work[STATE:TRANSFER], work[TRANSFER:PIECE]
+    piece, total, recovery = work[PIECE:TOTAL], work[TOTAL:RECOVERY], work[RECOVERY:]
     n = out.shape[0]
     for i in range(n):
         for j in range(n):
