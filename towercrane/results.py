@@ -40,10 +40,11 @@ def _write(recording: Recording, path: Path) -> None:
     import h5netcdf
     import h5py
 
+    coordinates = recording.coordinates
     with h5netcdf.File(path, "w") as file:
         file.attrs.update(recording.attrs)
-        file.dimensions = {name: len(entries) for name, entries in recording.coordinates.items()}
-        for name, entries in recording.coordinates.items():
+        file.dimensions = {name: len(entries) for name, entries in coordinates.items()}
+        for name, entries in coordinates.items():
             kind = h5py.string_dtype() if isinstance(entries[0], str) else None
             file.create_variable(name, (name,), data=np.array(entries, kind))
         for name, quantity in recording.data_vars.items():
@@ -54,10 +55,10 @@ def _write(recording: Recording, path: Path) -> None:
 
 def save_csv(result: Recording, path: str | os.PathLike[str]) -> None:
     """Write every variable over time as columns with units in the header, after comment lines on the origin."""
-    columns, names = [result.times], ["time [s]"]
+    columns, names, coordinates = [result.times], ["time [s]"], result.coordinates
     for name, variable in result.data_vars.items():
         flat = variable.values.reshape(len(columns[0]), -1)
-        tails = [""] if variable.values.ndim == 1 else [f" {label}" for label in result.coordinates[variable.dims[1]]]
+        tails = [""] if variable.values.ndim == 1 else [f" {label}" for label in coordinates[variable.dims[1]]]
         names += [f"{name}{tail} [{variable.units}]" for tail in tails]
         columns += list(flat.T)
     origin = "".join(f"# {key}: {value}\n" for key, value in result.attrs.items() if "\n" not in str(value))

@@ -31,7 +31,8 @@ from towercrane.payload import BIAS, FORCE, VELOCITY, WIND
 from towercrane.polynomial import polynomial
 from towercrane.system import rhs_signature
 
-_of_rhs = rhs_signature().args
+_t, _y, _, *_constants, _ = rhs_signature().args
+"""Arguments of a right-hand side but what it writes."""
 
 
 @traced
@@ -211,7 +212,7 @@ def path_of(rotation: tuple[float, ...], left: float, up: float) -> Vector:
     )
 
 
-@kernel(door=(types.int64, *_of_rhs[:2], *_of_rhs[3:-1]))
+@kernel(door=(types.int64, _t, _y, *_constants))
 def structure(
     d: int,
     t: float,
