@@ -178,8 +178,9 @@ def cantilever_modes(beam: Beam, count: int, end_body: EndBody = EndBody()) -> M
     j = end_body.rotary_inertia / (beam.mass * beam.length**2)
     h = end_body.offset / beam.length
     roots = characteristic_roots(a, j, count, offset_ratio=h)
-    coefficients = _null_vectors(roots, a, j, h)
-    slope, body_deflection, sign = _end_motion(roots, coefficients, a, j, h)
+    functions = _end_functions(roots)
+    coefficients = _null_vectors(roots, functions, a, j, h)
+    slope, body_deflection, sign = _end_motion(roots, _end_derivatives(roots, functions, coefficients), a, j, h)
     inertia = np.diag(product_integrals(roots, coefficients, 0)).copy()
     # A body that cannot move has no kinetic energy, however large its mass.
     inertia += 0.0 if isinf(a) else a * body_deflection**2
@@ -188,13 +189,23 @@ def cantilever_modes(beam: Beam, count: int, end_body: EndBody = EndBody()) -> M
     return Modes(beam, end_body, _read_only(roots), _read_only(coefficients))
 
 
-def _end_derivatives(roots: NDArray[np.float64], coefficients: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-    """Derivatives 0 to 3 at z = 1, of order k divided by x^k; each of shape (n,)."""
-    end = np.ones(1)
-    return [evaluate(roots, coefficients, end, order)[:, 0] / roots**order for order in range(4)]
+def _end_functions(roots: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Derivatives 0 to 3 at z = 1 of the four functions of each root's basis, shape (4, n, 4)."""
+    many, each = np.repeat(roots, 4), np.tile(np.eye(4), (roots.size, 1))
+    values = [evaluate(many, each, np.ones(1), order) for order in range(4)]
+    return np.reshape(values, (4, roots.size, 4))
 
 
-def _null_vectors(roots: NDArray[np.float64], a: float, j: float, h: float) -> NDArray[np.float64]:
+def _end_derivatives(
+    roots: NDArray[np.float64], functions: NDArray[np.float64], coefficients: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Derivatives 0 to 3 at z = 1 of shapes, of order k divided by x^k; shape (4, n)."""
+    return np.asarray((functions * coefficients).sum(axis=2) / roots ** np.arange(4)[:, None])
+
+
+def _null_vectors(
+    roots: NDArray[np.float64], functions: NDArray[np.float64], a: float, j: float, h: float
+) -> NDArray[np.float64]:
     """Coefficients that satisfy both end conditions, of arbitrary size and sign, shape (n, 4)."""
     a_body, a_beam = shares(a)
     j_body, j_beam = shares(j)
@@ -202,7 +213,7 @@ def _null_vectors(roots: NDArray[np.float64], a: float, j: float, h: float) -> N
     rows = np.empty((roots.size, 2, 2))
     sizes = np.empty((roots.size, 2, 2))
     for column, pair in enumerate(((one, zero), (zero, one))):
-        d_0, d_1, d_2, d_3 = _end_derivatives(roots, clamped_pair(roots, *pair))
+        d_0, d_1, d_2, d_3 = _end_derivatives(roots, functions, clamped_pair(roots, *pair))
         force = np.stack([a_beam * d_3, a_body * x * d_0, a_body * x * h * x * d_1])
         moment = np.stack([j_beam * d_2, j_beam * h * x * d_3, -j_body * x**3 * d_1])
         rows[:, 0, column], sizes[:, 0, column] = force.sum(axis=0), np.abs(force).sum(axis=0)
@@ -214,7 +225,7 @@ def _null_vectors(roots: NDArray[np.float64], a: float, j: float, h: float) -> N
 
 
 def _end_motion(
-    roots: NDArray[np.float64], coefficients: NDArray[np.float64], a: float, j: float, h: float
+    roots: NDArray[np.float64], end: NDArray[np.float64], a: float, j: float, h: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Slope of the end with respect to z, deflection of the body's centre of mass, and sign; (n,) each.
 
@@ -224,7 +235,7 @@ def _end_motion(
     a_body, a_beam = shares(a)
     j_body, j_beam = shares(j)
     x = roots
-    d_0, d_1, d_2, d_3 = _end_derivatives(roots, coefficients)
+    d_0, d_1, d_2, d_3 = end
     with np.errstate(divide="ignore", invalid="ignore"):
         turned = np.where(j_body * x**3 > j_beam, j_beam * (d_2 + h * x * d_3) / (j_body * x**3), d_1)
         body_deflection = np.where(a_body * x > a_beam, -a_beam * d_3 / (a_body * x), d_0 + h * x * d_1)

@@ -119,7 +119,7 @@ class Indicators:
     def __init__(self, scene: RadialScene) -> None:
         self.scene, self.nodes = scene, nodes_of(scene)
         self._rich: dict[bool, Vibration] = {}
-        self._last: tuple[tuple[object, ...], Vibration] | None = None
+        self._last: tuple[tuple[object, ...], Vibration, Floats] | None = None
 
     def rich(self, weight_softening: bool) -> Vibration:
         """The richest model, with or without the weight's softening.
@@ -140,20 +140,24 @@ class Indicators:
 
     def truncation(self, setting: Setting) -> Floats:
         """Largest error of every output by what the model leaves out, with its safety; shape (outputs,)."""
-        rich = self.rich(setting.weight_softening)
-        static, ringing = drift(rich, self.of(setting))
-        found = SAFETY * ringing + STATIC_SAFETY * static
-        swing = rich.peaks[SWING]
-        # The rope's force follows the square of the swing.
-        found[TENSION] += 3.0 * self.scene.load.mass * self.scene.crane.gravity * swing * found[SWING]
-        return np.asarray(found)
+        return self._compared(setting)[1]
 
     def of(self, setting: Setting) -> Vibration:
-        """Modes of a setting's model; the last one asked for is kept."""
+        """Modes of a setting's model."""
+        return self._compared(setting)[0]
+
+    def _compared(self, setting: Setting) -> tuple[Vibration, Floats]:
+        """Modes of a setting's model, and its truncation; the last ones asked for are kept."""
         key = (setting.tower_modes, setting.jib_modes, setting.cap, setting.weight_softening)
         if self._last is None or self._last[0] != key:
-            self._last = key, vibration(self.nodes, setting)
-        return self._last[1]
+            rich, poor = self.rich(setting.weight_softening), vibration(self.nodes, setting)
+            static, ringing = drift(rich, poor)
+            lost = SAFETY * ringing + STATIC_SAFETY * static
+            swing = rich.peaks[SWING]
+            # The rope's force follows the square of the swing.
+            lost[TENSION] += 3.0 * self.scene.load.mass * self.scene.crane.gravity * swing * lost[SWING]
+            self._last = key, poor, lost
+        return self._last[1:]
 
     def per_rtol(self, setting: Setting) -> Floats:
         """Largest error of the solver over its rtol and over the output's peak, shape (outputs,).
@@ -285,21 +289,20 @@ def candidates(indicators: Indicators, outputs: set[str], stated: dict[str, Any]
     free = max(tower[1], jib[1])
     found: dict[Setting, float] = {}
     for a, b in MODES:
+        counts = {"tower_modes": a, "jib_modes": b, **stated}
+        a, b = counts["tower_modes"], counts["jib_modes"]
+        rigid = (OUTPUTS[0] in outputs and not a) or (OUTPUTS[1] in outputs and not b)
+        if rigid and stated.keys().isdisjoint({"tower_modes", "jib_modes"}):
+            continue
+        highest = max([*tower[:a], *jib[:b]], default=0.0)
         for cap in (np.inf, *(free * factor for factor in CAPS)):
-            setting = replace(Setting(a, b, cap=cap), **stated)
-            a, b = setting.tower_modes, setting.jib_modes
-            rigid = (OUTPUTS[0] in outputs and not a) or (OUTPUTS[1] in outputs and not b)
-            highest = np.concatenate([tower[:a], jib[:b]]).max(initial=0.0)
-            if not (rigid and stated.keys().isdisjoint({"tower_modes", "jib_modes"})) and (
-                cap == np.inf or highest > cap
-            ):
-                found[setting] = cost(setting, min(highest, cap))
+            if cap == np.inf or cap < highest:
+                found[Setting(**{"cap": cap, **counts})] = cost(a + b, min(highest, cap))
     return sorted(found, key=found.__getitem__)
 
 
-def cost(setting: Setting, highest: float) -> float:
-    """Time for a run, up to a factor, with modes up to a frequency [Hz]; steps follow the fastest mode."""
-    n = setting.tower_modes + setting.jib_modes
+def cost(n: int, highest: float) -> float:
+    """Time for a run, up to a factor, with n modes up to a frequency [Hz]; steps follow the fastest mode."""
     return (highest + 1.0) * (0.45 + 0.09 * n + 0.0035 * n**2)
 
 

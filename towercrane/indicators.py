@@ -80,6 +80,11 @@ class Vibration:
         return self.ringing(self.nodes.telling)
 
     @cached_property
+    def squares(self) -> Floats:
+        """Squared amplitudes of `left`, each mode's events combined; shape (telling nodes, outputs, k)."""
+        return _combined(self.left, self.phase[self.nodes.events])
+
+    @cached_property
     def peaks(self) -> Floats:
         """Expected largest magnitude of every output, shape (outputs,)."""
         known = self.nodes.times
@@ -106,35 +111,37 @@ def vibration(nodes: Nodes, setting: Setting) -> Vibration:
     scene, (places, n) = nodes.scene, nodes.rise.shape
     jib = RICHEST.tower_modes + np.arange(setting.jib_modes)
     kept = np.concatenate([np.arange(setting.tower_modes), jib, [n - 1]])
-    stiffness = (nodes.stiffness - nodes.softening * setting.weight_softening)[np.ix_(kept, kept)]
-    stiffness = np.repeat(stiffness[None], places, axis=0)
-    stiffness[:, -1, -1] = nodes.pendulum
+    stiffness = (nodes.stiffness - nodes.softening * setting.weight_softening)[np.ix_(kept[:-1], kept[:-1])]
     mass = nodes.mass[:, kept[:, None], kept] + np.diag(_added(nodes, setting)[kept])
     # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is.
-    inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
+    inverse = np.zeros((places, len(kept), len(kept)))
+    inverse[:, :-1, :-1] = np.linalg.inv(np.linalg.cholesky(stiffness))
+    inverse[:, -1, -1] = nodes.pendulum**-0.5
     upper = inverse.transpose(0, 2, 1)
     reciprocal, vectors = np.linalg.eigh(inverse @ mass @ upper)
     omega = 1.0 / np.sqrt(reciprocal[:, ::-1])
     small = upper @ vectors[:, :, ::-1] * omega[:, None]
-    for later in range(1, places):
-        alike = (small[later - 1] * (mass[later] @ small[later])).sum(axis=0)
-        small[later] *= np.where(alike < 0.0, -1.0, 1.0)
+    alike = (small[:-1] * (mass[1:] @ small[1:])).sum(axis=1)
+    small[1:] *= np.cumprod(np.where(alike < 0.0, -1.0, 1.0), axis=0)[:, None]
     shapes = np.zeros((places, n, len(kept)))
     shapes[:, kept] = small
-    weights = nodes.readings @ shapes
+    readings = nodes.readings[:, :, kept]
+    weights = readings @ small
     weights[:, TENSION] *= -(omega**2)
 
     place, at = nodes.place, nodes.place[nodes.events]
     force = (nodes.weight[place] + nodes.drive)[:, kept, None]
     held = upper[place] @ (inverse[place] @ force)
-    static = (nodes.readings[place][:, :, kept] @ held)[:, :, 0]
+    static = (readings[place] @ held)[:, :, 0]
     static[:, TENSION] = scene.load.mass * scene.crane.gravity
-    orders = np.arange(nodes.jumps.shape[1])[:, None]
-    rings = -(nodes.jumps @ shapes[at] * (-1j / omega[at, None]) ** orders).sum(axis=1) / omega[at] ** 2
+    orders = np.arange(nodes.jumps.shape[1])
+    turns = (-1j) ** orders[:, None] * omega[at, None] ** -(orders[:, None] + 2.0)
+    rings = -(nodes.jumps[:, :, kept] @ small[at] * turns).sum(axis=1)
     first = at[0]
-    rings[0] += nodes.mass[first, -1] @ shapes[first] * np.sin(scene.swing_angle) / nodes.readings[first, SWING, -1]
+    swung = np.sin(scene.swing_angle) / nodes.readings[first, SWING, -1]
+    rings[0] += nodes.mass[first, -1, kept] @ small[first] * swung
     if scene.state == "zero":
-        rings[0] -= nodes.weight[first] @ shapes[first] / omega[first] ** 2
+        rings[0] -= nodes.weight[first, kept] @ small[first] / omega[first] ** 2
     decay = 0.5 * nodes.damping[kept] @ small**2
     return Vibration(nodes, omega[place], decay[place], shapes, weights[place], static, rings)
 
@@ -149,34 +156,31 @@ def drift(rich: Vibration, poor: Vibration) -> tuple[Floats, Floats]:
         phases of its parts are not known.
     """
     nodes = rich.nodes
-    overlap = abs((rich.shapes.transpose(0, 2, 1) @ nodes.mass @ poor.shapes).sum(axis=0))
+    overlap = abs((rich.shapes.transpose(0, 2, 1) @ (nodes.mass @ poor.shapes)).sum(axis=0))
     partner = overlap.argmax(axis=0)
     mutual = overlap.argmax(axis=1)[partner] == np.arange(len(partner))
     mine, other = partner[mutual], np.flatnonzero(mutual)
     at = nodes.telling
     slip = poor.phase[:, other] - rich.phase[:, mine]
     turned = np.clip(slip[at, None] - slip[nodes.events], -np.pi, np.pi).transpose(0, 2, 1)[:, None]
-    gap, false = rich.left.copy(), poor.left
-    gap[:, :, mine] -= false[:, :, other] * np.exp(1j * turned)
-    squared = _combined(gap, rich.phase[nodes.events])
-    alone = np.flatnonzero(~mutual)
-    squared += _combined(false[:, :, alone], poor.phase[nodes.events][:, alone])
+    gap = rich.left[:, :, mine] - poor.left[:, :, other] * np.exp(1j * turned)
+    squared = _combined(gap, rich.phase[nodes.events][:, mine]).sum(axis=2)
+    squared += np.delete(rich.squares, mine, axis=2).sum(axis=2) + poor.squares[:, :, ~mutual].sum(axis=2)
     return abs(rich.static - poor.static).max(axis=0), np.sqrt(squared.max(axis=0))
 
 
 def _combined(parts: Complex, phase: Floats) -> Floats:
-    """Sum of squares over modes and groups of events; parts (nodes, outputs, k, E) and phases (E, k)."""
+    """Sum of squares over groups of events; parts (nodes, outputs, k, E) and phases (E, k)."""
     far = np.diff(phase, axis=0) > COHERENT
+    found = np.asarray((parts.real**2 + parts.imag**2).sum(axis=3))
     # Where every event is a group of its own, no phase matters.
-    alone = far.all(axis=0)
-    total = np.asarray((abs(parts[:, :, alone]) ** 2).sum(axis=(2, 3)))
-    if alone.all():
-        return total
-    rotated = parts[:, :, ~alone] * np.exp(-1j * phase[:, ~alone].T)
-    group = np.cumsum(np.vstack([np.zeros_like(far[:1]), far])[:, ~alone], axis=0).T
-    for number in range(int(group.max(initial=0)) + 1):
-        total += (abs((rotated * (group == number)).sum(axis=3)) ** 2).sum(axis=2)
-    return total
+    near = ~far.all(axis=0)
+    if near.any():
+        rotated = parts[:, :, near] * np.exp(-1j * phase[:, near].T)
+        group = np.cumsum(np.vstack([np.zeros_like(far[:1]), far])[:, near], axis=0).T
+        numbers = range(int(group.max()) + 1)
+        found[:, :, near] = sum(abs((rotated * (group == number)).sum(axis=3)) ** 2 for number in numbers)
+    return found
 
 
 def _added(nodes: Nodes, setting: Setting) -> Floats:

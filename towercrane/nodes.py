@@ -158,29 +158,27 @@ def nodes_of(scene: RadialScene) -> Nodes:
 def _instants(scene: RadialScene) -> tuple[Floats, Floats, NDArray[np.int64], Floats]:
     """Times of the nodes, derivatives of the drives there, which nodes are switch points, jumps at these."""
     cut = phases((scene.motions["trolley"], scene.motions["rope"]), scene.duration)
-    times: list[float] = []
-    states, events, changes = [], [], []
-    before = np.zeros((2, cut.inputs.shape[2] + 2))
+    since = np.diff(cut.times)[:, None] * (0.0, *INSIDE, 1.0)
+    states = _derivatives(cut.inputs, since)
     damped = scene.tower_damping_ratio > 0.0 or scene.jib_damping_ratio > 0.0
-    for begin, end, piece in zip(cut.times[:-1], cut.times[1:], cut.inputs, strict=True):
-        events.append(len(times))
-        changes.append(_derivatives(piece, 0.0) - before)
-        for share in (0.0, *(INSIDE if damped or np.any(piece[:, 1:]) else ())):
-            times.append(float(begin + share * (end - begin)))
-            states.append(_derivatives(piece, share * (end - begin)))
-        before = _derivatives(piece, end - begin)
-    times.append(float(cut.times[-1]))
-    states.append(before)
-    return np.array(times), np.array(states), np.array(events), np.array(changes)
+    known = np.ones(since.shape, dtype=bool)
+    moving = np.any(cut.inputs[:, :, 1:], axis=(1, 2))
+    known[:, 1:-1] = damped | moving[:, None]
+    # The end of a phase is the start of the next, which jumps.
+    known[:-1, -1] = False
+    events = np.cumsum(known.sum(axis=1)) - known.sum(axis=1)
+    before = np.concatenate([np.zeros_like(states[:1, 0]), states[:-1, -1]])
+    return (cut.times[:-1, None] + since)[known], states[known], events, states[:, 0] - before
 
 
-def _derivatives(piece: Floats, time: float) -> Floats:
-    """Derivatives of all orders of polynomials and two orders beyond the last; shape (channels, k + 2)."""
-    found = np.zeros((len(piece), piece.shape[1] + 2))
-    powers = time ** np.arange(piece.shape[1])
-    for order in range(piece.shape[1]):
-        found[:, order] = piece @ powers[: piece.shape[1]]
-        piece = piece[:, 1:] * np.arange(1, piece.shape[1])
+def _derivatives(pieces: Floats, since: Floats) -> Floats:
+    """Derivatives of polynomials (p, channels, k), two orders beyond the last; shape (p, s, channels, k + 2)."""
+    width = pieces.shape[2]
+    powers = since[:, :, None] ** np.arange(width)
+    found = np.zeros((*since.shape, pieces.shape[1], width + 2))
+    for order in range(width):
+        found[..., order] = powers[:, :, : width - order] @ pieces.transpose(0, 2, 1)
+        pieces = pieces[:, :, 1:] * np.arange(1, width - order)
     return found
 
 
