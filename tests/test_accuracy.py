@@ -87,6 +87,33 @@ def test_the_richest_model_differs_from_itself_in_nothing():
     assert (ringing < 1e-12).all()
 
 
+def test_modes_that_only_one_model_has_count_in_full():
+    nodes = nodes_of(SCENE)
+    rich, poor = vibration(nodes, RICHEST), vibration(nodes, Setting(0, 0))
+    swing = rich.frequencies[0].argmin()
+    # The trolley's ramps are many cycles of every bending mode apart.
+    alone = (abs(np.delete(rich.left, swing, axis=2)) ** 2).sum(axis=(2, 3)).max(axis=0)
+    for one, other in ((rich, poor), (poor, rich)):
+        static, ringing = drift(one, other)
+        assert static[0] == abs(rich.static - poor.static).max(axis=0)[0] > 0.0
+        assert ringing[1] == pytest.approx(np.sqrt(alone[1]), rel=1e-2)
+        # The load's swing bends the tower besides.
+        assert np.sqrt(alone[0]) < ringing[0] < 2.0 * np.sqrt(alone[0])
+
+
+def test_an_estimate_does_not_depend_on_what_was_asked_before():
+    asked = Indicators(SCENE)
+    full = Setting(3, 4)
+    for setting in (
+        full,
+        replace(full, cap=5.0),
+        replace(full, weight_softening=False),
+        Setting(3, 3),
+        Setting(2, 3),
+    ):
+        np.testing.assert_array_equal(asked.truncation(setting), Indicators(SCENE).truncation(setting))
+
+
 @pytest.mark.parametrize(
     ("name", "target"),
     [

@@ -36,6 +36,8 @@ def test_recording_is_written_as_its_data_set(name, tmp_path):
     assert list(short.variables) == list(long.variables)
     assert short["axis"].values.tolist() == ["outward", "sideways", "up"]
     assert len(short.dims) > 2
+    for dimension in set(short.dims) - {"time", "axis", "joint"}:
+        assert short[dimension].values.tolist() == list(range(1, short.sizes[dimension] + 1))
 
 
 def test_recording_reads_like_its_data_set(recording, result):
