@@ -86,7 +86,8 @@ def _accuracy(console: Console, promised: dict[str, Any]) -> None:
     console.print(table)
     console.print(f"chosen                {setting_words(promised['setting'])}")
     if promised["stated"]:
-        console.print(f"stated by the case    {', '.join(promised['stated']).replace('_', ' ')}")
+        keys = ", ".join(promised["stated"]).replace("_", " ")
+        console.print(f"stated by the case    {keys}; what a case leaves out is chosen")
     for reason in promised["left_out"]:
         console.print(f"left out              {reason}")
     console.print(
