@@ -94,8 +94,7 @@ def test_modes_that_only_one_model_has_count_in_full():
     # The trolley's ramps are many cycles of every bending mode apart.
     alone = (abs(np.delete(rich.left, swing, axis=2)) ** 2).sum(axis=(2, 3)).max(axis=0)
     for one, other in ((rich, poor), (poor, rich)):
-        static, ringing = drift(one, other)
-        assert static[0] == abs(rich.static - poor.static).max(axis=0)[0] > 0.0
+        ringing = drift(one, other)[1]
         assert ringing[1] == pytest.approx(np.sqrt(alone[1]), rel=1e-2)
         # The load's swing bends the tower besides.
         assert np.sqrt(alone[0]) < ringing[0] < 2.0 * np.sqrt(alone[0])

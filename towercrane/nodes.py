@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.polynomial.polynomial import polyder, polyval
 
 from towercrane.cranes.flexible_constants import geometric_stiffness
 from towercrane.motion import phases
@@ -166,20 +167,16 @@ def _instants(scene: RadialScene) -> tuple[Floats, Floats, NDArray[np.int64], Fl
     known[:, 1:-1] = damped | moving[:, None]
     # The end of a phase is the start of the next, which jumps.
     known[:-1, -1] = False
-    events = np.cumsum(known.sum(axis=1)) - known.sum(axis=1)
+    counts = known.sum(axis=1)
+    events = np.cumsum(counts) - counts
     before = np.concatenate([np.zeros_like(states[:1, 0]), states[:-1, -1]])
     return (cut.times[:-1, None] + since)[known], states[known], events, states[:, 0] - before
 
 
 def _derivatives(pieces: Floats, since: Floats) -> Floats:
     """Derivatives of polynomials (p, channels, k), two orders beyond the last; shape (p, s, channels, k + 2)."""
-    width = pieces.shape[2]
-    powers = since[:, :, None] ** np.arange(width)
-    found = np.zeros((*since.shape, pieces.shape[1], width + 2))
-    for order in range(width):
-        found[..., order] = powers[:, :, : width - order] @ pieces.transpose(0, 2, 1)
-        pieces = pieces[:, :, 1:] * np.arange(1, width - order)
-    return found
+    orders = [polyder(pieces, order, axis=2) for order in range(pieces.shape[2] + 2)]
+    return np.stack([polyval(since[:, :, None], order.transpose(2, 0, 1)[:, :, None], False) for order in orders], -1)
 
 
 def _own_mass(model: FlexibleModel) -> Floats:
