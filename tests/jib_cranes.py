@@ -1,5 +1,7 @@
 """Jib cranes and plans of the tests: the source's data, the same with booms of plausible weight, and its plan."""
 
+import numpy as np
+
 from towercrane.cranes.jib_crane import JibCrane, PlannedJibCrane
 from towercrane.motion import rest, sequence, smooth_ramps, trapezoid
 from towercrane.payload import Load
@@ -69,3 +71,7 @@ def trapezoid_plan() -> dict:
 
 def standing(slew: float = 0.0, luff: float = 0.6, fold: float = -0.2, rope: float = 20.0) -> dict:
     return {"slew": rest(slew), "luff": rest(luff), "fold": rest(fold), "rope": rest(rope)}
+
+
+def peak(values) -> float:
+    return float(np.max(abs(values)))

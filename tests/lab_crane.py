@@ -120,7 +120,9 @@ def run(
     return found, {name: quantity.values for name, quantity in outputs.items()}, counted.met
 
 
-def imbalance(outputs: dict) -> float:
-    """Largest gap between energy gained and work put in, relative to the energy's range."""
-    energy, work = outputs["total_energy"], outputs["input_work"]
-    return float(np.max(abs(energy - energy[0] - work)) / max(np.ptp(energy), np.ptp(work)))
+def inputs(rope: float = 2.0) -> np.ndarray:
+    return phases((rest(0.0), rest(rope)), 1.0).inputs[0]
+
+
+def degrees(outputs: dict, name: str) -> np.ndarray:
+    return np.degrees(outputs[f"sway_{name}"])

@@ -6,9 +6,11 @@ import subprocess
 import sys
 import tomllib
 from fnmatch import fnmatchcase
+from functools import partial
 from pathlib import Path
 
 import pytest
+from case_files import CASE, CRANE, SEQUENCE, faults_of, only_fault, with_motion, write_case
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -22,73 +24,10 @@ from towercrane.plausibility import RANGES
 from towercrane.profiles import read_points
 from towercrane.units import to_si
 
-CRANE = """\
-name = "Small"
-[tower]
-height = "30 m"
-mass_per_length = "300 kg/m"
-youngs_modulus = "210 GPa"
-second_moment_of_area = "0.01 m^4"
-[jib]
-length = "40 m"
-mass_per_length = "100 kg/m"
-youngs_modulus = "210 GPa"
-second_moment_of_area = "0.003 m^4"
-[counter_jib]
-length = "10 m"
-mass_per_length = "150 kg/m"
-counterweight = "10 t"
-[trolley]
-mass = "300 kg"
-"""
-
-CASE = """\
-title = "A case"
-crane = "crane.toml"
-[payload]
-mass = "800 kg"
-[rope]
-length = "12 m"
-[motion.trolley]
-shape = "trapezoid"
-start = "5 m"
-end = "30 m"
-speed = "0.8 m/s"
-acceleration = "0.1 m/s^2"
-[run]
-duration = "60 s"
-"""
-
 
 @pytest.fixture
 def write(tmp_path):
-    """Write a case and its crane, with replacements; return the case's path."""
-
-    def put(*changes, crane=(), case_text=CASE):
-        crane_text = CRANE
-        for old, new in crane:
-            assert old in crane_text
-            crane_text = crane_text.replace(old, new, 1)
-        for old, new in changes:
-            assert old in case_text
-            case_text = case_text.replace(old, new, 1)
-        (tmp_path / "crane.toml").write_text(crane_text, "utf-8")
-        path = tmp_path / "case.toml"
-        path.write_text(case_text, "utf-8")
-        return path
-
-    return put
-
-
-def faults_of(path, overrides=()):
-    with pytest.raises(CaseError) as caught:
-        load_case(path, overrides)
-    return caught.value.faults
-
-
-def only_fault(path, overrides=()):
-    (fault,) = faults_of(path, overrides)
-    return fault
+    return partial(write_case, tmp_path)
 
 
 # What is read
@@ -220,13 +159,6 @@ def test_provenance_faults(write, table, key, words):
 
 # Motions
 
-SEQUENCE = 'shape = "sequence"\nstart = 5\n'
-
-
-def with_motion(text, hoist=""):
-    start = CASE.index("[motion.trolley]")
-    return CASE[:start] + "[motion.trolley]\n" + text + hoist + "\n" + CASE[CASE.index("[run]") :]
-
 
 def test_s_curve_and_delay(write):
     text = 'shape = "s-curve"\nstart = 5\nend = 20\nspeed = 0.8\nacceleration = 0.1\njerk = 0.05\ndelay = "4 s"'
@@ -296,7 +228,7 @@ def test_csv_that_is_missing_or_not_text(write, tmp_path):
     assert only_fault(path).file == str(tmp_path / "way.csv")
     (tmp_path / "way.csv").write_bytes(b"\xff\xfe\x00")
     assert "UTF-8" in only_fault(path).got
-    assert "no readable file" in only_fault(path, [r'motion.trolley.file="a\u0000b"']).got
+    assert "no readable file" in only_fault(path, r'motion.trolley.file="a\u0000b"').got
 
 
 def test_csv_reports_every_faulty_line(tmp_path):
@@ -440,7 +372,7 @@ IMPLAUSIBLE = [
 def test_implausible_values_name_the_likely_unit_and_can_be_allowed(write, key, value, meant):
     path, override = write(), f"{key}={json.dumps(value)}"
     extra = ["run.output_step=10"] if key == "run.duration" else []
-    fault = only_fault(path, [override, *extra])
+    fault = only_fault(path, override, *extra)
     assert (fault.file, fault.key) == (f"--set {override}", key)
     assert "a value from " in fault.wanted
     assert shown(value) in fault.got
@@ -452,13 +384,13 @@ def test_implausible_values_name_the_likely_unit_and_can_be_allowed(write, key, 
 
 def test_impossible_values_cannot_be_allowed(write):
     path = write()
-    fault = only_fault(path, ["payload.mass=-5", 'allow_implausible=["payload.mass"]'])
+    fault = only_fault(path, "payload.mass=-5", 'allow_implausible=["payload.mass"]')
     assert "above 0" in fault.wanted
-    assert only_fault(path, ["rope.length=31", 'allow_implausible=["rope.length"]']).key == "rope.length"
+    assert only_fault(path, "rope.length=31", 'allow_implausible=["rope.length"]').key == "rope.length"
 
 
 def test_allowing_an_unknown_key_is_a_fault(write):
-    fault = only_fault(write(), ['allow_implausible=["crane.tower.hieght"]'])
+    fault = only_fault(write(), 'allow_implausible=["crane.tower.hieght"]')
     assert "crane.tower.hieght" in fault.got
     assert "crane.tower.height" in fault.hint
 
@@ -536,7 +468,7 @@ def test_lacing_with_horizontals_needs_them(write):
         pytest.approx(8e-4),
         to_si("210 GPa", "Pa"),
     )
-    assert 'did you mean "zigzag"?' in only_fault(path, ["crane.tower.lattice.lacing=zigzig"]).hint
+    assert 'did you mean "zigzag"?' in only_fault(path, "crane.tower.lattice.lacing=zigzig").hint
 
 
 # Files
@@ -640,7 +572,7 @@ def test_an_override_reaches_into_a_step(write):
     text = SEQUENCE + 'steps = [{ shape = "trapezoid", end = 50, speed = 1, acceleration = 1 }]'
     path = write(case_text=with_motion(text))
     assert load_case(path, ["motion.trolley.steps.0.end=20"]).trolley_motion().end == pytest.approx(20.0)
-    assert "index below 1" in faults_of(path, ["motion.trolley.steps.7=3"])[0].wanted
+    assert "index below 1" in faults_of(path, "motion.trolley.steps.7=3")[0].wanted
 
 
 @pytest.mark.parametrize(
@@ -660,7 +592,7 @@ def test_an_override_reaches_into_a_step(write):
     ],
 )
 def test_faults_of_an_override_name_it(write, override, key, words):
-    fault = only_fault(write(), [override])
+    fault = only_fault(write(), override)
     assert fault.file.startswith("--set ")
     assert fault.file.removeprefix("--set ").startswith(override.split("\n")[0])
     assert fault.key == key

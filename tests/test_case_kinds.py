@@ -4,10 +4,12 @@ import json
 import math
 import tomllib
 from dataclasses import FrozenInstanceError, asdict, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+from case_files import BASIC, COMBINED, ENHANCED, HEAVY, MULTI, PLAN, RADIAL, copy_case, faults_of, only_fault
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -18,9 +20,6 @@ from towercrane.kinds import known_keys, known_to
 from towercrane.motion import phases, smooth_ramps, speed_trapezoid, trapezoid
 from towercrane.schema_cases import KINDS
 
-MULTI, BASIC, ENHANCED = (f"slewing/{kind}/example-1" for kind in ("multi-mass", "basic", "enhanced"))
-PLAN, HEAVY, COMBINED = (f"jib-crane/{name}" for name in ("plan", "heavy", "combined"))
-RADIAL = "qtz5613/condition-3"
 RAMPS = {
     "multi-mass": [(0.71, 8), (1.42, 8), (2.13, 6), (2.84, 6), (3.55, 6), (4.26, 6)],
     "basic": [(0.71, 8), (1.42, 8), (2.84, 8), (4.26, 8)],
@@ -29,34 +28,9 @@ RAMPS = {
 EXAMPLES = [(kind, n, *ramp) for kind, ramps in RAMPS.items() for n, ramp in enumerate(ramps, start=1)]
 
 
-def faults_of(case, *overrides):
-    with pytest.raises(CaseError) as caught:
-        load_case(case, overrides)
-    return caught.value.faults
-
-
-def only_fault(case, *overrides):
-    (fault,) = faults_of(case, *overrides)
-    return fault
-
-
 @pytest.fixture
 def copied(tmp_path):
-    """Copy a shipped case with its crane, with replacements in either; return the case's path."""
-
-    def copy(name, *changes):
-        source = case_folder() / f"{name}.toml"
-        texts = {source.name: source.read_text("utf-8")}
-        crane = tomllib.loads(texts[source.name])["crane"]
-        texts[crane] = source.with_name(crane).read_text("utf-8")
-        for old, new in changes:
-            assert any(old in text for text in texts.values())
-            texts = {file: text.replace(old, new, 1) for file, text in texts.items()}
-        for file, text in texts.items():
-            (tmp_path / file).write_text(text, "utf-8")
-        return tmp_path / source.name
-
-    return copy
+    return partial(copy_case, tmp_path)
 
 
 # Shipped cases

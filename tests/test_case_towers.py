@@ -6,6 +6,7 @@ from math import inf
 from pathlib import Path
 
 import pytest
+from case_files import faults_of
 from tower_files import CASE, LACED, MEMBERS, ONE_SEGMENT, SEGMENTS, UNIFORM, write_case
 
 from modal import Beam, Chain, EndBody, Foundation, LacedColumn, Segment
@@ -22,12 +23,6 @@ MAST = Segment(18.0, 350.0, COLUMN.bending_stiffness.value, COLUMN.shear_stiffne
 @pytest.fixture
 def write(tmp_path):
     return lambda tower, *changes, case=CASE: write_case(tmp_path, tower, *changes, case=case)
-
-
-def faults_of(path, *overrides):
-    with pytest.raises(CaseError) as caught:
-        load_case(path, overrides)
-    return caught.value.faults
 
 
 def same(one, other):

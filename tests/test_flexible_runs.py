@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 import space_crane as space
+from balance import imbalance
 from numpy.polynomial.legendre import leggauss
 from numpy.testing import assert_allclose
 from space_crane import manoeuvre, standing
@@ -42,11 +43,6 @@ def course(scene, motions, state, duration, step=0.5):
     _, guards = evaluate(scene.system, cut, run.times, run.states)
     seen = scene.observe(motions, run.times, run.states, guards)
     return FlexibleMotion(scene, motions, run.times, run.states), {name: q.values for name, q in seen.items()}
-
-
-def imbalance(seen):
-    energy, work = seen["total_energy"], seen["input_work"]
-    return float(np.max(abs(energy - energy[0] - work)) / np.ptp(energy))
 
 
 # --- the plane -----------------------------------------------------------------------------------------

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from jib_cranes import HEAVY, LOAD, PRINTED, after, planned, printed_plan, smooth_plan, standing, trapezoid_plan
+from balance import imbalance
+from jib_cranes import HEAVY, LOAD, PRINTED, after, peak, planned, printed_plan, smooth_plan, standing, trapezoid_plan
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, least_squares
@@ -18,16 +19,6 @@ from towercrane.simulate import simulate
 
 TIGHT = {"rtol": 1e-11, "atol": 1e-13}
 G = 9.81
-
-
-def imbalance(result) -> float:
-    """Largest gap between energy gained and work put in, relative to the energy's range."""
-    energy, work = result["total_energy"].values, result["input_work"].values
-    return float(np.max(abs(energy - energy[0] - work)) / np.ptp(energy))
-
-
-def peak(values) -> float:
-    return float(np.max(abs(values)))
 
 
 def constant(*values):

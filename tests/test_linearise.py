@@ -349,7 +349,7 @@ def test_inertial_directions_are_no_equilibrium_of_a_rotation():
 def test_free_platform_turns_without_resistance():
     inertia = 151.0
     linear = linearise(Arm(inertia), {}, outputs=["payload"])
-    assert names(linear.outputs) == ["payload_outward", "payload_sideways", "payload_up"]
+    assert [s.name for s in linear.outputs] == ["payload_outward", "payload_sideways", "payload_up"]
     assert linear.inputs == ()
     table = linear.eigenvalues()
     assert [e.value for e in table[:2]] == [0.0, 0.0]
@@ -384,6 +384,11 @@ def test_a_sway_far_from_the_vertical():
     assert_allclose(np.sort(np.linalg.eigvals(upright.a).real), np.sqrt(G / LENGTH) * np.array([-1, -1, 1, 1]))
 
 
+def test_frame_must_turn_with_something_known():
+    with pytest.raises(ValueError, match="turning: wanted one of slew, got 'tilt'"):
+        linearise(Arm(), np.zeros((1, 3)), turning="tilt", outputs=[])
+
+
 # --- differences ---------------------------------------------------------------------------------------
 
 
@@ -410,7 +415,7 @@ def test_saved_file_is_read_back(tmp_path, ending):
     for name in "ABCD":
         assert_allclose(read[name], getattr(linear, name.lower()), rtol=0)
     for kind in ("states", "inputs", "outputs"):
-        assert read[kind].tolist() == names(getattr(linear, kind))
+        assert read[kind].tolist() == [signal.name for signal in getattr(linear, kind)]
         assert read[f"{kind[:-1]}_units"].tolist() == [signal.units for signal in getattr(linear, kind)]
     assert_allclose(read["x0"], linear.point.states, rtol=0)
     assert_allclose(read["y0"], linear.point.outputs, rtol=0)
@@ -466,11 +471,6 @@ def test_wrong_arguments_are_named(change, message):
     motions = change.pop("motions", standing(20.0, 18.0))
     with pytest.raises(ValueError, match=message):
         linearise(model(0, 0), motions, **change)
-
-
-def test_frame_must_turn_with_something_known():
-    with pytest.raises(ValueError, match="turning: wanted one of slew, got 'tilt'"):
-        linearise(Arm(), np.zeros((1, 3)), turning="tilt", outputs=[])
 
 
 # --- the command ---------------------------------------------------------------------------------------

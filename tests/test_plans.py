@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import qtz5613
 import space_crane as space
+from case_files import only_fault
 from numpy.testing import assert_allclose
 
 from towercrane.case import CaseError, load_case
@@ -24,12 +25,6 @@ ROPE = trapezoid(20.0, 12.0, 0.4, 0.2)
 def planned(**motions):
     """Plans of drives that are told a motion, or a motion and a shaping."""
     return {c: Plan((Move(*m),)) if isinstance(m, tuple) else Plan((Move(m),)) for c, m in motions.items()}
-
-
-def faults_of(*changes, case=CASE):
-    with pytest.raises(CaseError) as caught:
-        load_case(case, changes)
-    return caught.value.faults
 
 
 # --- frequencies ---------------------------------------------------------------------------------------
@@ -192,24 +187,24 @@ def test_case_knows_the_smoothest_motion_and_steps():
 
 
 def test_what_a_case_cannot_mean_is_refused_by_key():
-    (fault,) = faults_of("motion.trolley.shape=zv", 'motion.trolley.frequencies=["0.1 m"]')
+    fault = only_fault(CASE, "motion.trolley.shape=zv", 'motion.trolley.frequencies=["0.1 m"]')
     assert fault.key == "motion.trolley.frequencies"
     assert '"model" or a list of frequencies' in fault.wanted
     assert "a length" in fault.got
-    (fault,) = faults_of("motion.trolley.shape=zv", "motion.trolley.frequencies=[]")
+    fault = only_fault(CASE, "motion.trolley.shape=zv", "motion.trolley.frequencies=[]")
     assert fault.got == "an empty list"
-    (fault,) = faults_of("motion.trolley.shape=zv", "motion.trolley.frequencies=-0.1")
+    fault = only_fault(CASE, "motion.trolley.shape=zv", "motion.trolley.frequencies=-0.1")
     assert fault.key == "motion.trolley.frequencies"
-    (fault,) = faults_of("motion.trolley.shape=zv", "motion.trolley.frequencies=[0.1, 120]")
+    fault = only_fault(CASE, "motion.trolley.shape=zv", "motion.trolley.frequencies=[0.1, 120]")
     assert (fault.key, fault.wanted) == ("motion.trolley.frequencies.1", "a value from 0.001 to 20 Hz")
     assert "mHz meant?" in fault.hint
-    (fault,) = faults_of("motion.trolley.shape=zvv")
+    fault = only_fault(CASE, "motion.trolley.shape=zvv")
     assert fault.hint == 'did you mean "zv"?'
     turn = 'motion.shaft={shape="zv", end="60 deg", speed="6 deg/s", acceleration="3 deg/s^2"}'
-    (fault,) = faults_of(turn, case="slewing/basic/example-1")
+    fault = only_fault("slewing/basic/example-1", turn)
     assert (fault.key, fault.got) == ("motion.shaft.frequencies", '"model"')
     assert 'a crane of kind "basic"' in fault.wanted
-    (fault,) = faults_of('motion.trolley={shape="minimum-jerk", start=5, end=41, duration="2 s"}')
+    fault = only_fault(CASE, 'motion.trolley={shape="minimum-jerk", start=5, end=41, duration="2 s"}')
     assert (fault.key, fault.wanted) == ("motion.trolley", "speeds up to 10 m/s")
 
 

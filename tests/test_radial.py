@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from balance import imbalance
 from numpy.testing import assert_allclose
 from qtz5613 import CONDITIONS, CRANE, model, motions, standing
 from scipy.integrate import solve_ivp
@@ -29,12 +30,6 @@ def condition(number: int, tower_modes: int = 2, jib_modes: int = 2, **options):
 
 def peak(result, name: str = "swing_angle") -> float:
     return float(abs(result[name]).max())
-
-
-def imbalance(result) -> float:
-    """Largest gap between energy gained and work put in, relative to the largest energy above the lowest."""
-    energy, work = result["total_energy"].values, result["input_work"].values
-    return float(np.max(abs(energy - energy[0] - work)) / np.ptp(energy))
 
 
 # --- the ladder: rigid structures are a pendulum on a moving support -----------------------------------

@@ -9,12 +9,14 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from balance import imbalance
 from lab_crane import (
     LOAD,
     MULTI_MASS,
     PARAMETERS,
     crane,
-    imbalance,
+    degrees,
+    inputs,
     lossless,
     motions,
     run,
@@ -34,20 +36,12 @@ STILL = {"shaft": rest(0.0), "rope": rest(2.0)}
 HOIST = sequence(rest(2.0, 2.0), trapezoid(2.0, 1.0, 0.3, 0.5), rest(1.0, 1.0), trapezoid(1.0, 2.5, 0.4, 0.5))
 
 
-def inputs(rope: float = 2.0) -> np.ndarray:
-    return phases((rest(0.0), rest(rope)), 1.0).inputs[0]
-
-
 def kicked(model: LumpedModel, swing_angle: float, size: float, ahead: float) -> np.ndarray:
     """Start with the load drawn outward and pushed ahead, and random rates of the structure."""
     state, n, rates = model.start(inputs(), "zero", swing_angle), model.coordinates, (model.size - 1) // 2
     state[rates : rates + n] = size * np.random.default_rng(1).normal(size=n)
     state[rates + model.rope + 1] = ahead
     return state
-
-
-def degrees(outputs: dict, name: str) -> np.ndarray:
-    return np.degrees(outputs[f"sway_{name}"])
 
 
 def times(outputs: dict, step: float = 0.01) -> np.ndarray:

@@ -5,7 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from lab_crane import MULTI_MASS, PARAMETERS, crane, imbalance, lossless, motions, run
+from balance import imbalance
+from lab_crane import MULTI_MASS, PARAMETERS, crane, lossless, motions, run
 from numpy.testing import assert_allclose
 from scipy.special import ellipj, ellipk
 

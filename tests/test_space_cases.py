@@ -1,10 +1,12 @@
 """The door for cranes in space: what a case becomes, what it leaves idle, and the messages about it."""
 
 import tomllib
+from functools import partial
 
 import numpy as np
 import pytest
 import space_crane as space
+from case_files import copy_case, only_fault
 from numpy.testing import assert_allclose, assert_array_equal
 
 from modal import Chain
@@ -25,27 +27,7 @@ WIND = ["wind.speed=10 m/s", "wind.direction=90 deg"]
 
 @pytest.fixture
 def write(tmp_path):
-    """Copy a shipped case with its crane and tables of wind, with replacements in any of them."""
-
-    def copy(name, *changes):
-        folder = (case_folder() / name).parent
-        texts = {p.name: p.read_text("utf-8") for p in (*folder.glob("crane*.toml"), *folder.glob("*.csv"))}
-        texts["case.toml"] = (case_folder() / f"{name}.toml").read_text("utf-8")
-        for old, new in changes:
-            assert any(old in text for text in texts.values()), old
-            texts = {file: text.replace(old, new, 1) for file, text in texts.items()}
-        for file, text in texts.items():
-            (tmp_path / file).write_text(text, "utf-8")
-        return tmp_path / "case.toml"
-
-    return copy
-
-
-def only_fault(case, *overrides):
-    with pytest.raises(CaseError) as caught:
-        load_case(case, overrides)
-    (fault,) = caught.value.faults
-    return fault
+    return partial(copy_case, tmp_path)
 
 
 # What a case becomes
