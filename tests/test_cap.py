@@ -9,7 +9,7 @@ import pytest
 from qtz5613 import model, motions
 
 from towercrane import load_case
-from towercrane.cranes.flexible import added_mass
+from towercrane.cranes.frequency_cap import added_mass
 from towercrane.cranes.radial import RadialModel
 from towercrane.simulate import simulate
 from towercrane.towers import as_chain

@@ -10,7 +10,7 @@ from jets import Jet
 from space_points import CraneCloud
 
 from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes.flexible import ModalDamping
+from towercrane.cranes.damping import ModalDamping
 from towercrane.cranes.flexible_layout import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
 from towercrane.cranes.lumped_data import Drive
 from towercrane.cranes.wind import WindAreas, steady

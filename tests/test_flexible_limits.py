@@ -7,7 +7,8 @@ import lab_crane
 import numpy as np
 import pytest
 
-from towercrane.cranes.flexible import FlexibleModel, ModalDamping
+from towercrane.cranes.damping import ModalDamping
+from towercrane.cranes.flexible import FlexibleModel
 from towercrane.cranes.flexible_crane import FlexibleCrane
 from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.cranes.mass_sums import point_sums, rigid_sums

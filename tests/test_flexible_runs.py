@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from space_crane import manoeuvre, standing
 
 from modal.beam import Beam
-from towercrane.cranes.flexible import ModalDamping
+from towercrane.cranes.damping import ModalDamping
 from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.cranes.lumped_data import Drive
 from towercrane.cranes.radial import RadialModel

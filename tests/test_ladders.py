@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from towercrane import load_case
 from towercrane.cli import app
-from towercrane.cranes.flexible import ModalDamping
+from towercrane.cranes.damping import ModalDamping
 from towercrane.cranes.wind import WindAreas, gusts
 from towercrane.faults import CaseError
 from towercrane.ladders import Ladders, measured_choice

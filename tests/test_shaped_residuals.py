@@ -7,7 +7,7 @@ import pytest
 import space_crane as space
 from numpy.testing import assert_allclose
 
-from towercrane.cranes.flexible import ModalDamping
+from towercrane.cranes.damping import ModalDamping
 from towercrane.cranes.scaled_torsion import ScaledTorsion
 from towercrane.cranes.sway_frequencies import PendulumFrequencies, SwayFrequencies
 from towercrane.motion import rest

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.frequency_cap import added_mass
 from towercrane.nodes import RICHEST, SWING, TENSION
 
 if TYPE_CHECKING:
@@ -185,8 +186,6 @@ def _combined(parts: Complex, phase: Floats) -> Floats:
 
 def _added(nodes: Nodes, setting: Setting) -> Floats:
     """Mass that the setting's cap adds to each coordinate."""
-    from towercrane.cranes.flexible import added_mass
-
     order = np.concatenate([np.arange(RICHEST.tower_modes), np.arange(RICHEST.jib_modes), [0]])
     return added_mass(nodes.frequencies, order, setting.cap)
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.candidates import Candidate, candidates, driven
-from towercrane.cranes.flexible import FlexibleModel, ModalDamping
+from towercrane.cranes.damping import ModalDamping
+from towercrane.cranes.flexible import FlexibleModel
 from towercrane.cranes.scaled_torsion import ScaledTorsion
 from towercrane.cranes.sway_frequencies import SwayFrequencies
 from towercrane.integrate import FINISHED, INTERRUPTED

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cranes.flexible import FlexibleModel, ModalDamping
+from towercrane.cranes.damping import ModalDamping
+from towercrane.cranes.flexible import FlexibleModel
 from towercrane.readings import SPACE
 from towercrane.scene import Scene
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from modal.beam import Beam
 from modal.torsion import Shaft
-from towercrane.cranes.flexible import ModalDamping
+from towercrane.cranes.damping import ModalDamping
 from towercrane.cranes.tower_crane import TowerCrane
 from towercrane.cranes.wind import WindAreas, gusts, steady
 from towercrane.motion import rest, s_curve, smooth_ramps, trapezoid

@@ -11,7 +11,9 @@ import numpy as np
 from towercrane.cranes import drive_kernel, flexible_kernel
 from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.corner import Corner
+from towercrane.cranes.damping import ModalDamping
 from towercrane.cranes.flexible_constants import geometric_stiffness, matrices, numbers, scale, vectors
+from towercrane.cranes.frequency_cap import added_mass
 from towercrane.cranes.shape_table import shape_table
 from towercrane.cranes.small_motions import fastest_vibration
 from towercrane.cranes.wind import CHANNELS
@@ -35,36 +37,6 @@ TOWER_BUCKLED = "tower buckled"
 
 ROUNDING = 1e-9
 """Way beyond an end of the jib that counts as parked on it [m]."""
-
-
-FREE_MODES = 2
-"""Modes of each member that a cap never slows: they vibrate."""
-
-
-@dataclass(frozen=True, slots=True)
-class ModalDamping:
-    """Damping of the modes of each kind as a fraction of critical.
-
-    Parameters
-    ----------
-    tower, torsion, lateral, vertical : float
-        Zero or more.
-
-    Raises
-    ------
-    ValueError
-        If one is negative or not finite.
-    """
-
-    tower: float = 0.0
-    torsion: float = 0.0
-    lateral: float = 0.0
-    vertical: float = 0.0
-
-    def __post_init__(self) -> None:
-        for name in self.__slots__:
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(f"ModalDamping.{name}: wanted zero or more, got {getattr(self, name)!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -362,19 +334,3 @@ def _equations() -> Any:
     from towercrane.cranes.flexible_rhs import rhs
 
     return rhs
-
-
-def added_mass(angular_frequencies: Floats, order: NDArray[np.int64], cap: float) -> Floats:
-    """Mass that slows modes of unit mass to a frequency [Hz], shape (n,).
-
-    Parameters
-    ----------
-    angular_frequencies : ndarray, shape (n,)
-        Of each mode by itself [rad/s].
-    order : ndarray of int, shape (n,)
-        Number of each mode in its member, from 0; the first `FREE_MODES` are left as they are.
-    cap : float
-        [Hz]
-    """
-    ratio = angular_frequencies / (2.0 * np.pi * cap)
-    return np.asarray(np.where((order >= FREE_MODES) & (ratio > 1.0), ratio**2 - 1.0, 0.0))

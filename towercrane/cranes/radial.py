@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes.flexible import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB, FlexibleModel, ModalDamping
+from towercrane.cranes.damping import ModalDamping
+from towercrane.cranes.flexible import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB, FlexibleModel
 from towercrane.cranes.flexible_constants import geometric_stiffness
 from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
 from towercrane.cranes.small_motions import linear_matrices, reciprocal_modes
