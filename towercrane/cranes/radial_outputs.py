@@ -70,23 +70,21 @@ def observe(
             "m",
             "load from the undeformed tower top: outward, sideways, up",
         ),
-        "tower_coordinate": Quantity(
-            ("time", "tower_mode"),
-            motion.coordinates[:, :tower],
-            "kg^0.5 m",
-            "amplitude of the mass-normalised tower modes",
-        ),
-        "jib_coordinate": Quantity(
-            ("time", "jib_mode"),
-            motion.coordinates[:, tower:],
-            "kg^0.5 m",
-            "amplitude of the mass-normalised jib modes",
-        ),
         "total_energy": over_time(total_energy(motion), "J", "kinetic and potential energy"),
         "input_work": over_time(
             states[:, -1], "J", "work of trolley drive and winch less what damping and drag took, since the start"
         ),
     }
+    for member, part in (("tower", slice(tower)), ("jib", slice(tower, None))):
+        amplitudes = motion.coordinates[:, part]
+        # A rigid member has none, and a file of results no empty variables.
+        if amplitudes.shape[1]:
+            outputs[f"{member}_coordinate"] = Quantity(
+                ("time", f"{member}_mode"),
+                amplitudes,
+                "kg^0.5 m",
+                f"amplitude of the mass-normalised {member} modes",
+            )
     if model.axes == 3:
         sideways = np.arcsin(np.clip(rope[:, 1], -1.0, 1.0))
         outputs["swing_angle_sideways"] = over_time(sideways, "rad", "angle of the rope out of the jib's plane")
