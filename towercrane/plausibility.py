@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from towercrane.casefile import leaves
@@ -172,15 +173,18 @@ RANGES = (
 """Of several rows that fit a key, the last holds."""
 
 
+@lru_cache(maxsize=4096)
+def _rule(key: str, kind: str) -> Range | None:
+    """The range of a dotted key."""
+    return next((rule for rule in reversed(RANGES) if rule.is_for(key, kind)), None)
+
+
 def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> Iterator[Fault]:
     """Values outside their range for this kind of crane, except where the case allows them."""
     ruled = {}
     for key, value in leaves(tree):
-        if not knows(kind, plain_key(key)):
-            continue
-        for rule in RANGES:
-            if rule.is_for(key, kind):
-                ruled[key] = rule.fault(key, value)
+        if knows(kind, plain_key(key)) and (rule := _rule(key, kind)):
+            ruled[key] = rule.fault(key, value)
     for key in allowed:
         if key not in ruled:
             wanted, hint = "keys of this case whose range is checked", did_you_mean(key, ruled)

@@ -13,6 +13,7 @@ import typer
 
 from towercrane.terminal import (
     INTERRUPTED,
+    NOT_AS_EXPECTED,
     AsJson,
     CaseName,
     Changes,
@@ -88,20 +89,24 @@ def sweep(
         suggest("run", case, *options_of([*(changes or []), *_worst(data)]))
     if INTERRUPTED_RUN in summary["outcomes"]:
         raise typer.Exit(INTERRUPTED)
+    if faults := summary["faults"]:
+        say(f"bad input in {len(faults)} of {summary['runs']} runs, the first: {faults[0]['fault']}")
+        raise typer.Exit(NOT_AS_EXPECTED)
 
 
 def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
     """Largest and smallest value of every output over all runs and where they occur, ready for JSON."""
     import numpy as np
 
-    from towercrane.drift import notice
     from towercrane.summary import assumed
 
     varied = {key: data[key.replace(".", "_")] for key in json.loads(data.attrs["varied"])}
 
+    def where(place: int) -> dict[str, Any]:
+        return {key: values.values[place].item() for key, values in varied.items()}
+
     def at(name: str, place: int) -> dict[str, Any]:
-        where = {key: values.values[place].item() for key, values in varied.items()}
-        return {"value": float(data[name].values[place]), "at": where}
+        return {"value": float(data[name].values[place]), "at": where(place)}
 
     extremes = {}
     for name in json.loads(data.attrs["outputs"]):
@@ -112,8 +117,8 @@ def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
             extremes[name] = {"largest": at(f"{name}_max", high), "smallest": at(f"{name}_min", low), "units": units}
     runs = len(data["run"])
     ended = int((data["outcome"] != INTERRUPTED_RUN).sum())
-    said = notice(data.attrs["method"], data.attrs["rtol"], data.attrs["atol"]) if "rtol" in data.attrs else ""
-    notices = [said] if said else []
+    notices = json.loads(data.attrs["notices"])
+    faults = data["fault"].values.tolist() if "fault" in data else []
     if "accuracy" in data:
         promised = Counter(data["accuracy"].values.tolist())
         notices.append("error asked for: " + ", ".join(f"{count} {name}" for name, count in promised.items() if name))
@@ -129,6 +134,7 @@ def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
             for key, values in varied.items()
         ],
         "extremes": extremes,
+        "faults": [{"at": where(place), "fault": fault} for place, fault in enumerate(faults) if fault],
         "notices": notices,
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(data)],
         "seconds": seconds,
@@ -158,7 +164,7 @@ def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
     from math import prod
 
     from towercrane.case import load_case
-    from towercrane.kinds import unit_of
+    from towercrane.kinds import knows, plain_key, unit_of
     from towercrane.units import UnitError, to_si
 
     values: dict[str, list[Any]] = {}
@@ -170,8 +176,9 @@ def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
         if key in values:
             fail(f"--vary {option}: the key stands in two options")
         unit, parts = unit_of(case.kind, key), [part.strip() for part in written.split(":")]
-        # The case itself tells best what is wrong with a key or its first value.
-        load_case(case.path, [*case.changes, f"{key}={parts[0].partition(',')[0]}"])
+        if not knows(case.kind, plain_key(key)):
+            # The case itself tells best what is wrong with a key.
+            load_case(case.path, [*case.changes, f"{key}={parts[0].partition(',')[0]}"])
         try:
             if len(parts) == 1:
                 given = [part.strip() for part in written.split(",")]
@@ -217,10 +224,13 @@ def _number(text: str) -> Any:
 
 def _worst(data: xr.Dataset) -> list[str]:
     """The varied values of the first run that ended early, or else of that with the largest first output."""
+    # What is bad input cannot be run.
     import numpy as np
 
+    from towercrane.sweep_data import BAD_INPUT
+
     outcomes, first = data["outcome"].values, json.loads(data.attrs["outputs"])[:1]
-    early = np.flatnonzero(~np.isin(outcomes, ["finished", INTERRUPTED_RUN]))
+    early = np.flatnonzero(~np.isin(outcomes, ["finished", INTERRUPTED_RUN, BAD_INPUT]))
     if len(early):
         run = int(early[0])
     elif first and np.any(np.isfinite(data[f"{first[0]}_max"].values)):

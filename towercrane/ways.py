@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -36,6 +37,12 @@ JOINTS: dict[str, tuple[str, ...]] = {
 
 RESTS = ("slew", "slewing")
 """Joints that rest at zero where the case does not name them."""
+
+
+@cache
+def _reader(described: Any) -> TypeAdapter[Any]:
+    """What reads a motion; making it takes as long as the rest of a case."""
+    return TypeAdapter(described)
 
 
 @dataclass(frozen=True)
@@ -93,7 +100,7 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
         plans |= {name: None if motion is None else Plan((Move(motion),)) for name, motion in wind.items()}
     for joint in _joints(tree, kind):
         way = Way(f"motion.{joint}", turns=True)
-        plans[joint], more = _motion(tree, way, TypeAdapter(JointMotion), folder, 0.0 if joint in RESTS else None)
+        plans[joint], more = _motion(tree, way, _reader(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
     more, plans["rope"] = _rope(tree, folder, kind)
     faults += more
@@ -128,7 +135,7 @@ def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Plan | No
     known = f"from 0 to {jib:g} m (the length of the jib)" if jib else "from 0 on"
     on_jib = Way("motion.trolley", jib, False, f"positions on the jib, {known}", "the trolley leaves the jib")
     faults = _out_of_way(tree, on_jib, ("start", "end"))
-    trolley, more = _motion(tree, on_jib, TypeAdapter(TrolleyMotion), folder, None)
+    trolley, more = _motion(tree, on_jib, _reader(TrolleyMotion), folder, None)
     for listed in ("modes.trolley_positions", "map.trolley_positions"):
         for key, value in leaves(at(tree, listed) or [], listed):
             position = si(value, "m")
@@ -151,7 +158,7 @@ def _rope(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], P
         length = si(value, "m")
         if length is not None and length > 0.0 and not in_air.keeps(length):
             faults.append(in_air.fault(key, shown(value)))
-    rope, more = _motion(tree, in_air, TypeAdapter(HoistMotion), folder, start)
+    rope, more = _motion(tree, in_air, _reader(HoistMotion), folder, start)
     return faults or more, rope
 
 

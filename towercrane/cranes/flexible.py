@@ -197,9 +197,12 @@ class FlexibleModel:
     def with_load(self, load: Load) -> FlexibleModel:
         """The same crane with another load: what does not depend on the load is shared, not made again."""
         other = replace(self, load=load)
-        softened = matrices(other) if self.weight_softening else self.system.matrices
+        system = replace(self.system, numbers=numbers(other))
+        if self.weight_softening:
+            # The load's weight takes stiffness, and with it speed, from the tower.
+            system = replace(system, matrices=matrices(other), fastest=lambda: other.fastest)
         # A cached property that is filled beforehand.
-        vars(other)["system"] = replace(self.system, numbers=numbers(other), matrices=softened)
+        vars(other)["system"] = system
         return other
 
     @cached_property

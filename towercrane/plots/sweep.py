@@ -9,11 +9,13 @@ import numpy as np
 
 from towercrane.plots.style import COLOURS, figure_of, footnote
 from towercrane.summary import assumed
+from towercrane.sweep_data import BAD_INPUT
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
 MOST_OUTPUTS = 4
 """Outputs that are shown; the files hold all."""
@@ -43,8 +45,9 @@ def extremes(data: xr.Dataset) -> dict[str, Figure]:
             _map(figure, panel, data, keys, name)
     for panel in panels[len(outputs) :]:
         panel.set_visible(False)
-    early = int(np.count_nonzero(data["outcome"].values != "finished"))
+    bad, early = np.count_nonzero(data["outcome"].values == BAD_INPUT), np.count_nonzero(_early(data))
     ended = f"; crosses: {early} runs that ended early" if early else ""
+    ended += f"; left out: {bad} that are bad input" if bad else ""
     figure.suptitle(f"{data.attrs['crane']}: {data.attrs['title']}{ended}", fontsize=10)
     footnote(figure, assumed(data))
     return {"sweep.png": figure}
@@ -53,7 +56,7 @@ def extremes(data: xr.Dataset) -> dict[str, Figure]:
 def _lines(axes: Axes, data: xr.Dataset, key: str, name: str) -> None:
     """Largest and smallest value of an output over a varied value."""
     order = np.argsort(data[key.replace(".", "_")].values)
-    x, early = data[key.replace(".", "_")].values[order], data["outcome"].values[order] != "finished"
+    x, early = data[key.replace(".", "_")].values[order], _early(data)[order]
     factor, unit = _shown(data, name)
     for colour, dash, kind in zip(COLOURS, ("-", "--"), ("max", "min"), strict=False):
         values = factor * data[f"{name}_{kind}"].values[order]
@@ -74,10 +77,15 @@ def _map(figure: Figure, axes: Axes, data: xr.Dataset, keys: list[str], name: st
     size = np.full((len(y), len(x)), np.nan)
     size[row, column] = factor * np.maximum(abs(data[f"{name}_max"].values), abs(data[f"{name}_min"].values))
     mesh = axes.pcolormesh(x, y, size, cmap="viridis", shading="nearest", rasterized=True)
-    early = data["outcome"].values != "finished"
+    early = _early(data)
     axes.plot(first[early], second[early], "x", color="white", ms=4)
     axes.set(xlabel=_label(data, keys[0]), ylabel=_label(data, keys[1]))
     figure.colorbar(mesh, ax=axes, label=f"largest {name.replace('_', ' ')} [{unit}]")
+
+
+def _early(data: xr.Dataset) -> NDArray[np.bool_]:
+    """Runs that ended early."""
+    return ~np.isin(data["outcome"].values.astype(str), ["finished", BAD_INPUT])
 
 
 def _shown(data: xr.Dataset, name: str) -> tuple[float, Any]:

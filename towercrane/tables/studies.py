@@ -8,6 +8,9 @@ from towercrane.tables.layout import assumed_values as _assumed
 from towercrane.tables.layout import console_of_reports as _console
 from towercrane.tables.layout import report_table as _table
 
+MOST_FAULTS = 3
+"""Runs of a sweep whose faults are told in full."""
+
 
 def sensitivity_tables(summary: dict[str, Any]) -> None:
     """Ranked parameters, members and the reduced crane, as :func:`towercrane.sensitivity.report` gives them."""
@@ -105,6 +108,11 @@ def sweep_tables(report: dict[str, Any]) -> None:
             table.add_row(name.replace("_", " "), kind, f"{value['value']:.5g}", found["units"], *at)
     console.print(table)
     console.print(f"{report['seconds']:.2f} s, {report['runs_per_second']:.3g} runs per second")
+    for bad in report["faults"][:MOST_FAULTS]:
+        where = ", ".join(f"{key} = {value}" for key, value in bad["at"].items())
+        console.print(f"bad input at {where}: {bad['fault']}")
+    if len(report["faults"]) > MOST_FAULTS:
+        console.print(f"bad input in {len(report['faults']) - MOST_FAULTS} more runs: see the files")
     for said in report["notices"]:
         console.print(f"note     {said}", style="bold")
     _assumed(console, report["assumed"])
