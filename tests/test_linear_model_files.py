@@ -48,6 +48,7 @@ def test_saved_file_is_read_back(tmp_path, ending):
         assert read[f"{kind[:-1]}_units"].tolist() == [signal.units for signal in getattr(linear, kind)]
     assert_allclose(read["x0"], linear.point.states, rtol=0)
     assert_allclose(read["y0"], linear.point.outputs, rtol=0)
+    assert_allclose(read["slope"], linear.point.slope, rtol=0)
 
 
 def test_a_file_that_cannot_be_written_leaves_the_old_one(tmp_path, monkeypatch):

@@ -52,6 +52,11 @@ class Chart:
     basis: Floats
     turning: Turning | None
 
+    @property
+    def inclination(self) -> float:
+        """Angle of the rope from the vertical at the operating point [rad]."""
+        return float(np.arctan2(np.linalg.norm(self.direction[:-1]), -self.direction[-1]))
+
     @classmethod
     def about(cls, model: Model, state: Floats, drives: Floats, turning: str | None) -> Chart:
         """Chart of a model about its state.

@@ -18,7 +18,9 @@ TURNING = ("platform_angle", "slewing_angle", "slewing", "slew")
 
 
 def linear_model(case: Case, at: float) -> StateSpace:
-    """Linear model of a case about its equilibrium with the drives at rest where they are ``at`` a time [s].
+    """Linear model of a case about its equilibrium, the drives at rest where they are ``at`` a time [s].
+
+    A wind that blows is at its mean, as in :func:`towercrane.system.start_inputs`.
 
     Raises
     ------
@@ -41,7 +43,8 @@ def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
     -------
     dict
         ``eigenvalues`` (real, imaginary, frequency_hz, damping_ratio, dominant_state; the ratio of a zero is None),
-        ``states``, ``inputs`` and ``outputs`` (name, units, value at the operating point), ``A``, ``B``, ``C``,
+        ``states``, ``inputs`` and ``outputs`` (name, units, value at the operating point), ``slope`` of
+        the states there and ``equilibrium`` (whether it is zero), ``rope_inclination_rad``, ``A``, ``B``, ``C``,
         ``D``, ``differentiation_error``, ``at_s``, ``assumed``.
     """
     point = linear.point
@@ -64,6 +67,8 @@ def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
     for kind, (signals, values) in kinds.items():
         pairs = zip(signals, values.tolist(), strict=True)
         report[kind] = [{"name": signal.name, "units": signal.units, "value": value} for signal, value in pairs]
+    report["slope"] = point.slope.tolist()
+    report["equilibrium"], report["rope_inclination_rad"] = linear.at_equilibrium, point.inclination
     for name in "ABCD":
         report[name] = getattr(linear, name.lower()).tolist()
     report["differentiation_error"] = linear.error

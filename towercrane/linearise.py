@@ -10,6 +10,7 @@ from towercrane.chart import Chart, per_second
 from towercrane.differences import jacobian
 from towercrane.motion import Motion
 from towercrane.statespace import RATE, OperatingPoint, Signal, StateSpace
+from towercrane.system import start_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -42,20 +43,21 @@ def linearise(
     model : Model
         The crane; its state is (q, n, q', p, work). Optional attributes: ``axes`` (2 or 3, default 3),
         ``state_names`` (a dict from the name of each coordinate q, and of the sways if they have other names, to its
-        units) and ``channel_units``.
+        units), ``channel_units`` and ``value_channels`` (those that act by their value alone, such as a wind).
     motions : dict of str to Motion, or ndarray
         One for each channel; or, for each channel, ascending coefficients of a polynomial in time.
     time : float
         Where on the motions [s].
     state : ndarray, shape (size,), optional
-        State of the model. Without it, the equilibrium with every drive at rest at its value at ``time``; with it,
-        the drives move as they do at ``time``.
+        State of the model. Without it, the equilibrium with every drive at rest at its value at ``time`` and the
+        wind at its mean (see :func:`towercrane.system.start_inputs`); with it, all is as it is at ``time``.
     outputs : sequence of str, optional
         Names of what the model observes, by default every number but energies. A vector becomes one output for each
         component.
     inputs : {"acceleration", "motion"}
         "acceleration": a channel's value and rate are states and its acceleration is the input, as drives are
-        controlled. "motion": value, rate and acceleration are three inputs; they must be consistent.
+        controlled. "motion": value, rate and acceleration are three inputs; they must be consistent. A channel that
+        acts by its value alone is an input by its value, either way.
     turning : str, optional
         Coordinate or channel that is an angle about the vertical: direction of the rope and its rate are then seen
         from a frame that turns with it, "outward" along its first axis, so a steady rotation is an equilibrium (but
@@ -64,7 +66,7 @@ def linearise(
     Returns
     -------
     StateSpace
-        States: coordinates and sways, their rates, then values and rates of the channels.
+        States: coordinates and sways, their rates, then values and rates of the drives.
 
     Raises
     ------
@@ -78,6 +80,8 @@ def linearise(
     drives = _drives(model, motions, time)
     if state is None:
         drives[1:] = 0.0
+        if not isinstance(motions, np.ndarray):
+            drives[0] = start_inputs(model, motions, _polynomials(drives))[:, 0]
         state = model.start(_polynomials(drives), "equilibrium", 0.0)
     elif np.shape(state) != (model.system.size,):
         raise ValueError(f"state: wanted shape ({model.system.size},), got {np.shape(state)}")
@@ -108,32 +112,42 @@ def linearise(
     matrix[abs(matrix) * scale < NOTHING * largest] = 0.0
     relative = errors * scale / np.where(largest > 0.0, largest, 1.0)
     here = respond(arguments)
-    split = size if inputs == "motion" else size + 2 * channels
-    a, b, slope = _with_drives(matrix[:size], here[:size], drives, split)
+    by_value = np.isin(model.channels, getattr(model, "value_channels", ()))
+    states, given = _roles(size, by_value, inputs)
+    driven, count = np.flatnonzero(~by_value), channels - int(np.count_nonzero(by_value))
+    a, b, slope = matrix[:size, states], matrix[:size, given], here[:size]
+    if len(states) > size:
+        # The drives integrate: values grow by rates, rates by the inputs, which come last.
+        rows = np.zeros((2 * count, len(states) + len(given)))
+        rows[:count, size + count : size + 2 * count] = rows[count:, -count:] = np.eye(count)
+        a, b = np.vstack([a, rows[:, : len(states)]]), np.vstack([b, rows[:, len(states) :]])
+        slope = np.concatenate([slope, *drives[1:, driven]])
     signals = (*chart.names, *_drive_signals(model))
     return StateSpace(
         a=a,
         b=b,
-        c=matrix[size:, :split],
-        d=matrix[size:, split:],
-        states=signals[:split],
-        inputs=signals[split:],
+        c=matrix[size:, states],
+        d=matrix[size:, given],
+        states=tuple(signals[k] for k in states),
+        inputs=tuple(signals[k] for k in given),
         outputs=seen,
-        point=OperatingPoint(arguments[:split], arguments[split:], here[size:], slope, state),
+        point=OperatingPoint(arguments[states], arguments[given], here[size:], slope, state, chart.inclination),
         error=float(np.max(relative[:size], initial=0.0)),
     )
 
 
-def _with_drives(matrix: Floats, slope: Floats, drives: Floats, states: int) -> tuple[Floats, Floats, Floats]:
-    """A, B and slope from the crane's rows; the first ``states`` columns are states, drives among them integrate."""
-    size, channels = len(slope), drives.shape[1]
-    a, b = np.zeros((states, states)), np.zeros((states, matrix.shape[1] - states))
-    a[:size], b[:size] = matrix[:, :states], matrix[:, states:]
-    if states > size:
-        a[size : size + channels, size + channels :] = np.eye(channels)
-        b[size + channels :] = np.eye(channels)
-        slope = np.concatenate([slope, drives[1], drives[2]])
-    return a, b, slope
+def _roles(size: int, by_value: NDArray[np.bool_], inputs: str) -> tuple[list[int], list[int]]:
+    """Which of minimal state and of the channels' values, rates and accelerations are states and which are inputs."""
+    channels = len(by_value)
+    blown, driven = np.flatnonzero(by_value), np.flatnonzero(~by_value)
+    values, rates, accelerations = (size + k * channels + driven for k in range(3))
+    states, given = [np.arange(size)], [size + blown]
+    if inputs == "motion":
+        given += [values, rates, accelerations]
+    else:
+        states += [values, rates]
+        given += [accelerations]
+    return np.concatenate(states).tolist(), np.concatenate(given).tolist()
 
 
 def _drive_signals(model: Model) -> list[Signal]:

@@ -60,6 +60,15 @@ class Motion:
         """Value at which the motion comes to rest."""
         return _polynomial(self.coefficients[-1], self.switch_times[-1] - self.switch_times[-2])
 
+    @property
+    def mean(self) -> float:
+        """Mean over the motion's own duration; of one without duration its value."""
+        if not self.duration > 0.0:
+            return self.end
+        powers = np.arange(1.0, self.coefficients.shape[1] + 1.0)
+        ways = self.coefficients * np.diff(self.switch_times)[:, None] ** powers / powers
+        return float(ways.sum() / self.duration)
+
     def piece(self, time: float) -> Floats:
         """Coefficients about a ``time`` of zero or more, valid until the next switch time; shape (k,)."""
         if time >= self.duration - SAME_INSTANT:

@@ -15,6 +15,7 @@ from towercrane.cranes.sway_frequencies import SwayFrequencies
 from towercrane.integrate import FINISHED, INTERRUPTED
 from towercrane.motion import Motion, phases, rest
 from towercrane.simulate import simulate
+from towercrane.system import start_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -204,7 +205,7 @@ def attempt(model: FlexibleModel, motions: Mapping[str, Motion], rope: float = 1
 def resting_place(model: FlexibleModel, motions: Mapping[str, Motion]) -> Floats:
     """Horizontal position of the load at rest after the motions [m], shape (2,)."""
     still = {channel: rest(motions[channel].end) for channel in model.channels}
-    inputs = phases(tuple(still.values()), 1.0).inputs[0]
+    inputs = start_inputs(model, motions, phases(tuple(still.values()), 1.0).inputs[0])
     state = model.start(inputs)
     _, guards = model.system.slope(0.0, state, inputs)
     seen = model.observe(still, np.zeros(1), state[None], guards[None])

@@ -45,7 +45,7 @@ class Model(Table):
 
 
 class Start(Table):
-    """Initial state of a crane in radial motion."""
+    """Initial state of a tower crane; its equilibrium is that in the wind's mean, the angle counts from there."""
 
     state: Literal["equilibrium", "zero", "zero-no-self-weight"] = "equilibrium"
     swing_angle: Angle = 0.0

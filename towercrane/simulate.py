@@ -18,7 +18,7 @@ from towercrane.kinds import TOWER_CRANES
 from towercrane.models import flexible_model, model_of
 from towercrane.motion import Motion, phases
 from towercrane.recording import Recording
-from towercrane.system import Model, NoEquilibrium
+from towercrane.system import Model, NoEquilibrium, start_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -58,9 +58,9 @@ def record(
     output_step : float
         Time between two rows of the result [s].
     state : {"equilibrium", "zero"}
-        Start from the static solution, or undeformed with all weights on.
+        Start from the static solution, where a wind blows in its mean, or undeformed with all weights on.
     swing_angle : float
-        Rope's angle from the vertical at the start, positive outward [rad].
+        Rope's angle at the start from where it hangs at rest, positive outward [rad].
     method, rtol, atol, split, progress
         As in :func:`towercrane.integrate.integrate`.
 
@@ -90,12 +90,12 @@ def record(
     began = time.perf_counter()
     cut = phases(tuple(motions[channel] for channel in model.channels), duration)
     sample_times = rows_of(duration, output_step)
-    message = ""
+    message, inputs = "", start_inputs(model, motions, cut.inputs[0])
     try:
-        start = model.start(cut.inputs[0], state, swing_angle)
+        start = model.start(inputs, state, swing_angle)
     except NoEquilibrium as failure:
         message = str(failure)
-        run = _nothing(model.start(cut.inputs[0], "zero", swing_angle), failure.outcome)
+        run = _nothing(model.start(inputs, "zero", swing_angle), failure.outcome)
     else:
         run = integrate(
             model.system, cut, start, sample_times,

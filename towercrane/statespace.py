@@ -22,6 +22,10 @@ RATE = "_rate"
 """Ending of a state's name that is the rate of the state of that name."""
 
 
+BALANCED = 1e-7
+"""Rate of a state, relative to the terms that cancel in it, below which it is rounding."""
+
+
 class Signal(NamedTuple):
     """A state, an input or an output."""
 
@@ -57,6 +61,8 @@ class OperatingPoint:
         Rates of change of the states there: zero at an equilibrium.
     full_state : ndarray
         State of the nonlinear model.
+    inclination : float
+        Angle of the rope from the vertical there [rad].
     """
 
     states: Floats
@@ -64,6 +70,7 @@ class OperatingPoint:
     outputs: Floats
     slope: Floats
     full_state: Floats
+    inclination: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +129,13 @@ class StateSpace:
         return table
 
     @property
+    def at_equilibrium(self) -> bool:
+        """Whether the states do not change where the model is taken, but for rounding."""
+        point = self.point
+        terms = abs(self.a) @ abs(point.states) + abs(self.b) @ abs(point.inputs)
+        return bool(np.all(abs(point.slope) <= BALANCED * (1.0 + terms)))
+
+    @property
     def frequencies(self) -> Floats:
         """Natural frequencies of all oscillations, ascending [Hz]."""
         return np.array([e.frequency for e in self.eigenvalues() if e.value.imag > 0.0])
@@ -129,9 +143,9 @@ class StateSpace:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a file for MATLAB (``.mat``) or NumPy (``.npz``), whole or not at all.
 
-        Fields: A, B, C, D; states, inputs, outputs and their units (cell arrays of text in MATLAB); x0, u0, y0 and
-        slope of the operating point. In MATLAB ``ss(A, B, C, D, 'StateName', states)``, in python-control
-        ``control.ss(m["A"], m["B"], m["C"], m["D"])`` of ``m = scipy.io.loadmat(path)``.
+        Fields: A, B, C, D; states, inputs, outputs and their units (cell arrays of text in MATLAB); x0, u0, y0,
+        slope and the rope's inclination at the operating point. In MATLAB ``ss(A, B, C, D, 'StateName', states)``, in
+        python-control ``control.ss(m["A"], m["B"], m["C"], m["D"])`` of ``m = scipy.io.loadmat(path)``.
 
         Raises
         ------
@@ -158,4 +172,5 @@ class StateSpace:
             fields[kind] = np.array([signal.name for signal in signals], dtype=text)
             fields[f"{kind[:-1]}_units"] = np.array([signal.units for signal in signals], dtype=text)
         point = self.point
-        return fields | {"x0": point.states, "u0": point.inputs, "y0": point.outputs, "slope": point.slope}
+        fields |= {"x0": point.states, "u0": point.inputs, "y0": point.outputs, "slope": point.slope}
+        return fields | {"inclination": point.inclination}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -155,6 +155,27 @@ class Model(Protocol):
 
     def provenance(self) -> dict[str, Any]:
         """What of the model belongs in a result's attributes."""
+
+
+def start_inputs(model: Model, motions: Mapping[str, Motion], inputs: Floats) -> Floats:
+    """Polynomials of a phase as a state at rest knows them.
+
+    A model may name ``value_channels`` that act by their value alone, such as the components of a wind: they are at
+    the mean of their motion, whatever they are at that instant. A steady wind is its own mean; that of gusts is over
+    their whole record, so that a run is the beginning of any longer one.
+
+    Parameters
+    ----------
+    model : Model
+    motions : mapping of str to Motion
+    inputs : ndarray, shape (channels, k)
+        Polynomials of the phase.
+    """
+    known = inputs.copy()
+    for channel in getattr(model, "value_channels", ()):
+        row = known[model.channels.index(channel)]
+        row[0], row[1:] = motions[channel].mean, 0.0
+    return known
 
 
 def plain_system(rhs: Any, size: int, numbers: tuple[float, ...] = ()) -> System:

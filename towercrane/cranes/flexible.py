@@ -18,7 +18,7 @@ from towercrane.cranes.shape_table import shape_table
 from towercrane.cranes.small_motions import fastest_vibration
 from towercrane.cranes.wind import CHANNELS
 from towercrane.equilibrium import Unstable, stable_equilibrium
-from towercrane.payload import FORCE, JACOBIAN, Load, restore, work_shape
+from towercrane.payload import FORCE, JACOBIAN, WIND, Load, restore, work_shape
 from towercrane.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
@@ -115,7 +115,12 @@ class FlexibleModel:
         turning: tuple[str, ...] = ("shaft",) if self.drive is not None else ("slewing",)
         if self.slewing == "fixed":
             turning = ()
-        return ("trolley", "rope", *turning, *(CHANNELS if self.wind else ()))
+        return ("trolley", "rope", *turning, *self.value_channels)
+
+    @property
+    def value_channels(self) -> tuple[str, ...]:
+        """Channels that act by their value alone, of which a crane at rest knows the mean: the wind's components."""
+        return CHANNELS if self.wind else ()
 
     @property
     def channel_units(self) -> tuple[str, ...]:
@@ -231,11 +236,12 @@ class FlexibleModel:
         Parameters
         ----------
         inputs : ndarray
-            Polynomials of the first phase.
+            Polynomials of the first phase, the wind's at the value that counts, see
+            :func:`towercrane.system.start_inputs`.
         state : str
-            "equilibrium" (the static solution) or "zero" (undeformed, all weights on).
+            "equilibrium" (the static solution, in the wind) or "zero" (undeformed, all weights on, in still air).
         swing_angle : float
-            Angle of the rope from the vertical, positive outward as the head is turned [rad].
+            Turn of the rope in the vertical plane of the head from where it would hang, positive outward [rad].
 
         Returns
         -------
@@ -254,19 +260,25 @@ class FlexibleModel:
         heading = 0.0 if self.slewing == "fixed" else float(inputs[layout.SLEWING, 0])
         if self.drive is not None:
             y[self.parts["slewing"]] = heading
+        hung, outward = -np.eye(self.axes)[-1], np.zeros(self.axes)
         if state == "equilibrium":
             y[:n] = self.equilibrium(inputs)
-        y[n] = np.sin(swing_angle)
-        if self.axes == 3:
-            y[n : n + 2] = np.sin(swing_angle) * np.array([np.cos(heading), np.sin(heading)])
-        y[n + self.axes - 1] = -np.cos(swing_angle)
+            force = self.load_force(self.at_rest(y[:n], inputs))
+            # Without weight and wind any direction will do.
+            hung = force / np.linalg.norm(force) if force.any() else hung
+        outward[: self.axes - 1] = np.array([np.cos(heading), np.sin(heading)])[: self.axes - 1]
+        along, rise = hung @ outward, hung[-1]
+        c, s = np.cos(swing_angle), np.sin(swing_angle)
+        hung += (along * (c - 1.0) - rise * s) * outward
+        hung[-1] = rise * c + along * s
+        y[n : n + self.axes] = hung
         return y
 
     def equilibrium(self, inputs: Floats) -> Floats:
-        """Coordinates at rest under all weights, load hanging straight down, in still air; shape (coordinates,).
+        """Coordinates at rest under all weights and the wind; shape (coordinates,).
 
-        Newton's method on f(q) - m_p g J_D^T e_z = 0. The rope's direction is known, so the inverted pendulum
-        cannot be found; the solution is refused unless it is stable.
+        Newton's method on f(q) + J_D^T F = 0 with the weight and the wind's force F of the load. The rope's direction
+        is that of F, so the inverted pendulum cannot be found; the solution is refused unless it is stable.
 
         Raises
         ------
@@ -286,10 +298,16 @@ class FlexibleModel:
             raise NoEquilibrium(TOWER_BUCKLED, f"{failure}; {self.buckling_message()}") from failure
 
     def static_force(self, q: Floats, inputs: Floats) -> Floats:
-        """Generalised forces on the crane at rest with its load hanging straight down; shape (coordinates,)."""
+        """Generalised forces on the crane at rest with its load hanging at rest; shape (coordinates,)."""
         n, work = self.coordinates, self.at_rest(q, inputs)
-        up = work[JACOBIAN + self.axes - 1, :n]
-        return np.asarray(work[FORCE, :n] - self.load.mass * self.crane.gravity * up)
+        return np.asarray(work[FORCE, :n] + self.load_force(work) @ work[JACOBIAN : JACOBIAN + self.axes, :n])
+
+    def load_force(self, work: Floats) -> Floats:
+        """Force of weight and wind on the load at rest, as scratch knows the wind [N]; shape (axes,)."""
+        wind = work[WIND, : self.axes]
+        force = self.load.drag * np.linalg.norm(wind) * wind
+        force[-1] -= self.load.mass * self.crane.gravity
+        return np.asarray(force)
 
     def buckling_message(self) -> str:
         """How far the tower is from buckling."""
@@ -299,13 +317,11 @@ class FlexibleModel:
         return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
 
     def at_rest(self, q: Floats, inputs: Floats) -> Floats:
-        """Scratch array of the structure at rest at these coordinates in still air."""
+        """Scratch array of the structure at rest at these coordinates, in the wind of the inputs."""
         y = np.zeros(self.size)
         y[: self.coordinates] = q
         fixed = np.zeros_like(inputs)
         fixed[:, 0] = inputs[:, 0]
-        if self.wind:
-            fixed[-3:] = 0.0
         work, constants = np.zeros(self.system.work_shape), self.system.constants
         flexible_kernel.structure(self.axes, 0.0, y, fixed, *constants, work)
         if self.drive is not None:

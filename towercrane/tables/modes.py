@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
+LEANING = 1e-6
+"""Inclination of the rope at an equilibrium that is shown [rad]."""
+
 
 def modes_tables(report: dict[str, Any]) -> None:
     """Natural frequencies beside finite elements, as :func:`towercrane.natural.natural_frequencies` gives them."""
@@ -172,9 +175,11 @@ def map_tables(report: dict[str, Any]) -> None:
 def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
     """Eigenvalues as :func:`towercrane.linear_report.linear_report` gives them, without those of the drives."""
     console = _console()
-    values = {signal["name"]: f"{signal['value']:g} {signal['units']}" for signal in report["states"]}
+    known = [*report["states"], *report["inputs"]]
+    values = {signal["name"]: f"{_rounded(signal['value'], 9):g} {signal['units']}" for signal in known}
     where = ", ".join(f"{name} {values[name]}" for name in drives)
-    title = f"{report['name']}: small motions about the equilibrium"
+    balanced = "the equilibrium" if report["equilibrium"] else "a state that is no equilibrium"
+    title = f"{report['name']}: small motions about {balanced}"
     table = _table(
         f"{title}, {where}", "moves most", "frequency [Hz]", "period [s]", "damping ratio", "eigenvalue [1/s]"
     )
@@ -190,6 +195,11 @@ def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
             f"{_rounded(row['real'], 6):.6f}" + (f" +- {imaginary:.6f}i" if imaginary else ""),
         )
     console.print(table)
+    if report["rope_inclination_rad"] > LEANING:
+        console.print(f"the rope leans by {report['rope_inclination_rad']:.4f} rad there")
+    if not report["equilibrium"]:
+        slope, state = max(zip(report["slope"], report["states"], strict=True), key=lambda pair: abs(pair[0]))
+        console.print(f"there {state['name']} changes by {slope:.3g} {state['units']} per second")
     sizes = ", ".join(f"{len(report[kind])} {kind}" for kind in ("states", "inputs", "outputs"))
     console.print(f"{sizes}; inputs: {', '.join(signal['name'] for signal in report['inputs'])}")
     _assumed(console, report["assumed"])
