@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.directions import restore_rows
 from towercrane.motion import SAME_INSTANT
 from towercrane.tableaus import TABLEAUS, Tableau
 
@@ -133,6 +134,7 @@ def integrate(
         )
     began, began_cpu = time.perf_counter(), time.process_time()
     run = Run(system, rtol, atol, np.array(start, dtype=float), np.empty((len(sample_times), system.size)))
+    restore_rows(run.state, system.directions)
     if method not in TABLEAUS:
         from towercrane.scipy_solver import solve
 
@@ -144,6 +146,8 @@ def integrate(
     written = int(run.counts[WRITTEN])
     if written == 0 and len(sample_times) and sample_times[0] == run.time:
         run.samples[0], written = run.state, 1
+    # Between steps the dense output keeps a direction as well as it keeps anything.
+    restore_rows(run.samples[:written], system.directions)
     return Trajectory(
         times=np.array(sample_times[:written]),
         states=run.samples[:written],
@@ -168,24 +172,18 @@ class Run:
         self.time, self.smallest_step = 0.0, np.inf
         self.counts = np.zeros(5, dtype=np.int64)
 
-    def restart(self, phases: Phases, phase: int) -> None:
-        """Begin a phase: its start time, and the state back on its constraints."""
-        self.time = float(phases.times[phase])
-        if self.system.restore is not None:
-            self.system.restore(self.state)
-
 
 def _compiled(run: Run, phases: Phases, sample_times: Floats, tableau: Tableau, progress: Progress | None) -> str:
     from towercrane import stepper
 
     system = run.system
     guards, numbers, floors = np.empty(len(system.guards)), system.numbers.copy(), system.floors.copy()
+    ranges = np.empty((2, len(guards)))
     k, scratch = np.empty((len(tableau.a), system.size)), np.empty((3, system.size))
     work, step = np.zeros(system.work_shape), 0.0
     owner = phase_of(sample_times, phases)
     for phase, inputs in enumerate(phases.inputs):
-        run.restart(phases, phase)
-        begin, t_end = run.time, float(phases.times[phase + 1] - phases.times[phase])
+        begin, t_end = float(phases.times[phase]), float(phases.times[phase + 1] - phases.times[phase])
         clock = np.array([0.0, step, run.smallest_step, tableau.longest_step(system.fastest)])
         mine = owner == phase
         first = int(np.count_nonzero(owner < phase))
@@ -200,9 +198,9 @@ def _compiled(run: Run, phases: Phases, sample_times: Floats, tableau: Tableau, 
             system.switch.begin(run.state, numbers, floors, guards_at)
         arguments = (
             system.rhs, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
-            tableau.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, k, scratch,
+            tableau.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, system.directions, k, scratch,
             np.minimum(sample_times[mine] - begin, t_end), run.samples[first : first + np.count_nonzero(mine)],
-            STEPS_PER_CALL, inputs, *constants, work, guards, floors,
+            STEPS_PER_CALL, inputs, *constants, work, guards, ranges, floors,
         )  # fmt: skip
         status, interrupted, stalled, fresh = stepper.PAUSED, False, 0, True
         while status == stepper.PAUSED and not interrupted:

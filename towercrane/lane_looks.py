@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from modal.compiled import kernel
+from towercrane.guards import NARROWEST, is_near
 from towercrane.lane_queue import (
     ACCEPTED_STEP,
     BEGIN,
@@ -35,6 +36,15 @@ def fallen(guards: Any, floors: Any, lane: int) -> int:
     """Index of a lane's first guard below its floor, or -1."""
     for g in range(guards.shape[0]):
         if guards[g, lane] < floors[g, lane]:
+            return g
+    return -1
+
+
+@kernel()
+def near(lowest: Any, highest: Any, floors: Any, lane: int) -> int:
+    """Index of a lane's first guard that has been near its floor, or -1."""
+    for g in range(floors.shape[0]):
+        if is_near(lowest[g, lane], highest[g, lane], floors[g, lane]):
             return g
     return -1
 
@@ -112,7 +122,7 @@ def dense_states(y: Any, dense: Any, k: Any, h: Any, x: Any, out: Any) -> None:
 
 @kernel()
 def look_for_falls(places: Any, clock: Any, looks: int) -> int:
-    """Lanes that have to look once more for the guard that a stage has seen fall, as bits, and where in their steps.
+    """Lanes that have to look once more for the fall of a guard near its floor, as bits, and where in their steps.
 
     The bracket is empty before the first look. It moves along the step, and is halved once a guard has fallen at
     its upper end.
@@ -127,7 +137,7 @@ def look_for_falls(places: Any, clock: Any, looks: int) -> int:
             if part > looks:
                 continue
             clock[FRACTION, lane] = part / looks
-        elif clock[HIGH, lane] - clock[LOW, lane] > 1e-12:
+        elif clock[HIGH, lane] - clock[LOW, lane] > NARROWEST:
             clock[FRACTION, lane] = 0.5 * (clock[LOW, lane] + clock[HIGH, lane])
         else:
             continue

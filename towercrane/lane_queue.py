@@ -12,12 +12,11 @@ from numba import types
 
 from modal.compiled import kernel
 from towercrane.lane_vector import LANES
-from towercrane.payload import restore
 from towercrane.stepper import GROW
 
 RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED = range(7)
 """Rows of a lane's places: run (-1: idle), phase, next sample, first sample of the next phase, whether the slope at
-the start is wanted, whether a stage has seen a guard fall, and the guard that fell (-1: none)."""
+the start is wanted, whether a guard has been near its floor, and the guard that fell (-1: none)."""
 
 BEGIN, END, TIME, STEP, LONGEST, GROWTH, TRIAL, ACCEPTED_STEP, STOP, FRACTION, MOMENT, LOW, HIGH = range(13)
 """Rows of a lane's clock: start of the phase, its length, time since it began, next step, longest step allowed,
@@ -55,7 +54,8 @@ class Queue(NamedTuple):
         First sample of each phase.
     sample_times : ndarray, shape (samples,)
     tables : ndarray, shape (cells, modes, powers)
-        The same for all runs.
+        The same for all runs, as are
+    directions : ndarray of int, shape (count, 3)
     """
 
     waiting: Any
@@ -73,6 +73,7 @@ class Queue(NamedTuple):
     first_samples: Any
     sample_times: Any
     tables: Any
+    directions: Any
 
 
 class Answers(NamedTuple):
@@ -108,7 +109,7 @@ class Lanes(NamedTuple):
     clock : ndarray, shape (13, lanes)
     y, new, trial, slope, atol : ndarray, shape (size, lanes)
     k : ndarray, shape (m, size, lanes)
-    guards, lowest, floors : ndarray, shape (guards, lanes)
+    guards, lowest, highest, floors : ndarray, shape (guards, lanes)
     inputs, numbers, vectors, matrices, watched : ndarray, shapes (..., lanes)
         Of the run in each lane.
     work : ndarray, shape (rows, columns, lanes)
@@ -127,6 +128,7 @@ class Lanes(NamedTuple):
     k: Any
     guards: Any
     lowest: Any
+    highest: Any
     floors: Any
     inputs: Any
     numbers: Any
@@ -158,6 +160,7 @@ def queue_type() -> Any:
         types.int64[:, ::1],
         one,
         three,
+        types.int64[:, ::1],
     ]
     return types.NamedTuple(fields, Queue)
 
@@ -172,7 +175,7 @@ def answers_type() -> Any:
 def lanes_type() -> Any:
     """Numba type of :class:`Lanes`."""
     two, three, four = (types.Array(types.float64, axes, "C") for axes in (2, 3, 4))
-    states, guards = [two] * 5, [two] * 3
+    states, guards = [two] * 5, [two] * 4
     constants = [three, two, three, four, three]
     fields = [types.int64[::1], types.int64[:, ::1], two, *states, three, *guards, *constants, three, two, two]
     return types.NamedTuple(fields, Lanes)
@@ -199,6 +202,7 @@ def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int], outputs: i
         k=lanes(stages, size),
         guards=lanes(guards),
         lowest=lanes(guards),
+        highest=lanes(guards),
         floors=lanes(guards),
         # Before its first run a lane computes with ones: zeros would divide by zero.
         inputs=lanes(*queue.inputs.shape[2:]) + 1.0,
@@ -239,8 +243,8 @@ def fill(queue: Any, lanes: Any, lane: int) -> None:
 
 
 @kernel()
-def begin_phase(queue: Any, lanes: Any, lane: int, coordinates: int, axes: int) -> None:
-    """Let a lane's run enter its phase, the state back on its constraints."""
+def begin_phase(queue: Any, lanes: Any, lane: int) -> None:
+    """Let a lane's run enter its phase."""
     run, phase = lanes.places[RUN, lane], lanes.places[PHASE, lane]
     begin = queue.phase_times[run, phase]
     lanes.clock[BEGIN, lane] = begin
@@ -253,7 +257,6 @@ def begin_phase(queue: Any, lanes: Any, lane: int, coordinates: int, axes: int) 
     for channel in range(lanes.inputs.shape[0]):
         for c in range(lanes.inputs.shape[1]):
             lanes.inputs[channel, c, lane] = queue.inputs[run, phase, channel, c]
-    restore(lanes.y[:, lane], coordinates, axes)
 
 
 @kernel()

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from modal.compiled import kernel
-from towercrane.lane_looks import fallen, wants_sample
+from towercrane.lane_looks import fallen, near, wants_sample
 from towercrane.lane_queue import (
     ACCEPTED,
     ACCEPTED_STEP,
@@ -93,7 +93,7 @@ def error_parts(error: Any, k: Any, y: Any, new: Any, rtol: float, atol: Any, li
 
 @kernel()
 def judge_steps(
-    places: Any, clock: Any, norms: Any, lowest: Any, floors: Any, counts: Any, smallest_steps: Any,
+    places: Any, clock: Any, norms: Any, lowest: Any, highest: Any, floors: Any, counts: Any, smallest_steps: Any,
     sample_times: Any, stages: int, rows: int, error_order: int, active: int,
 ) -> int:  # fmt: skip
     """Accept or reject each lane's step; the lanes that want to look inside it, as bits."""
@@ -131,7 +131,7 @@ def judge_steps(
             clock[STEP, lane] = step * min(growth, max(SHRINK, factor))
         clock[GROWTH, lane] = GROW
         clock[LOW, lane], clock[HIGH, lane], places[CROSSED, lane] = 0.0, 0.0, -1
-        places[SUSPECT, lane] = fallen(lowest, floors, lane) >= 0
+        places[SUSPECT, lane] = near(lowest, highest, floors, lane) >= 0
         if places[SUSPECT, lane] or wants_sample(places, clock, sample_times, lane):
             looking |= 1 << lane
     return looking

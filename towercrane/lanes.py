@@ -18,6 +18,7 @@ from towercrane.cranes.flexible_layout import TENSION as TENSION_GUARD
 from towercrane.cranes.radial import TOWER_BUCKLED
 from towercrane.cranes.radial_lane_rhs import rhs
 from towercrane.cranes.radial_lanes import OUTPUTS, advance
+from towercrane.directions import restore_rows
 from towercrane.integrate import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, evaluate, phase_of
 from towercrane.lane_queue import (
     ACCEPTED,
@@ -216,6 +217,7 @@ def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol
     starts = np.empty((len(runs), systems[0].size))
     for number, run in enumerate(runs):
         starts[number], answers.outcomes[number] = _start(run)
+    restore_rows(starts, systems[0].directions)
     # Those without a start end in it.
     answers.end_states[:] = starts
     most = max(len(run.phases.inputs) for run in runs)
@@ -246,6 +248,7 @@ def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol
         first_samples=first_samples,
         sample_times=np.array(sample_times, dtype=float),
         tables=systems[0].tables,
+        directions=systems[0].directions,
     )
 
 

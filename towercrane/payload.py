@@ -74,24 +74,6 @@ def work_shape(coordinates: int) -> tuple[int, int]:
     return MASS + coordinates, max(coordinates, 3)
 
 
-@kernel()
-def restore(state: Any, coordinates: int, axes: int) -> None:
-    """Put the rope's direction back to unit length and its rate at right angles, in place.
-
-    The stretch of an elastic rope counts as a coordinate here.
-    """
-    direction, sway = coordinates, (state.size - 1) // 2 + coordinates
-    square, along = 0.0, 0.0
-    for k in range(axes):
-        square += state[direction + k] * state[direction + k]
-    norm = np.sqrt(square)
-    for k in range(axes):
-        state[direction + k] /= norm
-        along += state[direction + k] * state[sway + k]
-    for k in range(axes):
-        state[sway + k] -= along * state[direction + k]
-
-
 @traced
 def _sway(k: int, sway: int, along: float, y: Any, work: Any) -> float:
     """Rate of the rope's direction, at right angles to it."""
@@ -176,8 +158,7 @@ def hang_load(
     (M + m j j^T) q'' = f - J^T H + j s and T = s - m j.q''. The matrix is symmetric positive definite whenever M
     is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration. An elastic
     rope pulls with k e + c e' whatever the structure does: then nothing of the load is in the matrix, and the stretch
-    has an equation of its own.
-    """
+    has an equation of its own."""
     elastic = stiffness > 0.0
     rates = (y.size - 1) // 2
     direction, sway = n, rates + n

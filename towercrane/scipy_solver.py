@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
+import scipy.integrate
 
+from towercrane.directions import restore_rows
+from towercrane.guards import first_fall
 from towercrane.integrate import (
     ACCEPTED,
     COLLAPSED,
@@ -20,8 +23,15 @@ from towercrane.integrate import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
     from towercrane.integrate import Floats, Progress, Run
     from towercrane.motion import Phases
+
+PROGRESS = 100
+"""Steps between two reports of progress."""
 
 
 def solve(
@@ -32,7 +42,7 @@ def solve(
     split: bool,
     progress: Progress | None,
 ) -> str:
-    """Carry a run through its phases with a method of :func:`scipy.integrate.solve_ivp`; how it ended.
+    """Carry a run through its phases with one of SciPy's solvers; how it ended.
 
     Parameters
     ----------
@@ -41,7 +51,7 @@ def solve(
     phases, sample_times, split, progress
         As in :func:`towercrane.integrate.integrate`.
     method : str
-        SciPy's name of it.
+        Name of its class in :mod:`scipy.integrate`.
     """
     system = run.system
     slope, guards, work = np.empty(system.size), np.empty(len(system.guards)), np.zeros(system.work_shape)
@@ -53,50 +63,81 @@ def solve(
         system.rhs(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards)
         return slope.copy()
 
-    def watch(index: int) -> Any:
-        def guard(t: float, y: Floats) -> float:
-            rhs(t, y)
-            return float(guards[index] - system.floors[index])
+    def margins(t: float, y: Floats) -> Floats:
+        run.counts[EVALUATIONS] += 1
+        rhs(t, y)
+        return (guards - system.floors)[watched]
 
-        guard.terminal, guard.direction = True, -1.0  # type: ignore[attr-defined]
-        return guard
-
+    watched = np.flatnonzero(np.isfinite(system.floors))
     run.counts[REJECTED] = -1
     # A state that must not steer the step gets a tolerance that it always meets.
     atol = np.where(np.isinf(run.atol), 1e300, run.atol)
-    watched = [index for index, floor in enumerate(system.floors) if np.isfinite(floor)]
     owner = phase_of(sample_times, phases)
-    legs = range(len(phases.inputs)) if split else range(1)
-    for current in legs:
-        run.restart(phases, current)
-        stop = float(phases.times[current + 1] if split else phases.times[-1])
-        wanted = sample_times[owner == current] if split else sample_times
-        if not np.all(np.isfinite(rhs(run.time, run.state))):
-            return NOT_FINITE
-        if fallen := [index for index in watched if guards[index] < system.floors[index]]:
-            return system.guards[fallen[0]]
-        try:
+    try:
+        for current in range(len(phases.inputs) if split else 1):
+            run.time = float(phases.times[current])
+            stop = float(phases.times[current + 1] if split else phases.times[-1])
+            wanted = sample_times[owner == current] if split else sample_times
+            if not np.all(np.isfinite(rhs(run.time, run.state))):
+                return NOT_FINITE
+            if len(fallen := np.flatnonzero(guards < system.floors)):
+                return system.guards[int(fallen[0])]
             # Radau widens the difference of a state that no slope depends on, such as the work, until it is infinite.
             with np.errstate(over="ignore"):
-                solution = solve_ivp(
-                    rhs, (run.time, stop), run.state, method=method, rtol=run.rtol, atol=atol, dense_output=True,
-                    events=[watch(index) for index in watched],
-                )  # fmt: skip
-        except KeyboardInterrupt:
-            return INTERRUPTED
-        reached = wanted[wanted <= solution.t[-1]]
-        first = int(run.counts[WRITTEN])
-        run.samples[first : first + len(reached)] = solution.sol(reached).T
-        run.counts[[ACCEPTED, EVALUATIONS, WRITTEN]] += (len(solution.t) - 1, solution.nfev, len(reached))
-        run.smallest_step = min(run.smallest_step, float(np.diff(solution.t).min()))
-        run.time, run.state = float(solution.t[-1]), solution.y[:, -1].copy()
-        if progress is not None:
-            progress(run.time)
-        for index, times in zip(watched, solution.t_events or (), strict=True):
-            if len(times):
-                return system.guards[index]
-        if not np.all(np.isfinite(run.state)):
-            return NOT_FINITE  # LSODA calls that a success.
-        if not solution.success:
-            return COLLAPSED
+                ended = _leg(
+                    run,
+                    partial(getattr(scipy.integrate, method), rhs, t_bound=stop, rtol=run.rtol, atol=atol),
+                    wanted,
+                    watched,
+                    margins,
+                    progress,
+                )
+            if progress is not None:
+                progress(run.time)
+            if ended:
+                return ended
+    except KeyboardInterrupt:
+        return INTERRUPTED
     return FINISHED
+
+
+def _leg(
+    run: Run,
+    begun: Callable[[float, Floats], Any],
+    wanted: Floats,
+    watched: NDArray[np.int64],
+    margins: Callable[[float, Floats], Floats],
+    progress: Progress | None,
+) -> str:
+    """Carry a run through one phase with solvers begun where it stands; what ended it there, empty if nothing did."""
+    done, system, solver = 0, run.system, begun(run.time, run.state)
+    while solver.status == "running":
+        before = solver.nfev
+        solver.step()
+        run.counts[EVALUATIONS] += solver.nfev - before
+        if solver.status == "failed":
+            return COLLAPSED
+        if not np.all(np.isfinite(solver.y)):
+            return NOT_FINITE  # LSODA calls that a success.
+        time, state, dense = solver.t, solver.y, solver.dense_output()
+        fallen = first_fall(solver.t_old, solver.t, dense, margins) if len(watched) else None
+        if fallen is not None:
+            time, state = fallen[0], dense(fallen[0])
+        until = done + int(np.count_nonzero(wanted[done:] <= time))
+        if until > done:
+            first = int(run.counts[WRITTEN])
+            run.samples[first : first + until - done] = dense(wanted[done:until]).T
+            run.counts[WRITTEN] += until - done
+            done = until
+        run.counts[ACCEPTED] += 1
+        run.smallest_step = min(run.smallest_step, solver.t - solver.t_old)
+        run.time, run.state = float(time), state.copy()
+        off = restore_rows(run.state, system.directions)
+        if fallen is not None:
+            return system.guards[int(watched[fallen[1]])]
+        if off > run.rtol and solver.status == "running":
+            # Its own copy of the state, and its memory of it, cannot be put back.
+            solver = begun(run.time, run.state)
+        if progress is not None and run.counts[ACCEPTED] % PROGRESS == 0:
+            progress(run.time)
+    return ""

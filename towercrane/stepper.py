@@ -12,6 +12,8 @@ import numpy as np
 from numba import types
 
 from modal.compiled import kernel
+from towercrane.directions import restore
+from towercrane.guards import LOOKS, NARROWEST, fallen, is_near, widen
 from towercrane.system import rhs_signature
 
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
@@ -27,9 +29,6 @@ SAFETY, SHRINK, GROW = 0.9, 0.2, 10.0
 
 SHORTEST = 16.0 * float(np.finfo(np.float64).eps)
 """Part of a phase that is the shortest step."""
-
-LOOKS = 8
-"""Points of a step at which the guards are looked at once a stage has seen one below its floor."""
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 _rhs = types.FunctionType(rhs_signature())
@@ -63,10 +62,10 @@ def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, ato
 
 
 @kernel()
-def _fallen(guards: Any, floors: Any) -> int:
-    """Index of the first guard below its floor, or -1."""
-    for g in range(guards.size):
-        if guards[g] < floors[g]:
+def _near(lowest: Any, highest: Any, floors: Any) -> int:
+    """Index of the first guard with these ranges in a step that is near its floor, or -1."""
+    for g in range(floors.size):
+        if is_near(lowest[g], highest[g], floors[g]):
             return g
     return -1
 
@@ -121,7 +120,8 @@ def first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> floa
 @kernel(
     types.int64(
         _rhs, types.int64, _two, _one, _two, _two, types.int64, types.float64, _one, types.int64[::1],
-        types.float64, _one, _one, _two, _two, _one, _two, types.int64, *_constants, _one, _one,
+        types.float64, _one, _one, types.int64[:, ::1], _two, _two, _one, _two, types.int64, *_constants, _one, _two,
+        _one,
     )
 )  # fmt: skip
 def advance(
@@ -138,6 +138,7 @@ def advance(
     rtol: float,
     atol: Any,
     y: Any,
+    directions: Any,
     k: Any,
     scratch: Any,
     sample_times: Any,
@@ -150,6 +151,7 @@ def advance(
     tables: Any,
     work: Any,
     guards: Any,
+    ranges: Any,
     floors: Any,
 ) -> int:
     """Carry y from clock[TIME] towards t_end, at most max_steps accepted steps.
@@ -164,12 +166,16 @@ def advance(
         Read and written.
     y : ndarray, shape (size,)
         State, carried on in place.
+    directions : ndarray of int, shape (count, 3)
+        As in :class:`towercrane.system.System`; every accepted step ends with them restored.
     k, scratch : ndarray, shapes (m, size) and (3, size)
         Stages, of which the first is the slope at the start; they must not be touched between two calls of one phase.
     sample_times, samples : ndarray, shapes (p,) and (p, size)
         Times since the phase began at which the state is wanted, increasing; the states.
-    guards, floors : ndarray, shape (g,)
-        Scratch for the guards, and the values they must not fall below.
+    guards, ranges : ndarray, shapes (g,) and (2, g)
+        Scratch for the guards, and for the least and largest of each in a step.
+    floors : ndarray, shape (g,)
+        Values that the guards must not fall below.
 
     Returns
     -------
@@ -177,6 +183,7 @@ def advance(
         One of FINISHED, PAUSED, GUARD, COLLAPSED.
     """
     new, trial, slope = scratch[0], scratch[1], scratch[2]
+    lowest, highest = ranges[0], ranges[1]
     t, h = clock[TIME], clock[STEP]
     shortest = SHORTEST * t_end
     taken, grow = 0, GROW
@@ -189,6 +196,8 @@ def advance(
         step = t_end - t if last else h
         t_new = t_end if last else t + step
         suspect, norm = False, 0.0
+        for g in range(guards.size):
+            lowest[g], highest[g] = np.inf, -np.inf
         for i in range(1, a.shape[0]):
             stage_state(y, a, i, k, step, trial)
             # The slopes go through a fixed array: a view of k per stage would cost a tenth of the right-hand side.
@@ -198,11 +207,12 @@ def advance(
                 k[i, m] = slope[m]
             if i > stages:
                 continue
-            suspect = suspect or _fallen(guards, floors) >= 0
+            widen(lowest, highest, guards)
             if i == stages:
                 for m in range(y.size):
                     new[m] = trial[m]
                 norm = _error_norm(error, k, y, new, step, rtol, atol)
+                suspect = _near(lowest, highest, floors) >= 0
                 wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
                 # The stages beyond are for the dense output alone.
                 if not (norm <= 1.0 and (suspect or wanted)):
@@ -215,14 +225,14 @@ def advance(
             grow = 1.0
             continue
 
-        # A stage is only an estimate of the state there; the dense output decides, also over a dip that recovers.
+        # A stage is only an estimate of the state there, and blind beside it; the dense output decides.
         low, high, crossed = 0.0, 1.0 / LOOKS, -1
         while suspect:
             x = high if crossed < 0 else 0.5 * (low + high)
             _dense(y, dense, k, step, x, trial)
             rhs(t + x * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
             counts[EVALUATIONS] += 1
-            guard = _fallen(guards, floors)
+            guard = fallen(guards, floors)
             if guard >= 0:
                 high, crossed = x, guard
                 for m in range(y.size):
@@ -231,12 +241,13 @@ def advance(
                 low = x
             else:
                 low, high = x, x + 1.0 / LOOKS
-            suspect = high <= 1.0 if crossed < 0 else high - low > 1e-12
+            suspect = high <= 1.0 if crossed < 0 else high - low > NARROWEST
         stop = t_new if crossed < 0 else t + high * step
         while counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= stop:
             row = counts[WRITTEN]
             _dense(y, dense, k, step, (sample_times[row] - t) / step, samples[row])
             counts[WRITTEN] += 1
+        restore(new, k, stages, directions)
         for m in range(y.size):
             y[m] = new[m]
             k[0, m] = k[stages, m]

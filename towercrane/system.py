@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from towercrane.recording import Quantity
 
     Floats = NDArray[np.float64]
+    Integers = NDArray[np.int64]
 
 
 def rhs_signature() -> Any:
@@ -72,8 +73,10 @@ class System:
         Constants of the model, with 1, 2, 3 and 3 dimensions.
     work_shape : tuple of int
         Shape of the scratch array.
-    restore : callable, optional
-        Puts a state back on its constraints in place; called where the solver restarts.
+    directions : ndarray of int, shape (ropes, 3)
+        Unit vectors among the states, see :mod:`towercrane.directions`: where each begins, where its rate begins, and
+        how many components it has. All slopes but that of the vector, which is its rate, must be the same whatever
+        its length is and whatever of its rate is along it.
     switch : Switch, optional
         What a guard does instead of ending the run.
     fastest : callable, optional
@@ -90,7 +93,7 @@ class System:
     matrices: Floats
     tables: Floats
     work_shape: tuple[int, int]
-    restore: Callable[[Floats], None] | None = None
+    directions: Integers = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))
     switch: Switch | None = None
     fastest: Callable[[], float] | None = None
 

@@ -18,7 +18,7 @@ from towercrane.cranes.shape_table import shape_table
 from towercrane.cranes.small_motions import fastest_vibration
 from towercrane.cranes.wind import CHANNELS
 from towercrane.equilibrium import Unstable, stable_equilibrium
-from towercrane.payload import FORCE, JACOBIAN, WIND, Load, restore, work_shape
+from towercrane.payload import FORCE, JACOBIAN, WIND, Load, work_shape
 from towercrane.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
@@ -189,7 +189,7 @@ class FlexibleModel:
             matrices=matrices(self),
             tables=shape_table((self.crane.lateral, self.crane.vertical), self.crane.jib_length),
             work_shape=(rows + layout.ROWS, columns),
-            restore=lambda state: restore(state, n, self.axes),
+            directions=np.array([[n, 2 * n + self.axes, self.axes]]),
             switch=Corner(layout.INSIDE, layout.OUTSIDE, drive.soft != drive.stiff) if drive else None,
             fastest=lambda: self.fastest,
         )

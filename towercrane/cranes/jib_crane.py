@@ -16,15 +16,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes import jib_crane_kernel as kernel
-from towercrane.payload import Load, restore
 from towercrane.system import System
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import ArrayLike, NDArray
 
     from towercrane.motion import Motion
+    from towercrane.payload import Load
     from towercrane.recording import Quantity
 
     Floats = NDArray[np.float64]
@@ -36,6 +34,9 @@ PLAN = ("slew", "luff", "fold", "rope")
 
 TORQUES = ("slew_torque", "luff_torque", "fold_torque", "rope")
 """Channels of a driven crane: three joint torques [N m] and the rope's length [m]."""
+
+DRIVEN_ROPE = (kernel.JOINTS, 2 * kernel.JOINTS + kernel.AXES)
+"""Where the rope's direction and its rate begin in the state of a driven crane."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,10 +127,13 @@ class JibModel:
         rhs: Any,
         works: tuple[int, ...],
         numbers: Floats,
-        put_back: Callable[[Floats], None],
+        ropes: tuple[tuple[int, int], ...],
         more_guards: tuple[str, ...] = (),
     ) -> System:
-        """System whose states in ``works`` are work done, the last of them the last state."""
+        """System whose states in ``works`` are work done, the last of them the last state.
+
+        ``ropes`` says where the direction of each rope and its rate begin.
+        """
         guards = (SLACK_ROPE, *TORQUES[: kernel.JOINTS], *more_guards)
         floors = np.full(len(guards), -np.inf)
         if not self.rope_as_rod:
@@ -147,7 +151,7 @@ class JibModel:
             matrices=np.empty((0, 0, 0)),
             tables=np.empty((0, 0, 0)),
             work_shape=(kernel.ROWS, kernel.JOINTS),
-            restore=put_back,
+            directions=np.array([(*rope, kernel.AXES) for rope in ropes]),
         )
 
     def provenance(self) -> dict[str, Any]:
@@ -175,9 +179,7 @@ class PlannedJibCrane(JibModel):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        return self.make_system(
-            kernel.planned_rhs, (2 * kernel.AXES,), self.numbers, lambda y: restore(y, 0, kernel.AXES)
-        )
+        return self.make_system(kernel.planned_rhs, (2 * kernel.AXES,), self.numbers, ((0, kernel.AXES),))
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State in which the load hangs at rest in inertial axes.
@@ -261,9 +263,7 @@ class DrivenJibCrane(JibModel):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        return self.make_system(
-            kernel.driven_rhs, (kernel.PLAN - 1,), self.numbers, lambda y: restore(y, kernel.JOINTS, kernel.AXES)
-        )
+        return self.make_system(kernel.driven_rhs, (kernel.PLAN - 1,), self.numbers, (DRIVEN_ROPE,))
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at the start angles with the load at rest; arguments as of :meth:`PlannedJibCrane.start`."""

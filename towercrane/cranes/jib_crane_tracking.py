@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import jib_crane_kernel as kernel
-from towercrane.cranes.jib_crane import SLACK_ROPE, JibModel, driven_start, hanging
-from towercrane.payload import restore
+from towercrane.cranes.jib_crane import DRIVEN_ROPE, SLACK_ROPE, JibModel, driven_start, hanging
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -60,12 +59,9 @@ class TrackingJibCrane(JibModel):
         numbers = self.numbers
         numbers[kernel.STIFFNESS], numbers[kernel.DAMPING] = self.stiffness, self.damping
 
-        def put_back(y: Floats) -> None:
-            restore(y[: kernel.PLAN], kernel.JOINTS, kernel.AXES)
-            restore(y[kernel.PLAN :], 0, kernel.AXES)
-
+        ropes = DRIVEN_ROPE, (kernel.PLAN, kernel.PLAN + kernel.AXES)
         works = (kernel.PLAN - 1, kernel.PLAN + 2 * kernel.AXES)
-        return self.make_system(kernel.tracking_rhs, works, numbers, put_back, (f"{SLACK_ROPE} in the plan",))
+        return self.make_system(kernel.tracking_rhs, works, numbers, ropes, (f"{SLACK_ROPE} in the plan",))
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State on the plan with both loads at rest; arguments as of :meth:`PlannedJibCrane.start`."""

@@ -11,7 +11,7 @@ import numpy as np
 from towercrane.cranes import lumped_kernel as kernel
 from towercrane.cranes.friction import Transitions
 from towercrane.equilibrium import Unstable, stable_equilibrium
-from towercrane.payload import FORCE, JACOBIAN, Load, restore, work_shape
+from towercrane.payload import FORCE, JACOBIAN, Load, work_shape
 from towercrane.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
@@ -130,7 +130,7 @@ class LumpedModel:
             tables=tables,
             # Three rows more for the point that is being added, or for the row of a coordinate that sticks.
             work_shape=(rows + 3, max(width, 4)),
-            restore=lambda state: restore(state, self.rope, 3),
+            directions=np.array([[self.rope, (self.size - 1) // 2 + self.rope, 3]]),
             switch=Transitions(
                 driven=crane.coordinates.index(drive.on),
                 rates=(self.size - 1) // 2,

@@ -15,6 +15,8 @@ from modal.compiled import kernel
 from towercrane import lane_looks as looks
 from towercrane import lane_queue, lane_stepper
 from towercrane.cranes import flexible_layout as layout
+from towercrane.directions import restore
+from towercrane.guards import LOOKS, widen
 from towercrane.lane_arrays import in_lanes, lane_rhs_signature, lent
 from towercrane.lane_choices import choose
 from towercrane.lane_queue import (
@@ -37,10 +39,7 @@ from towercrane.lane_queue import (
     queue_type,
 )
 from towercrane.lane_vector import LANES
-from towercrane.stepper import LOOKS, stage_state
-
-AXES = 2
-"""The load swings in the plane of the jib."""
+from towercrane.stepper import stage_state
 
 TOWER_TIP, JIB_TIP, SWING, TENSION = range(4)
 """Outputs: the two linear ones, then swing angle and rope tension."""
@@ -52,15 +51,14 @@ OUTPUTS = ("tower_tip_displacement", "jib_tip_deflection", "swing_angle", "rope_
 @kernel()
 def _take_stages(
     rhs: Any, first: int, last: int, a: Any, c: Any, y: Any, trial: Any, slope: Any, k: Any, clocks: Any, inputs: Any,
-    numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any, guards: Any, lowest: Any,
+    numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any, guards: Any, lowest: Any, highest: Any,
 ) -> None:  # fmt: skip
-    """Slopes of the stages from first to last in every lane, and the lowest value of every guard."""
+    """Slopes of the stages from first to last in every lane, and the range of every guard."""
     step, time = clocks[TRIAL], clocks[TIME]
     for i in range(first, last + 1):
         stage_state(y, a, i, k, step, trial)
         rhs(time + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-        for g in range(guards.size):
-            lowest[g] = min(lowest[g], guards[g])
+        widen(lowest, highest, guards)
         for m in range(y.size):
             k[i, m] = slope[m]
 
@@ -126,6 +124,7 @@ def advance(
     places, clock, clocks = lent(lanes.places), lent(lanes.clock), in_lanes(lanes.clock)
     lane_floors, lane_guards, guards = lent(lanes.floors), lent(lanes.guards), in_lanes(lanes.guards)
     lane_lowest, lowest = lent(lanes.lowest), in_lanes(lanes.lowest)
+    lane_highest, highest = lent(lanes.highest), in_lanes(lanes.highest)
     lane_norms, norms, atol = lent(lanes.norms), in_lanes(lanes.norms), in_lanes(lanes.atol)
     lane_trial, lane_new, lane_outputs = lent(lanes.trial), lent(lanes.new), lent(lanes.outputs)
     y, new, trial, slope, k = (
@@ -136,6 +135,7 @@ def advance(
         lent(queue.tables), in_lanes(lanes.work),
     )  # fmt: skip
     watched, outputs, sample_times = in_lanes(lanes.watched), in_lanes(lanes.outputs), lent(queue.sample_times)
+    directions = lent(queue.directions)
     counts, smallest_steps, extremes, series = (
         lent(answers.counts), lent(answers.smallest_steps), lent(answers.extremes), lent(answers.series),
     )  # fmt: skip
@@ -150,7 +150,7 @@ def advance(
             for lane in range(LANES):
                 if places[RUN, lane] < 0 and lanes.next_run[0] < queue.waiting.size:
                     lane_queue.fill(queue, lanes, lane)
-                    lane_queue.begin_phase(queue, lanes, lane, n, AXES)
+                    lane_queue.begin_phase(queue, lanes, lane)
             rhs(clocks[TIME], y, slope, inputs, numbers, vectors, matrices, tables, work, guards)
             for lane in range(LANES):
                 if places[FRESH, lane]:
@@ -167,6 +167,7 @@ def advance(
 
         for g in range(guards.size):
             lowest[g] = np.inf
+            highest[g] = -np.inf
         _take_stages(
             rhs,
             1,
@@ -186,21 +187,22 @@ def advance(
             work,
             guards,
             lowest,
+            highest,
         )
         for m in range(size):
             new[m] = trial[m]
         lane_stepper.error_parts(error, k, y, new, rtol, atol, limits, norms)
         looking = lane_stepper.judge_steps(
-            places, clock, lane_norms, lane_lowest, lane_floors, counts, smallest_steps, sample_times, stages, rows,
-            error_order, active,
+            places, clock, lane_norms, lane_lowest, lane_highest, lane_floors, counts, smallest_steps, sample_times,
+            stages, rows, error_order, active,
         )  # fmt: skip
         if looking:
             _take_stages(
                 rhs, stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices,
-                tables, work, guards, lowest,
+                tables, work, guards, lowest, highest,
             )  # fmt: skip
             lane_stepper.count(looking, places, counts, a.shape[0] - 1 - stages)
-            # A stage is only an estimate of the state there; the dense output decides.
+            # A stage is only an estimate of the state there, and blind beside it; the dense output decides.
             suspect, looking = False, looks.look_for_falls(places, clock, LOOKS)
             while looking:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
@@ -219,6 +221,7 @@ def advance(
                 looks.record(lane_outputs, wanted, places, counts, sample_times, extremes, series)
                 wanted = looks.wanted_samples(places, clock, sample_times)
         accepted = clocks[ACCEPTED_STEP]
+        restore(new, k, stages, directions)
         for m in range(size):
             y[m] = choose(accepted, new[m], y[m])
             k[0, m] = choose(accepted, k[stages, m], k[0, m])
@@ -233,5 +236,5 @@ def advance(
                     if places[PHASE, lane] == queue.phase_counts[places[RUN, lane]]:
                         lane_queue.end_run(answers, lanes, lane, FINISHED)
                     else:
-                        lane_queue.begin_phase(queue, lanes, lane, n, AXES)
+                        lane_queue.begin_phase(queue, lanes, lane)
     return True
