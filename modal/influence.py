@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
+from modal.beam import EndBody
 from modal.chain import Chain, Foundation
 from modal.structure_modes import FORCE, MOMENT, SLOPE, StructureModes
 
@@ -60,7 +61,8 @@ class Influence:
     Parameters
     ----------
     changes : dict of str to ndarray, shape (n,)
-        By effect: relative change of the frequency [1], negative where it falls; -1 where the tower would buckle.
+        By effect: relative change of the frequency [1], negative where it falls; -1 where the tower would buckle,
+        or where a body at its foot vibrates on the springs below the frequency.
     """
 
     changes: dict[Effect, Floats]
@@ -97,8 +99,10 @@ def influence(plain: StructureModes, tower: Chain, above: float = 0.0) -> Influe
     -------
     Influence
         Frequency ratios ``(1 + U_x/U)^-1/2`` with ``U = omega^2`` times the modal mass and ``U_x = int V^2/S``
-        (shear), ``omega^2 int rho I v'^2`` (rotary inertia), ``M(0)^2/k_theta + V(0)^2/k_u`` (foundation); and
-        ``(1 - U_g/U)^1/2`` with ``U_g = int N v'^2`` and the moment of bodies above their node (weight).
+        (shear), ``omega^2 int rho I v'^2`` (rotary inertia), ``f^T (K - omega^2 M)^-1 f`` with the force and moment
+        ``f = (V(0), M(0))`` on the springs ``K`` under the foot and the inertia ``M`` of a body there (foundation);
+        and ``(1 - U_g/U)^1/2`` with ``U_g = int N v'^2`` and the moment of bodies above their node (weight). Where
+        the foot on its springs is slower than a mode, that mode is taken to be lost.
     """
     part = plain.parts["tower"]
     squared = plain.angular_frequencies**2
@@ -113,11 +117,30 @@ def influence(plain: StructureModes, tower: Chain, above: float = 0.0) -> Influe
         elif effect == "rotary inertia":
             energy = squared * part.energies(tower.section(part.points, "rotary_inertia"), SLOPE)
         else:
-            foot = tower.foundation
-            moment, force = (part.evaluate(0.0, quantity) for quantity in (MOMENT, FORCE))
-            energy = moment**2 / foot.rotation_stiffness + force**2 / foot.translation_stiffness
+            forces = np.array([part.evaluate(0.0, FORCE), part.evaluate(0.0, MOMENT)])
+            energy = _foundation_energy(tower, forces, squared)
         changes[effect] = 1.0 / np.sqrt(1.0 + energy / squared) - 1.0
     return Influence(changes)
+
+
+def _foundation_energy(tower: Chain, forces: Floats, squared: Floats) -> Floats:
+    """Twice the energy of each mode's forces, shape (2, n), in the springs under the foot and a body that they carry.
+
+    Infinite where the body on its springs is slower than the mode.
+    """
+    foot, body = tower.foundation, tower.bodies.get(0, EndBody())
+    moment = body.mass * body.offset
+    inertia = np.array([[body.mass, moment], [moment, body.rotary_inertia + moment * body.offset]])
+    springs = np.array([foot.translation_stiffness, foot.rotation_stiffness])
+    # What is rigid does not move, whatever its inertia.
+    free = np.flatnonzero(np.isfinite(springs))
+    at = np.ix_(free, free)
+    stiffness = np.diag(springs[free]) - squared[:, None, None] * inertia[at]
+    energy = np.full(squared.shape, inf)
+    stands = np.linalg.eigvalsh(stiffness)[:, 0] > 0.0
+    acting = forces[free].T[stands, :, None]
+    energy[stands] = np.sum(acting * np.linalg.solve(stiffness[stands], acting), axis=(1, 2))
+    return energy
 
 
 def _weight_energy(plain: StructureModes, tower: Chain) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import isinf
 from typing import TYPE_CHECKING, Any
 
@@ -10,10 +11,13 @@ import numpy as np
 
 from modal import Beam, Chain, chain_frequencies, chain_structure
 from modal.influence import EFFECTS, Effect, Influence, effects_of, influence, keeping
+from modal.structure import Unstable
 from modal.structure_modes import structure_modes
 from towercrane.towers import as_chain, laced_column, tower_of, with_end_body
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from numpy.typing import NDArray
 
     from towercrane.case import Case
@@ -54,18 +58,41 @@ class Effects:
         """Effects that are known, but not in the case's results."""
         return tuple(effect for effect in self.influence.changes if effect not in self.kept)
 
+    @property
+    def results_tower(self) -> Chain:
+        """The tower with the slewing part on its end and what the results include; its weight with all above it."""
+        return self.with_effects(self.kept)
+
+    def with_effects(self, effects: Collection[Effect]) -> Chain:
+        """The tower with no more than the given effects, trolley and load upon it."""
+        only = keeping(self.tower, effects)
+        return replace(only, axial_load=only.axial_load + only.gravity * self.above)
+
     def actual(self, effect: Effect) -> Floats:
         """Change of the frequencies by one effect alone, solved [1], shape (n,)."""
-        only = keeping(self.tower, (effect,))
-        loaded = replace(only, axial_load=only.axial_load + only.gravity * self.above)
-        return chain_frequencies(loaded, self.plain_frequencies.size) / self.plain_frequencies - 1.0
+        return self.change((), (effect,))
+
+    def change(self, before: Collection[Effect], after: Collection[Effect]) -> Floats:
+        """Change of the frequencies from some effects to others, solved [1], shape (n,); -1 where a tower buckles."""
+        if set(before) == set(after):
+            return np.zeros_like(self.plain_frequencies)
+        try:
+            return self._solved(after) / self._solved(before) - 1.0
+        except Unstable:
+            return -np.ones_like(self.plain_frequencies)
+
+    def _solved(self, effects: Collection[Effect]) -> Floats:
+        return chain_frequencies(self.with_effects(effects), self.plain_frequencies.size)
 
 
+@lru_cache(maxsize=8)
 def effects_in(case: Case) -> Effects:
     """Effects known of a radial case's tower, how much each is predicted to matter, and those that are kept.
 
     Without ``accuracy.frequency`` the results hold what the case describes, and the weight's softening where
-    ``model.weight_softening`` asks for it. With it, of those and the weight, what is negligible is left out.
+    ``model.weight_softening`` asks for it. With it, of those and the weight, what is negligible is left out. Each
+    effect is predicted alone, from modes without the others: the frequencies without what is left out are solved
+    beside those with it, and what a prediction cannot vouch for stays in.
     """
     crane, tolerance = case.crane, case.frequency_tolerance
     written = tower_of(crane)
@@ -79,12 +106,26 @@ def effects_in(case: Case) -> Effects:
     if case.model.weight_softening or (tolerance is not None and not asked):
         of_the_case.add("weight")
     kept = tuple(effect for effect in EFFECTS if effect in of_the_case)
-    if tolerance is not None:
-        own = Influence({effect: found.changes[effect] for effect in kept})
-        fixed = ("weight",) if case.model.weight_softening else ()
-        negligible = own.negligible(tolerance)
-        kept = tuple(effect for effect in kept if effect not in negligible or effect in fixed)
-    return Effects(known, above, plain.angular_frequencies, found, kept, tolerance)
+    effects = Effects(known, above, plain.angular_frequencies, found, kept, tolerance)
+    if tolerance is None:
+        return effects
+    fixed = ("weight",) if case.model.weight_softening else ()
+    negligible = Influence({effect: found.changes[effect] for effect in kept}).negligible(tolerance)
+    left_out = [effect for effect in negligible if effect not in fixed]
+
+    def without() -> tuple[Effect, ...]:
+        return tuple(effect for effect in kept if effect not in left_out)
+
+    while left_out and np.abs(effects.change(kept, without())).max() > tolerance:
+        left_out.pop()
+    return replace(effects, kept=without())
+
+
+def softened(case: Case) -> bool:
+    """Whether the weight softens the tower in a radial case's results: as it says, or by its tolerance."""
+    if case.frequency_tolerance is None:
+        return case.model.weight_softening
+    return "weight" in effects_in(case).kept
 
 
 def kept_tower(case: Case, crane: Crane) -> Beam | Chain:
@@ -119,8 +160,9 @@ def effects_report(effects: Effects, *, actual: bool = False) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``tolerance``, ``kept``, ``left_out``, ``left_out_may_cost`` (largest relative change of a frequency) and
-        ``changes`` by effect: ``predicted`` and, where asked for, ``actual``, one per mode.
+        ``tolerance``, ``kept``, ``left_out``, ``left_out_may_cost`` (largest relative change of a frequency, the sum
+        of the predictions or what is solved for all at once, whichever is more) and ``changes`` by effect:
+        ``predicted`` and, where asked for, ``actual``, one per mode.
     """
     found = effects.influence
     rows: dict[str, dict[str, list[float]]] = {}
@@ -128,11 +170,12 @@ def effects_report(effects: Effects, *, actual: bool = False) -> dict[str, Any]:
         rows[effect] = {"predicted": change.tolist()}
         if actual:
             rows[effect]["actual"] = effects.actual(effect).tolist()
-    lost = [np.abs(found.changes[effect]) for effect in effects.left_out]
+    predicted = sum((np.abs(found.changes[effect]) for effect in effects.left_out), np.zeros(1))
+    solved = np.abs(effects.change(effects.kept, tuple(found.changes)))
     return {
         "tolerance": effects.tolerance,
         "kept": list(effects.kept),
         "left_out": list(effects.left_out),
-        "left_out_may_cost": float(np.sum(lost, axis=0).max()) if lost else 0.0,
+        "left_out_may_cost": float(max(predicted.max(), solved.max())),
         "changes": rows,
     }

@@ -80,10 +80,11 @@ def frequency_map(
     announce_compilation("chain")
     import numpy as np
 
+    from towercrane.effects import softened
     from towercrane.map_report import csv_text, map_report, provenance
     from towercrane.towers import crane_frame
 
-    frame = crane_frame(loaded, weight=loaded.model.weight_softening)
+    frame = crane_frame(loaded, weight=softened(loaded))
     places = np.unique(loaded.map.trolley_positions)
     if positions is not None:
         # A single place is the jib's end, where the load bends it most.

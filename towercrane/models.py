@@ -67,11 +67,12 @@ def flexible_model(case: Case, **changes: Any) -> FlexibleModel | RadialModel:
 def radial_model(case: Case, **changes: Any) -> RadialModel:
     """Model of a radial case; keyword arguments replace what the case chose."""
     from towercrane.cranes.radial import RadialModel
+    from towercrane.effects import softened
 
     chosen = {
         "tower_modes": case.model.tower_modes,
         "jib_modes": case.model.jib_modes,
-        "weight_softening": _softened(case),
+        "weight_softening": softened(case),
         "tower_damping_ratio": case.model.tower_damping_ratio,
         "jib_damping_ratio": case.model.jib_damping_ratio,
         "rope_as_rod": case.rope.slack == "rod",
@@ -86,15 +87,6 @@ def space_model(case: Case, **changes: Any) -> FlexibleModel:
 
     # Its motions may be waiting for the frequencies of this very model.
     return space_scene_of(case, {}).model(replace(space_setting_of(case), **changes))
-
-
-def _softened(case: Case) -> bool:
-    """Whether the weight softens the tower: as the case says, or by its tolerance on frequencies."""
-    if case.frequency_tolerance is None:
-        return case.model.weight_softening
-    from towercrane.effects import effects_in
-
-    return "weight" in effects_in(case).kept
 
 
 def slewing_builder(case: Case) -> Callable[[Any], LumpedModel]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from modal.clock import timed
+from towercrane.cranes.radial import TOWER_BUCKLED
 from towercrane.models import radial_model
 from towercrane.system import NoEquilibrium
 
@@ -34,7 +35,8 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``tower`` (frequencies_hz, method, seconds; of a uniform tower roots), ``jib`` (roots, frequencies_hz),
+        ``tower`` with what the results include, see ``effects`` (frequencies_hz, method, seconds; of a uniform tower
+        without effects roots; outcome and message where it buckles), ``jib`` (roots, frequencies_hz),
         ``finite_elements`` of the tower (frequencies_hz, relative_difference, elements, seconds), ``effects`` of
         shear, weight, rotary inertia and foundation, see `towercrane.effects.effects_report`, ``crane`` (a list with
         trolley_position_m, frequencies_hz, swing_mode, exact_hz, relative_difference, predicted_difference; outcome
@@ -45,18 +47,18 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
     from towercrane.effects import effects_in, effects_report
 
     crane, count, elements = case.radial_crane(), case.modes.count, case.modes.elements
-    jib = crane.jib_modes(count)
-    if isinstance(crane.tower, Beam):
+    jib, effects = crane.jib_modes(count), effects_in(case)
+    if isinstance(crane.tower, Beam) and not effects.kept:
         tower, check = _uniform_tower(crane.tower, crane.end_body, count, elements)
     else:
-        tower, check = _chain_tower(crane.tower, crane.end_body, count, elements)
+        tower, check = _chain_tower(effects.results_tower, count, elements)
     report: dict[str, Any] = {
         "case": case.name,
         "name": crane.name,
         "tower": tower,
         "jib": {"roots": jib.roots.tolist(), "frequencies_hz": jib.frequencies_hz.tolist()},
         "finite_elements": check,
-        "effects": effects_report(effects_in(case), actual=actual),
+        "effects": effects_report(effects, actual=actual),
         "crane_model": {"tower_modes": case.model.tower_modes, "jib_modes": case.model.jib_modes},
         "rope_length_m": case.rope.length,
         "payload_mass_kg": case.payload.mass,
@@ -84,19 +86,23 @@ def _uniform_tower(tower: Beam, body: EndBody, count: int, elements: int) -> tup
     return found | {"method": "closed form", "seconds": seconds}, checked
 
 
-def _chain_tower(tower: Chain, body: EndBody, count: int, elements: int) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Frequencies of a tower of segments from its dynamic stiffness and from finite elements, with their times."""
+def _chain_tower(tower: Chain, count: int, elements: int) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Frequencies of a tower with all that it carries, exact and from finite elements, with their times."""
     from modal import chain_frequencies, chain_structure, finite_element_structure_frequencies
-    from towercrane.towers import with_end_body
+    from modal.structure import Unstable
 
-    whole = with_end_body(tower, body)
-    exact, seconds = timed(lambda: chain_frequencies(whole, count))
-    structure = chain_structure(whole)
+    found: dict[str, Any] = {"method": "dynamic stiffness"}
+    try:
+        exact, seconds = timed(lambda: chain_frequencies(tower, count))
+    except Unstable as failure:
+        nothing: dict[str, Any] = {"frequencies_hz": [], "seconds": 0.0}
+        check = nothing | {"relative_difference": [], "elements": elements}
+        return found | nothing | {"outcome": TOWER_BUCKLED, "message": str(failure)}, check
+    structure = chain_structure(tower)
     checked = _checked(
         lambda: finite_element_structure_frequencies(structure, count, elements=elements), exact, elements
     )
-    found = {"frequencies_hz": (exact / (2 * np.pi)).tolist()}
-    return found | {"method": "dynamic stiffness", "seconds": seconds}, checked
+    return found | {"frequencies_hz": (exact / (2 * np.pi)).tolist(), "seconds": seconds}, checked
 
 
 def _checked(solve: Callable[[], Any], exact: Any, elements: int) -> dict[str, Any]:

@@ -39,6 +39,7 @@ def outputs_of(case: Case) -> dict[str, str]:
 
 def stated(case: Case) -> dict[str, Any]:
     """Fields of the setting that the case's author wrote: they are not chosen, only checked."""
+    from towercrane.effects import softened
     from towercrane.space_scene import SpaceSetting
 
     in_space = case.kind == "space"
@@ -47,6 +48,8 @@ def stated(case: Case) -> dict[str, Any]:
         **{key: getattr(model, key) for key in model.model_fields_set},
         **{key: getattr(case.solver, key) for key in case.solver.model_fields_set},
     }
+    if not in_space and case.frequency_tolerance is not None:
+        written["weight_softening"] = softened(case)
     fields = (SpaceSetting if in_space else Setting).__dataclass_fields__
     return {key: value for key, value in written.items() if key in fields}
 

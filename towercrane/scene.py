@@ -186,8 +186,10 @@ def scene_of(case: Case) -> RadialScene:
 
 def setting_of(case: Case) -> Setting:
     """The setting that a radial case states."""
+    from towercrane.effects import softened
+
     model, solver = case.model, case.solver
-    setting = Setting(model.tower_modes, model.jib_modes, weight_softening=model.weight_softening)
+    setting = Setting(model.tower_modes, model.jib_modes, weight_softening=softened(case))
     return replace(setting, method=solver.method, rtol=solver.rtol, atol=solver.atol)
 
 

@@ -35,7 +35,7 @@ def modes(tower: Modes | ChainModes, jib: Modes, notes: list[tuple[str, str, str
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, fontsize=8, frameon=False)
     left.axvline(0.0, color="0.6", lw=0.8)
     right.axhline(0.0, color="0.6", lw=0.8)
-    left.set(title="Tower with slewing part", xlabel="deflection / largest [1]", ylabel="height [m]")
+    left.set(title="Tower with slewing part, without weight", xlabel="deflection / largest [1]", ylabel="height [m]")
     right.set(
         title="Jib, clamped at the tower",
         xlabel="distance from tower axis [m]",
