@@ -177,12 +177,12 @@ def _seconds(option: str, text: str) -> float:
 
 
 def _run(case: Case) -> xr.Dataset:
-    from towercrane.simulate import run_case
+    from towercrane.simulate import record_case
 
-    result = with_progress(case, run_case)
+    result = with_progress(case, record_case)
     if result.attrs["outcome"] == "interrupted":
         raise KeyboardInterrupt
-    return result
+    return result.dataset()
 
 
 def _film(case: Case, result: xr.Dataset, playback: Playback, magnify: float | None, out: Path) -> None:
@@ -190,6 +190,7 @@ def _film(case: Case, result: xr.Dataset, playback: Playback, magnify: float | N
     with held_interrupts() as ask:
         from towercrane.plots.film import Film
         from towercrane.poses import poses_of
+        from towercrane.vibration import step_of
 
         try:
             poses = poses_of(case, result, playback.times)
@@ -204,9 +205,14 @@ def _film(case: Case, result: xr.Dataset, playback: Playback, magnify: float | N
     span = f"{playback.start:g} to {playback.end:.6g} s at {playback.speed:g} times real time"
     typer.echo(f"written to {out}: {film.frames} frames, {span}{drawn}")
     rows, swing = (
-        result.attrs["output_step"],
+        step_of(result),
         2.0 * pi * sqrt(float(result["rope_length"].min()) / result.attrs["gravity"]),
     )
+    if rows > swing / FRAMES_PER_SWING:
+        say(
+            f"the result's rows are {rows:g} s apart, too far for a load that swings in {swing:.2g} s: the film "
+            "shows straight ways between them; run.output_step makes them finer"
+        )
     if playback.step < 0.999 * rows:
         say(f"frames are closer than the {rows:g} s between the result's rows: run.output_step makes these finer")
     if playback.step > swing / FRAMES_PER_SWING:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import numpy as np
     import xarray as xr
     from numpy.typing import NDArray
 
@@ -59,11 +60,14 @@ class Recording:
     data_vars : mapping of str to Quantity
     attrs : dict
         Provenance: text, numbers and arrays of numbers.
+    looks : int
+        Of so many times one is a row of the result; those between are for extremes, periods and spectra.
     """
 
     times: NDArray[np.float64]
     data_vars: Mapping[str, Quantity]
     attrs: dict[str, Any]
+    looks: int = 1
 
     def __getitem__(self, name: str) -> Quantity:
         return self.time if name == "time" else self.data_vars[name]
@@ -84,6 +88,16 @@ class Recording:
             for dimension, size in zip(quantity.dims[1:], quantity.values.shape[1:], strict=True):
                 found.setdefault(dimension, labels(dimension, size))
         return found
+
+    @property
+    def rows(self) -> Recording:
+        """The same at the times that were asked for; what ended the run early shows in its last row."""
+        if self.looks == 1:
+            return self
+        kept = np.arange(len(self.times)) % self.looks == 0
+        kept[-1] |= self.attrs["outcome"] != "finished"
+        quantities = {name: replace(q, values=q.values[kept]) for name, q in self.data_vars.items()}
+        return Recording(self.times[kept], quantities, self.attrs)
 
     def dataset(self) -> xr.Dataset:
         """The same as a labelled data set."""

@@ -22,7 +22,7 @@ def save(result: Recording | xr.Dataset, path: str | os.PathLike[str]) -> None:
     """Write a result as NetCDF; a file that was there stays until the new one is whole."""
     with replacing(path) as temporary:
         if isinstance(result, Recording):
-            _write(result, temporary)
+            _write(result.rows, temporary)
         else:
             result.to_netcdf(temporary, engine="h5netcdf")
 
@@ -55,6 +55,7 @@ def _write(recording: Recording, path: Path) -> None:
 
 def save_csv(result: Recording, path: str | os.PathLike[str]) -> None:
     """Write every variable over time as columns with units in the header, after comment lines on the origin."""
+    result = result.rows
     columns, names, coordinates = [result.times], ["time [s]"], result.coordinates
     for name, variable in result.data_vars.items():
         flat = variable.values.reshape(len(columns[0]), -1)

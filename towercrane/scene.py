@@ -84,7 +84,7 @@ class Scene(ABC, Generic[AnySetting]):
     def run(self, setting: AnySetting, *, progress: Progress | None = None) -> Recording:
         """Simulate the scene, see :func:`towercrane.simulate.record`."""
         from towercrane.drift import EnergyDriftWarning
-        from towercrane.simulate import record
+        from towercrane.simulate import looks_per_row, record
 
         with warnings.catch_warnings():
             # What a loose tolerance damps is in the estimate.
@@ -94,6 +94,7 @@ class Scene(ABC, Generic[AnySetting]):
                 self.motions,
                 self.duration,
                 output_step=self.output_step,
+                looks=looks_per_row(self.duration, self.output_step),
                 state=self.state,
                 swing_angle=self.swing_angle,
                 method=setting.method,

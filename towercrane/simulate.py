@@ -30,6 +30,12 @@ if TYPE_CHECKING:
 
 Arguments = ParamSpec("Arguments")
 
+LOOK = 0.05
+"""Time between two looks at a case's run, however far apart its rows are [s]."""
+
+MOST_LOOKS = 200_000
+"""Looks at a run whose rows are fewer; beyond them memory runs short, and it is looked at less often."""
+
 
 def record(
     model: Model,
@@ -44,6 +50,7 @@ def record(
     atol: float = 1e-10,
     split: bool = True,
     progress: Progress | None = None,
+    looks: int = 1,
 ) -> Recording:
     """Simulate a crane: a `Recording`, from :func:`simulate` an `xarray.Dataset`.
 
@@ -63,6 +70,8 @@ def record(
         Rope's angle at the start from where it hangs at rest, positive outward [rad].
     method, rtol, atol, split, progress
         As in :func:`towercrane.integrate.integrate`.
+    looks : int
+        Times per row at which a `Recording` has the outputs, see :func:`looks_per_row`; a data set has the rows only.
 
     Returns
     -------
@@ -89,7 +98,7 @@ def record(
             warnings.warn(said, drift.EnergyDriftWarning, stacklevel=3)
     began = time.perf_counter()
     cut = phases(tuple(motions[channel] for channel in model.channels), duration)
-    sample_times = rows_of(duration, output_step)
+    sample_times = rows_of(duration, output_step, looks)
     message, inputs = "", start_inputs(model, motions, cut.inputs[0])
     try:
         start = model.start(inputs, state, swing_angle)
@@ -126,7 +135,7 @@ def record(
         "wall_seconds": time.perf_counter() - began,
         "versions": json.dumps(versions()),
     }
-    return Recording(times, quantities, provenance)
+    return Recording(times, quantities, provenance, looks)
 
 
 def record_case(case: Case, *, model: Model | None = None, progress: Progress | None = None) -> Recording:
@@ -150,6 +159,7 @@ def record_case(case: Case, *, model: Model | None = None, progress: Progress | 
             case.motions,
             case.run.duration,
             output_step=case.run.output_step,
+            looks=looks_per_row(case.run.duration, case.run.output_step),
             state="equilibrium" if case.start.state == "equilibrium" else "zero",
             swing_angle=case.start.swing_angle,
             method=case.solver.method,
@@ -181,7 +191,7 @@ def _labelled(name: str, recorded: Callable[Arguments, Recording]) -> Callable[A
 
     @wraps(recorded)
     def labelled(*args: Arguments.args, **kwargs: Arguments.kwargs) -> xr.Dataset:
-        return recorded(*args, **kwargs).dataset()
+        return recorded(*args, **kwargs).rows.dataset()
 
     labelled.__name__ = labelled.__qualname__ = name
     returns = inspect.signature(recorded).replace(return_annotation="xr.Dataset")
@@ -193,10 +203,16 @@ simulate = _labelled("simulate", record)
 run_case = _labelled("run_case", record_case)
 
 
-def rows_of(duration: float, output_step: float) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Times of a result's rows [s]; shape (rows,)."""
-    rows = int(np.floor(duration / output_step * (1.0 + 1e-12))) + 1
-    return np.asarray(np.minimum(np.arange(rows) * output_step, duration))
+def rows_of(duration: float, output_step: float, looks: int = 1) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Times of a result's rows [s], or of so many looks per row, every ``looks``-th of them a row; shape (times,)."""
+    count = int(np.floor(duration / output_step * looks * (1.0 + 1e-12))) + 1
+    return np.asarray(np.minimum(np.arange(count) / looks * output_step, duration))
+
+
+def looks_per_row(duration: float, output_step: float) -> int:
+    """Looks per row that leave at most `LOOK` between two, or that make `MOST_LOOKS` of a long run."""
+    wanted = int(np.ceil(output_step / LOOK * (1.0 - 1e-12)))
+    return max(1, min(wanted, int(MOST_LOOKS * output_step / duration)))
 
 
 def versions() -> dict[str, str]:

@@ -17,6 +17,9 @@ PADDING = 8
 SHORTEST = 16
 """Samples below which a spectrum says nothing."""
 
+SAMPLES_PER_PERIOD = 8.0
+"""Samples of a swing below which its period could be that of a faster one."""
+
 
 STILL = 1e-9
 """Signals that vary by less than this fraction of their size are rounding."""
@@ -112,4 +115,4 @@ def swing_period(times: Floats, angle: Floats, *, smallest: float = 1e-6) -> flo
         return None
     period = float(np.median(intervals))
     scattered = np.max(abs(intervals / period - 1.0)) > 0.1
-    return None if scattered or period < 8.0 * (times[1] - times[0]) else period
+    return None if scattered or period < SAMPLES_PER_PERIOD * (times[1] - times[0]) else period

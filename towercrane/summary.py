@@ -13,8 +13,8 @@ from towercrane.integrate import FINISHED
 from towercrane.kinds import TOWER_CRANES
 from towercrane.models import model_of, radial_model, space_model
 from towercrane.readings import picked_in
-from towercrane.spectrum import spectrum_peaks, swing_period
 from towercrane.system import NoEquilibrium
+from towercrane.vibration import vibration
 
 if TYPE_CHECKING:
     from towercrane.case import Case
@@ -27,21 +27,11 @@ TUNED = 0.05
 GROWTH = 1.5
 """Growth of the swing after the drives have stopped that is named."""
 
-CYCLES = 3.0
-"""Free cycles of the slowest mode that make a spectrum of the free vibration."""
-
 LOOSE = 1e-3
 """Gap in the energy balance, relative to the change, that is named."""
 
 SMALL = 0.1
 """Tip deflection over length beyond which slopes are not small."""
-
-
-class Signals(NamedTuple):
-    """What of a kind's outputs shows the structure's vibration, and what the load's swing."""
-
-    vibration: str
-    swing: str
 
 
 class Natural(NamedTuple):
@@ -58,14 +48,6 @@ class Natural(NamedTuple):
         return next(iter(self.swings.values())) + 1 if self.swings else None
 
 
-SIGNALS = {
-    "radial": Signals("tower_tip_displacement", "swing_angle"),
-    "space": Signals("tower_tip_displacement", "sway_tangential"),
-    "jib": Signals("sway_in_plane", "sway_in_plane"),
-}
-SLEWING_SIGNALS = Signals("jib_moment_vertical", "sway_radial")
-
-
 def summarise(case: Case, result: Result) -> dict[str, Any]:
     """Summary of a run of a case, ready for JSON.
 
@@ -73,20 +55,20 @@ def summarise(case: Case, result: Result) -> dict[str, Any]:
     -------
     dict
         ``outcome``, ``end_time_s``, ``peaks`` per variable (maximum, maximum_time_s, minimum, minimum_time_s,
-        units) among the rows of the result, ``spectrum_peaks_hz`` of the structure (of its free vibration where that
-        is long enough), ``swing_period_s`` after the drives have stopped (None without a regular swing),
+        units) among the looks ``look_step_s`` apart, ``spectrum_peaks_hz`` of the structure (of its free vibration
+        where that is long enough) at frequencies of the crane, ``spectrum_other_hz`` (at none of them),
+        ``spectrum_to_hz`` (None without a spectrum), ``spectrum_beyond_hz`` (natural frequencies out of its sight),
+        ``swing_period_s`` after the drives have stopped (None without a regular swing),
         ``natural_frequencies_hz`` where the run ended, in space their ``natural_kinds``, ``energy_balance``,
         ``expected``, ``notices``, ``assumed``, ``idle`` (what the crane file holds for other cases), ``solver``,
         ``wall_seconds``; ``accuracy`` where the case asks for an error, see :func:`towercrane.promise.promise`.
     """
     attributes = result.attrs
-    times = result["time"].values
-    signals = SIGNALS.get(case.kind, SLEWING_SIGNALS)
-    free = _after_the_drives(case, times)
+    free = _after_the_drives(case, result["time"].values)
     natural = _natural(case, result)
     frequencies = natural.frequencies
-    # Free vibration shows the crane's own lines; a moving trolley drags them along and adds its own.
-    calm = free if len(frequencies) > 1 and _cycles(times[free], frequencies) >= CYCLES else slice(None)
+    swings = [frequencies[index] for index in natural.swings.values()]
+    shown = vibration(case.kind, result, free, swings, frequencies, lambda: _at_the_start(case, result, natural))
     return {
         "case": case.name,
         "title": case.title,
@@ -96,16 +78,15 @@ def summarise(case: Case, result: Result) -> dict[str, Any]:
         "message": attributes["message"],
         "end_time_s": float(attributes["end_time"]),
         "output_step_s": float(attributes["output_step"]),
+        "look_step_s": shown.step,
         "peaks": peaks(result),
-        "spectrum_of": signals.vibration,
-        "spectrum_peaks_hz": spectrum_peaks(times[calm], result[signals.vibration].values[calm]),
-        "swing_period_s": swing_period(times[free], result[signals.swing].values[free]),
+        **shown.report(),
         "natural_frequencies_hz": frequencies,
         **({"natural_kinds": natural.kinds} if natural.kinds else {}),
         "swing_mode": natural.swing_mode,
         "energy_balance": energy_balance(result),
         "expected": expected(case, result),
-        "notices": notices(case, result, natural, free),
+        "notices": [*notices(case, result, natural, free), *shown.unseen],
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(result)],
         "idle": list(case.idle),
         "solver": {
@@ -133,7 +114,7 @@ def assumed(result: Result) -> list[tuple[str, str, str]]:
 
 
 def peaks(result: Result) -> dict[str, dict[str, Any]]:
-    """Extremes of every variable over time alone, with their times."""
+    """Extremes of every variable over time alone among the looks at a run, with their times."""
     found, times = {}, result["time"].values
     for name, variable in result.data_vars.items():
         if variable.dims != ("time",):
@@ -240,15 +221,15 @@ def _parametric(result: Result, frequencies: list[float], signal: str, swing: in
     return [f"2:1 tuning ({ratio}): a ringing structure can pump the swing; in this run it did not"]
 
 
-def _natural(case: Case, result: Result) -> Natural:
-    """Natural frequencies where the run ended; nothing for a tower that buckles."""
+def _natural(case: Case, result: Result, row: int = -1) -> Natural:
+    """Natural frequencies where the run ended, or in another row; nothing for a tower that buckles."""
     picked = picked_in(result)
     try:
         if case.kind not in TOWER_CRANES:
             return Natural(_linearised(case), [], {})
-        position, length = float(result["trolley_position"].values[-1]), float(result["rope_length"].values[-1])
+        position, length = float(result["trolley_position"].values[row]), float(result["rope_length"].values[row])
         if case.kind == "space":
-            angle = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"].values[-1])
+            angle = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"].values[row])
             # A load that only swings along the jib may swing across it.
             model = space_model(case, **{**picked, "planar": False})
             return _in_space(natural_modes(model, position, length, angle))
@@ -257,6 +238,14 @@ def _natural(case: Case, result: Result) -> Natural:
     except NoEquilibrium:
         return Natural([], [], {})
     return Natural((frequencies / (2 * np.pi)).tolist(), [], {"swing_angle": swing})
+
+
+def _at_the_start(case: Case, result: Result, at_the_end: Natural) -> list[float]:
+    """Natural frequencies [Hz] where the run began."""
+    ways = [result[name].values for name in ("trolley_position", "rope_length") if name in result]
+    if case.kind not in TOWER_CRANES or all(way[0] == way[-1] for way in ways):
+        return at_the_end.frequencies
+    return _natural(case, result, 0).frequencies
 
 
 def _in_space(modes: list[NaturalMode]) -> Natural:
@@ -273,11 +262,6 @@ def _linearised(case: Case) -> list[float]:
     stop = max(motion.duration for motion in case.motions.values())
     found = linearise(model_of(case), case.motions, time=stop, outputs=[]).eigenvalues()
     return sorted(e.frequency for e in found if e.value.imag > 0.0)
-
-
-def _cycles(times: Any, frequencies: list[float]) -> float:
-    """Cycles of the slowest mode in a span."""
-    return float((times[-1] - times[0]) * frequencies[0]) if len(times) > 1 else 0.0
 
 
 def _after_the_drives(case: Case, times: Any) -> slice:

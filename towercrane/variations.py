@@ -14,7 +14,7 @@ from towercrane.case import load_case
 from towercrane.faults import CaseError
 from towercrane.integrate import INTERRUPTED
 from towercrane.kinds import knows, plain_key, unit_of
-from towercrane.simulate import record_case, rows_of
+from towercrane.simulate import looks_per_row, record_case, rows_of
 from towercrane.summary import accuracy, peaks
 from towercrane.sweep_data import RADIAL_OUTPUTS, Found, dataset
 from towercrane.units import UnitError, to_si
@@ -69,7 +69,7 @@ def sweep(
     -------
     xarray.Dataset
         Over ``run``: the varied values as coordinates, ``outcome``, ``end_time``, ``evaluations``, and of every
-        output ``<output>_max``, ``_max_time``, ``_min`` and ``_min_time`` among the rows of a single run. A run that
+        output ``<output>_max``, ``_max_time``, ``_min`` and ``_min_time`` among the looks at a single run. A run that
         a single run would refuse has the outcome "bad input", and ``fault`` says why. After Ctrl-C the runs that had
         not ended are "interrupted", and nothing is known of them.
 
@@ -180,10 +180,12 @@ def _side_by_side(
         raise ValueError("series: wanted the same duration and output step in all runs, got different ones")
     found.outputs |= RADIAL_OUTPUTS
     for (duration, output_step, method, rtol, atol, *_), members in waiting.items():
-        found.times = rows_of(duration, output_step)
+        looks = looks_per_row(duration, output_step)
+        times = rows_of(duration, output_step, looks)
+        found.times = times[::looks]
         answers = integrate_many(
             [variant.lane for variant in members.values() if variant.lane is not None],
-            found.times, method=method, rtol=rtol, atol=atol, threads=threads, series=series,
+            times, method=method, rtol=rtol, atol=atol, threads=threads, series=series,
             progress=_counted(progress, len(found.rows) + len(found.faults)),
         )  # fmt: skip
         for place, run in enumerate(members):
@@ -193,7 +195,7 @@ def _side_by_side(
             ended = float(answers.end_times[place]), int(answers.evaluations[place])
             found.rows[run] = answers.outcomes[place], *ended, extremes
             if series:
-                found.series[run] = answers.series[place]
+                found.series[run] = answers.series[place][::looks]
         if INTERRUPTED in answers.outcomes:
             break
 

@@ -10,7 +10,8 @@ from towercrane.bench.clock import short
 from towercrane.case import list_cases, load_case
 from towercrane.integrate import INTERRUPTED
 from towercrane.simulate import run_case
-from towercrane.summary import SIGNALS, SLEWING_SIGNALS, energy_balance, expected
+from towercrane.summary import energy_balance, expected
+from towercrane.vibration import SIGNALS, SLEWING_SIGNALS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

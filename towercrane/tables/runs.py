@@ -36,15 +36,14 @@ def run_tables(summary: dict[str, Any]) -> None:
             peak["units"],
         )
     console.print(table)
-    console.print(f"extremes are those of the result's rows, every {summary['output_step_s']:g} s")
+    console.print(f"extremes are those of looks every {summary['look_step_s']:g} s")
     for change in summary["changes"]:
         console.print(f"changed               {change}")
     period = summary["swing_period_s"]
     console.print(
         f"swing period          {f'{period:.4f} s' if period else 'none: no regular swing after the drives stopped'}"
     )
-    shown = ", ".join(f"{f:.4f}" for f in summary["spectrum_peaks_hz"]) or "none"
-    console.print(f"spectrum peaks        {shown} Hz in {summary['spectrum_of'].replace('_', ' ')}")
+    _spectrum(console, summary)
     frequencies, kinds = summary["natural_frequencies_hz"], summary.get("natural_kinds")
     named = [f"{f:.4f}" + (f" {kinds[i]}" if kinds else "") for i, f in enumerate(frequencies[:5])]
     natural = ", ".join(named) or "none"
@@ -67,6 +66,26 @@ def run_tables(summary: dict[str, Any]) -> None:
     if summary["idle"]:
         console.print(f"idle     {', '.join(summary['idle'])}: in the crane file, of no use to this run")
     _assumed(console, summary["assumed"])
+
+
+def _spectrum(console: Console, summary: dict[str, Any]) -> None:
+    """Peaks at frequencies of the crane, others, and how far the spectrum reaches."""
+
+    def listed(key: str) -> str:
+        return ", ".join(f"{f:.4f}" for f in summary[key])
+
+    highest = summary["spectrum_to_hz"]
+    reach = f", up to {highest:.4g} Hz" if highest else ""
+    peaks = listed("spectrum_peaks_hz") or "none"
+    console.print(f"spectrum peaks        {peaks} Hz in {summary['spectrum_of'].replace('_', ' ')}{reach}")
+    if summary["spectrum_other_hz"]:
+        console.print(
+            f"                      {listed('spectrum_other_hz')} Hz as well, none of the crane's own: "
+            "lines of drives, wind or a wide swing"
+        )
+    if highest and (beyond := summary["spectrum_beyond_hz"]):
+        last = f" to {beyond[-1]:.4g}" if len(beyond) > 1 else ""
+        console.print(f"                      out of its sight: the crane's {beyond[0]:.4g}{last} Hz")
 
 
 def _accuracy(console: Console, promised: dict[str, Any]) -> None:
