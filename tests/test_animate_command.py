@@ -1,5 +1,7 @@
 """The command `animate`: films of cases and of results, refusals before the work, exit codes of `run`."""
 
+from dataclasses import replace
+
 import matplotlib as mpl
 import pytest
 from PIL import Image
@@ -9,7 +11,7 @@ from towercrane import results, simulate
 from towercrane.case import load_case
 from towercrane.cli import app
 from towercrane.plots import film_file
-from towercrane.simulate import run_case
+from towercrane.simulate import record_case, run_case
 
 CASE = "qtz5613/condition-3"
 SHORT = ("--set", "run.duration=3 s")
@@ -43,7 +45,7 @@ def result(tmp_path_factory):
 
 
 def test_finished_result_is_filmed_beside_itself_without_a_run(result, monkeypatch):
-    monkeypatch.setattr(simulate, "run_case", None)
+    monkeypatch.setattr(simulate, "record_case", None)
     done = animate(result, "--speed", 4, "--magnify", 3)
     assert done.exit_code == 0, done.output
     assert frames(result.with_suffix(".gif")) == 11
@@ -107,7 +109,7 @@ def test_run_that_is_not_what_its_case_expects_is_filmed_and_named(tmp_path):
     ],
 )
 def test_bad_input_is_refused_before_the_run(arguments, said, tmp_path, monkeypatch):
-    monkeypatch.setattr(simulate, "run_case", None)
+    monkeypatch.setattr(simulate, "record_case", None)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "file").touch()
     with mpl.rc_context({"animation.ffmpeg_path": "no-such-ffmpeg"}):
@@ -166,9 +168,9 @@ def test_interrupt_leaves_no_half_film(tmp_path, monkeypatch):
 
 def test_interrupted_run_makes_no_film(tmp_path, monkeypatch):
     def interrupted(case, progress=None):
-        return run_case(case).assign_attrs(outcome="interrupted")
+        return replace(found := record_case(case), attrs=found.attrs | {"outcome": "interrupted"})
 
-    monkeypatch.setattr(simulate, "run_case", interrupted)
+    monkeypatch.setattr(simulate, "record_case", interrupted)
     done = animate(CASE, *SHORT, "--out", tmp_path / "film.gif")
     assert done.exit_code == 130
     assert not list(tmp_path.iterdir())

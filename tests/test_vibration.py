@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from towercrane import load_case, run_case
+from towercrane.readings import gap
 from towercrane.recording import Quantity, Recording
 from towercrane.simulate import LOOK, MOST_LOOKS, looks_per_row, record_case, rows_of
 from towercrane.spectral_lines import lines
@@ -207,3 +208,10 @@ def test_one_row_says_nothing():
     case = load_case(CASE, ["run.duration=0.05 s"])
     summary = summarise(case, record_case(case))
     assert (summary["look_step_s"], summary["swing_period_s"], summary["spectrum_to_hz"]) == (0.05, None, None)
+
+
+def test_outputs_are_compared_at_the_same_times(runs):
+    """Looks at one run beside the rows of another: every twentieth time is of both."""
+    assert gap(runs[0.05][1], runs[1][1].rows, "tower_tip_displacement") < 1e-12
+    moved = made(TIMES[::20] + 1.0, TIMES[::20] * 2.0, TIMES[::20])
+    assert gap(made(TIMES, TIMES, TIMES), moved, "tower_tip_displacement") == pytest.approx(120.0 - 2.0)

@@ -17,12 +17,12 @@ from towercrane.system import NoEquilibrium
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    import xarray as xr
     from numpy.typing import NDArray
 
     from towercrane.case import Case
     from towercrane.cranes.flexible import FlexibleModel
     from towercrane.cranes.radial import RadialModel
-    from towercrane.recording import Recording, Result
 
     Floats = NDArray[np.float64]
 
@@ -99,7 +99,7 @@ def variants(case: Case) -> list[Variant]:
 
 def compare(
     case: Case, target: float, *, progress: Callable[[float], None] | None = None
-) -> tuple[dict[str, Any], dict[str, Recording]]:
+) -> tuple[dict[str, Any], dict[str, xr.Dataset]]:
     """Run a case in all its `variants`.
 
     Parameters
@@ -118,8 +118,8 @@ def compare(
         ``rows`` (a dict for each variant, see :func:`_row`), ``departure_m`` (what errors are relative to),
         ``target``, ``recommended`` (the cheapest row within the target, None without one), ``needed`` kinds of modes
         and ``reasons``, ``assumed``. Ready for JSON.
-    results : dict of str to Recording
-        Runs by the variant's name.
+    results : dict of str to Dataset
+        Looks at the runs by the variant's name.
 
     Raises
     ------
@@ -131,9 +131,9 @@ def compare(
     chosen = variants(case)
     if len(chosen[-1].kinds) == 0:
         raise ValueError("case: wanted one mode or more to compare with a rigid crane, got none")
-    results: dict[str, Recording] = {}
+    results = {}
     for number, variant in enumerate(chosen):
-        results[variant.name] = record_case(case, model=variant.model(case))
+        results[variant.name] = record_case(case, model=variant.model(case)).dataset()
         if results[variant.name].attrs["outcome"] == INTERRUPTED:
             raise KeyboardInterrupt
         if progress is not None:
@@ -156,14 +156,14 @@ def compare(
     return report, results
 
 
-def gaps(result: Result, richest: Result) -> Floats:
+def gaps(result: xr.Dataset, richest: xr.Dataset) -> Floats:
     """Horizontal and vertical distance of the load from the richest model's [m], shape (times of both, 2)."""
-    rows = min(len(result["time"].values), len(richest["time"].values))
+    rows = min(len(result["time"]), len(richest["time"]))
     gap = result["payload_position"].values[:rows] - richest["payload_position"].values[:rows]
     return np.stack([np.hypot(gap[:, 0], gap[:, 1]), abs(gap[:, 2])], axis=1)
 
 
-def _row(case: Case, variant: Variant, result: Result, richest: Result, departure: float) -> dict[str, Any]:
+def _row(case: Case, variant: Variant, result: xr.Dataset, richest: xr.Dataset, departure: float) -> dict[str, Any]:
     """One variant's sway (peak and after the drives have stopped [deg]), torque [N m], errors [m] and cost."""
     stop = max((m.duration for name, m in case.motions.items() if not name.startswith("wind")), default=0.0)
     free = result["time"].values >= stop
@@ -177,7 +177,7 @@ def _row(case: Case, variant: Variant, result: Result, richest: Result, departur
     same = result.attrs["outcome"] == richest.attrs["outcome"] == FINISHED
     horizontal, vertical = gaps(result, richest).max(axis=0).tolist()
     gap = float(np.linalg.norm(gaps(result, richest), axis=1).max())
-    torque = float(abs(result["slewing_torque"].values).max()) if "slewing_torque" in result else None
+    torque = float(abs(result["slewing_torque"]).max()) if "slewing_torque" in result else None
     return {
         "name": variant.name,
         "modes": variant.counts,
@@ -194,17 +194,17 @@ def _row(case: Case, variant: Variant, result: Result, richest: Result, departur
     }
 
 
-def slowest(case: Case, variant: Variant, result: Result) -> dict[str, float]:
+def slowest(case: Case, variant: Variant, result: xr.Dataset) -> dict[str, float]:
     """Lowest natural frequency along and, in space, across the jib where a run ended [Hz]; none if it buckles."""
     from towercrane.cranes.flexible import FlexibleModel
     from towercrane.cranes.small_motions import natural_modes
 
     model = variant.model(case)
-    trolley, rope = (float(result[name].values[-1]) for name in ("trolley_position", "rope_length"))
+    trolley, rope = (float(result[name][-1]) for name in ("trolley_position", "rope_length"))
     try:
         if not isinstance(model, FlexibleModel):
             return {"along": float(model.natural_frequencies(trolley, rope)[0] / (2.0 * np.pi))}
-        heading = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"].values[-1])
+        heading = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"][-1])
         modes = natural_modes(model, trolley, rope, heading)
     except NoEquilibrium:
         return {}

@@ -43,6 +43,9 @@ SPACE = MOTIONS | {
 
 PLACE = "payload_position"
 
+DIGITS = 9
+"""Of a time in seconds: looks at two runs that differ by less are at the same time."""
+
 
 class Tolerance(NamedTuple):
     """Error that is wanted of an output: over its peak, or in its unit."""
@@ -59,10 +62,11 @@ def peak(result: Result, name: str) -> float:
 
 
 def gap(one: Result, other: Result, name: str) -> float:
-    """Largest difference of an output over the time that both runs reached."""
-    rows = min(len(one["time"].values), len(other["time"].values))
-    apart = one[name].values[:rows] - other[name].values[:rows]
-    return float(np.linalg.norm(apart.reshape(rows, -1), axis=1).max())
+    """Largest difference of an output over the times that both runs have."""
+    first, second = (np.round(run["time"].values, DIGITS) for run in (one, other))
+    both, mine, others = np.intersect1d(first, second, return_indices=True)
+    apart = one[name].values[mine] - other[name].values[others]
+    return float(np.linalg.norm(apart.reshape(len(both), -1), axis=1).max())
 
 
 def departures(result: Result) -> Floats:

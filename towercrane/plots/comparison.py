@@ -8,15 +8,14 @@ from towercrane.comparison import ONE_OF_EACH, OWN, RICHEST, gaps
 from towercrane.plots.style import COLOURS, DASHES, figure_of, footnote
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.figure import Figure
-
-    from towercrane.recording import Recording
 
 MOST_PATHS = 5
 """Paths side by side."""
 
 
-def paths(report: dict[str, Any], results: dict[str, Recording]) -> Figure:
+def paths(report: dict[str, Any], results: dict[str, xr.Dataset]) -> Figure:
     """Paths of the load, from above in space and from the side in the plane; below, distances from the richest."""
     names = _shown(report, results)
     in_space = report["kind"] == "space"
@@ -53,7 +52,7 @@ def paths(report: dict[str, Any], results: dict[str, Recording]) -> Figure:
     return figure
 
 
-def _shown(report: dict[str, Any], results: dict[str, Recording]) -> list[str]:
+def _shown(report: dict[str, Any], results: dict[str, xr.Dataset]) -> list[str]:
     """Rigid, the best crane that lacks one kind of modes, what is recommended, one mode of each, the case's own."""
     rows = [row for row in report["rows"] if row["relative_error"] is not None]
     most = len(report["kinds_of_modes"])

@@ -86,7 +86,7 @@ def run_title(results: list[xr.Dataset]) -> str:
 
 def titled(figure: Figure, title: str, results: list[xr.Dataset]) -> Figure:
     """Put a title above and the assumed values of all runs below."""
-    figure.suptitle(f"{title}, {results[0].attrs['crane']}")
+    figure.suptitle(f"{title}, {results[0].attrs['crane']}", wrap=True)
     notes: dict[str, tuple[str, str, str]] = {}
     for result in results:
         for note in assumed(result):

@@ -70,6 +70,8 @@ def _lines(axes: Axes, data: xr.Dataset, key: str, name: str) -> None:
 
 def _map(figure: Figure, axes: Axes, data: xr.Dataset, keys: list[str], name: str) -> None:
     """Largest size of an output over two varied values."""
+    from matplotlib.ticker import ScalarFormatter
+
     first, second = (data[key.replace(".", "_")].values for key in keys)
     x, column = np.unique(first, return_inverse=True)
     y, row = np.unique(second, return_inverse=True)
@@ -80,7 +82,9 @@ def _map(figure: Figure, axes: Axes, data: xr.Dataset, keys: list[str], name: st
     early = _early(data)
     axes.plot(first[early], second[early], "x", color="white", ms=4)
     axes.set(xlabel=_label(data, keys[0]), ylabel=_label(data, keys[1]))
-    figure.colorbar(mesh, ax=axes, label=f"largest {name.replace('_', ' ')} [{unit}]")
+    # An offset above the bar would have to be added to every number beside it.
+    numbers = ScalarFormatter(useOffset=False)
+    figure.colorbar(mesh, ax=axes, format=numbers, label=f"largest size of {name.replace('_', ' ')} [{unit}]")
 
 
 def _early(data: xr.Dataset) -> NDArray[np.bool_]:
