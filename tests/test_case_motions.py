@@ -61,10 +61,10 @@ CSV_FAULTS = [
     ("t,x\n0,5,1\n1,6\n2,7\n", "line 2", "two columns", "3 in"),
     ("t;x\n0;5\n1;6\n", "line 2", "commas", "1 in"),
     ("t,x\n0,5\n2,6\n2,7\n", "line 4", "a time after 2", "2"),
-    ("t,x\n0,5\n1,six\n", "line 3", "two finite numbers", "1,six"),
-    ("t,x\n0,5\n1,nan\n", "line 3", "two finite numbers", "1,nan"),
+    ("t,x\n0,5\n1,six\n", "line 3", "two finite numbers", "none in column 2"),
+    ("t,x\n0,5\n1,nan\n", "line 3", "two finite numbers", "none in column 2"),
     ("t,x\n1,5\n2,6\n", "line 2", "a first time of 0", "1"),
-    ("0,5\n1,6\n", "line 1", "a header line", "0,5"),
+    ("0,5\n1,6\n", "line 1", "a header line", "numbers"),
     ("", "", "a CSV file", "0 lines"),
     ("t,x\n0,5\n", "", "two or more", "1 lines"),
 ]
@@ -107,9 +107,12 @@ def test_hoist_table_begins_at_the_rope_length(write, tmp_path):
     assert load_case(path, ["rope.length=13 m"]).rope_motion().end == pytest.approx(15.0)
 
 
-def test_a_spline_that_overshoots_the_jib_is_caught(write, tmp_path):
+def test_a_table_ends_at_the_jibs_end_and_no_further(write, tmp_path):
     (tmp_path / "way.csv").write_text("t,x\n0,5\n10,39.9\n11,40\n12,40\n")
-    fault = only_fault(write(case_text=with_motion('shape = "table"\nfile = "way.csv"')))
+    path = write(case_text=with_motion('shape = "table"\nfile = "way.csv"'))
+    assert load_case(path).trolley_motion().range() == (5.0, 40.0)
+    (tmp_path / "way.csv").write_text("t,x\n0,5\n10,39.9\n11,40.5\n12,40\n")
+    fault = only_fault(path)
     assert fault.key == "motion.trolley.file"
     assert "40 m" in fault.wanted
-    assert "a motion from 5 to 40." in fault.got
+    assert fault.got == "a motion from 5 to 40.5 m"

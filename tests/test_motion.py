@@ -1,5 +1,7 @@
 """Motions: limits kept, ways travelled exactly, switch points where they belong."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -118,6 +120,44 @@ def test_table_passes_its_points_and_starts_and_ends_at_rest():
     assert_allclose(motion([0, 10, 25, 40]), [5, 9, 30, 41])
     assert_allclose(motion([0.0, 40.0], 1), 0.0, atol=1e-12)
     assert_allclose(motion(10 - 1e-9, 2), motion(10 + 1e-9, 2), atol=1e-6)
+
+
+@given(st.lists(st.tuples(st.floats(0.01, 30.0), place), min_size=1, max_size=12), place)
+def test_a_table_stays_between_neighbouring_points(rows, first):
+    times = np.concatenate([[0.0], np.cumsum([step for step, _ in rows])])
+    values = np.array([first, *(value for _, value in rows)])
+    motion = table(times, values)
+    for start, stop, ends in zip(times[:-1], times[1:], pairwise(values), strict=True):
+        inside = motion(np.linspace(start, stop, 40)[1:-1])
+        assert inside.min() >= min(ends) - 1e-9
+        assert inside.max() <= max(ends) + 1e-9
+
+
+def test_a_table_of_a_smooth_way_has_its_acceleration():
+    # Up and back, so that a highest point is among them; second order in the step.
+    errors = []
+    for step in (0.2, 0.1):
+        t = np.arange(0.0, 40.0 + step / 2, step) + 0.0
+        phase = 2.0 * np.pi * t / 40.0
+        motion = table(t, 5.0 * (1.0 - np.cos(phase)) ** 2)
+        true = 10.0 * (2.0 * np.pi / 40.0) ** 2 * (np.cos(phase) - np.cos(2.0 * phase))
+        errors.append(np.max(abs(motion(t[3:-3], 2) - true[3:-3])))
+    assert errors[0] < 4e-3
+    assert 3.0 < errors[0] / errors[1] < 5.0
+
+
+def test_range_of_a_derivative_of_every_degree():
+    rng = np.random.default_rng(2)
+    for width in range(1, 8):
+        motion = Motion(np.array([0.0, 1.5, 4.0]), rng.normal(size=(2, width)))
+        for derivative in range(3):
+            times = np.concatenate([np.linspace(0.0, 1.5 - 1e-8, 40_001), np.linspace(1.5, 4.0 - 1e-8, 40_001)])
+            seen = motion(times, derivative)
+            low, high = motion.range(derivative)
+            size = 1.0 + abs(seen).max()
+            assert_allclose([low, high], [min(seen.min(), low), max(seen.max(), high)], atol=1e-12)
+            resting = [motion.coefficients[0, 0], motion.end] if derivative == 0 else [0.0]
+            assert_allclose([low, high], [min(*seen, *resting), max(*seen, *resting)], atol=1e-6 * size)
 
 
 def test_phases_cut_at_the_union_and_merge_rounding():

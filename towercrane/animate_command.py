@@ -21,6 +21,7 @@ from towercrane.terminal import (
     load,
     options_of,
     say,
+    say_notices,
     suggest,
     with_bar,
     with_progress,
@@ -73,6 +74,7 @@ def animate(
     """Film a run: the crane from the side and from above, its deformation magnified beside true scale."""
     finished = _finished(case, changes) if case.endswith(".nc") else None
     loaded = load(case, changes) if finished is None else _case_of(case, finished)
+    say_notices(loaded)
     if out is None:
         out = Path("results") / f"{loaded.name}.gif" if finished is None else Path(case).with_suffix(".gif")
     _check_film(out, frames_per_second)

@@ -176,6 +176,13 @@ class Case:
 
         return idle_in_file(self)
 
+    @cached_property
+    def notices(self) -> tuple[str, ...]:
+        """What its CSV tables do to a run that nobody would expect."""
+        from towercrane.table_notices import table_notices
+
+        return table_notices(self)
+
     @property
     def _radial(self) -> schema_cases.RadialCase:
         from towercrane.schema_cases import RadialCase

@@ -87,9 +87,15 @@ def read_case(path: Path, overrides: Sequence[str] = ()) -> CaseText:
     if not text.tree:
         sections = "crane, [payload], [rope], [motion.trolley], [run]"
         raise CaseError([Fault(str(path), "", f"a case: {sections}", "an empty file")])
+    from towercrane.kinds import known_keys
+
     if "crane" not in text.tree and {"tower", "jib"} & set(text.tree):
         hint = 'a case names its crane: crane = "crane.toml"'
         raise CaseError([Fault(str(path), "", "a case: crane, [payload], [rope], ...", "a crane file", hint)])
+    if not set(known_keys()) & set(text.tree):
+        # This is some other file, of which nothing is shown.
+        wanted = "a case: crane, [payload], [rope], [motion.trolley], [run]"
+        raise CaseError([Fault(str(path), "", wanted, "a file without any of its keys")])
     settings = [s for s in (_setting(text, o) for o in overrides) if s]
     for key, value, origin in settings:
         if not key.startswith("crane."):
@@ -144,8 +150,22 @@ def _syntax_fault(path: Path, content: str, error: Exception) -> Fault:
         hint = 'text and quantities with a unit stand in quotes: mass = "800 kg"'
     elif "Cannot overwrite" in message or "Cannot declare" in message:
         hint = "the same key or table stands in the file twice"
-    got = f"{message[: at.start()]}: {shown(written)}"
-    return Fault(str(path), f"line {at[1]}, column {at[2]}", "TOML", got, hint)
+    said = message[: at.start()]
+    if _is_ours(content):
+        said = f"{said}: {shown(written)}"
+    else:
+        # Any file that the program can read may have been named: neither its lines nor its keys are shown.
+        said = re.sub(r"\s+(\(.*\)|'[^='\]\\]+')", "", said)
+    return Fault(str(path), f"line {at[1]}, column {at[2]}", "TOML", said, hint)
+
+
+def _is_ours(content: str) -> bool:
+    """Whether all tables of a text that cannot be parsed are those of a case or a crane."""
+    from towercrane.kinds import known_keys
+
+    known = {name for key in known_keys() for name in (key, key.removeprefix("crane."))}
+    headings = re.findall(r"^\s*\[+\s*([^\[\]]*?)\s*\]+", content, re.MULTILINE)
+    return bool(headings) and known.issuperset(headings)
 
 
 def _setting(text: CaseText, override: str) -> tuple[str, Any, str] | None:
@@ -213,6 +233,13 @@ def _read_crane(text: CaseText) -> None:
     if not crane:
         wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
         text.faults.append(Fault(str(path), "", wanted, "an empty file"))
+        return
+    from towercrane.kinds import known_keys
+
+    if not {f"crane.{key}" for key in crane} & set(known_keys()):
+        # This is some other file, of which nothing is shown.
+        wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
+        text.faults.append(Fault(str(path), "", wanted, "a file without any table of a crane"))
         return
     if "crane" in crane:
         wanted, hint = "a crane file: name, [tower], [jib], ...", "the case itself goes to the command line"

@@ -20,6 +20,7 @@ from towercrane.terminal import (
     folder_for_results,
     load,
     options_of,
+    say_notices,
     suggest,
     with_bar,
     write,
@@ -44,6 +45,7 @@ def compare(
 ) -> None:
     """Run a case in models from rigid to rich; which modes it needs for an error, and why."""
     loaded = load(case, changes)
+    say_notices(loaded)
     folder = out if out is not None else Path("results") / f"{loaded.name}-compare"
     folder_for_results(folder)
     if target is not None and not 0.0 < target < 1.0:

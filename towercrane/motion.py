@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 SHORTEST_WAY = 1e-12
 """Ways shorter than this [m] are none."""
 
+LIKE = 5
+"""Neighbouring points whose curvatures are alike where a motion is sampled finely."""
+
 SAME_INSTANT = 1e-9
 """Switch times closer than this [s] are one: two profiles may differ by rounding."""
 
@@ -66,7 +69,7 @@ class Motion:
         if not self.duration > 0.0:
             return self.end
         powers = np.arange(1.0, self.coefficients.shape[1] + 1.0)
-        ways = self.coefficients * np.diff(self.switch_times)[:, None] ** powers / powers
+        ways = self.coefficients * self._spans[:, None] ** powers / powers
         return float(ways.sum() / self.duration)
 
     def piece(self, time: float) -> Floats:
@@ -93,13 +96,19 @@ class Motion:
     def range(self, derivative: int = 0) -> tuple[float, float]:
         """Smallest and largest value that the motion, or a derivative of it, ever takes."""
         values = [float(self.coefficients[0, 0]), self.end] if derivative == 0 else [0.0]
-        pieces = np.polynomial.polynomial.polyder(self.coefficients, derivative, axis=1)
-        for span, piece in zip(np.diff(self.switch_times), pieces, strict=True):
-            rate = np.polynomial.polynomial.polytrim(np.polynomial.polynomial.polyder(piece))
-            turns = np.polynomial.polynomial.polyroots(rate) if len(rate) > 1 else np.empty(0)
-            inside = turns.real[(abs(turns.imag) < 1e-12) & (turns.real > 0) & (turns.real < span)]
-            values += [_polynomial(piece, t) for t in (0.0, span, *inside)]
+        pieces, spans = np.polynomial.polynomial.polyder(self.coefficients, derivative, axis=1), self._spans
+        turns = _roots(np.asarray(np.polynomial.polynomial.polyder(pieces, axis=1), dtype=np.float64))
+        for at in (np.zeros(len(spans)), spans, *np.clip(turns, 0.0, spans[:, None]).T):
+            reached = np.zeros(len(spans))
+            for column in pieces.T[::-1]:
+                reached = reached * at + column
+            values += [float(reached.min()), float(reached.max())]
         return min(values), max(values)
+
+    @property
+    def _spans(self) -> Floats:
+        """Duration of each piece [s]."""
+        return np.diff(self.switch_times)
 
 
 def rest(value: float, duration: float = 0.0) -> Motion:
@@ -190,7 +199,10 @@ def sequence(*motions: Motion) -> Motion:
 
 
 def table(times: ArrayLike, values: ArrayLike) -> Motion:
-    """Smooth motion through points: the cubic spline that starts and ends at rest.
+    """Motion through points that starts and ends at rest and keeps their shape: it never leaves the points' range.
+
+    It is the cubic spline with continuous acceleration where that stays between neighbouring points. Elsewhere its
+    slopes are limited, and the acceleration jumps at the point; the solver restarts at each.
 
     Parameters
     ----------
@@ -198,16 +210,40 @@ def table(times: ArrayLike, values: ArrayLike) -> Motion:
         Increasing times from 0 [s].
     values : array_like, shape (p,)
         Values at those times.
+
+    Notes
+    -----
+    Limits of Hyman 1983, Accurate monotonicity preserving cubic interpolation, SIAM J. Sci. Stat. Comput. 4: a slope
+    of the sign of the secants beside it, at most three times the smaller; zero where they differ in sign. A turn that
+    is sampled finely, with like curvature over five points, keeps the spline's: a zero slope at the highest of its
+    points would double the acceleration there.
     """
-    from scipy.interpolate import CubicSpline
+    from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
     t, x = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
     if t.ndim != 1 or t.shape != x.shape or len(t) < 2:
         raise ValueError(f"table: wanted two or more times and as many values, got {t.shape} and {x.shape}")
     if t[0] != 0.0 or np.any(np.diff(t) <= 0.0):
         raise ValueError("table: wanted times that start at 0 and increase")
-    spline = CubicSpline(t, x, bc_type="clamped")
-    return Motion(t, np.ascontiguousarray(spline.c[::-1].T))
+    slopes = np.array(CubicSpline(t, x, bc_type="clamped")(t, 1))
+    secants = np.diff(x) / np.diff(t)
+    before, after, sense = secants[:-1], secants[1:], np.sign(secants[:-1])
+    steepest = np.where(before * after > 0.0, 3.0 * np.minimum(abs(before), abs(after)), 0.0)
+    limited = sense * np.clip(sense * slopes[1:-1], 0.0, steepest)
+    slopes[1:-1] = np.where(_turns_smoothly(t, before, after), slopes[1:-1], limited)
+    slopes[[0, -1]] = 0.0
+    return Motion(t, np.ascontiguousarray(CubicHermiteSpline(t, x, slopes).c[::-1].T))
+
+
+def _turns_smoothly(t: Floats, before: Floats, after: Floats) -> NDArray[np.bool_]:
+    """Whether the curvature at each inner point and two to either side has one sign and about one size."""
+    curvature = (after - before) / (t[2:] - t[:-2])
+    smooth = np.zeros(len(curvature), dtype=bool)
+    if len(curvature) >= LIKE:
+        near = np.lib.stride_tricks.sliding_window_view(curvature, LIKE)
+        signed = near * np.sign(near[:, :1])
+        smooth[LIKE // 2 : len(smooth) - LIKE // 2] = signed.max(axis=1) < 2.0 * signed.min(axis=1)
+    return smooth
 
 
 @dataclass(frozen=True, eq=False)
@@ -299,6 +335,26 @@ def _polynomial(coefficients: Floats, time: float) -> float:
     for c in coefficients[::-1]:
         value = value * time + c
     return float(value)
+
+
+def _roots(polynomials: Floats) -> Floats:
+    """Real roots of polynomials in rows of ascending coefficients; zeros fill up; shape (p, columns - 1)."""
+    found = np.zeros((len(polynomials), max(polynomials.shape[1] - 1, 0)))
+    high = np.any(polynomials[:, 3:] != 0.0, axis=1)
+    if polynomials.shape[1] > 1:
+        c, b = polynomials[:, 0], polynomials[:, 1]
+        a = polynomials[:, 2] if polynomials.shape[1] > 2 else np.zeros_like(b)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            # The stable form: no difference of near numbers, and a line's root where a is zero.
+            q = -0.5 * (b + np.copysign(np.sqrt(b * b - 4.0 * a * c), b))
+            for column, root in enumerate((c / q, q / a)[: found.shape[1]]):
+                found[:, column] = np.where(np.isfinite(root), root, 0.0)
+    for row in np.flatnonzero(high):
+        roots = np.polynomial.polynomial.polyroots(np.polynomial.polynomial.polytrim(polynomials[row]))
+        real = roots.real[abs(roots.imag) < 1e-12]
+        found[row] = 0.0
+        found[row, : len(real)] = real
+    return found
 
 
 def _shifted(coefficients: Floats, time: float) -> Floats:

@@ -23,6 +23,12 @@ FASTEST = 10.0
 FASTEST_TURN = 5.0
 """Largest plausible speed of shaft and joints [rad/s]."""
 
+FARTHEST_TURN = {"shaft": 100.0, "slewing": 100.0, "slew": 100.0, "luff": 3.2, "fold": 6.4}
+"""Largest plausible angle of each joint in either sense [rad]."""
+
+FASTEST_SLEWING = 0.5
+"""Largest plausible speed of a tower crane's head whose motion states none [rad/s]; they turn at 0.1 or less."""
+
 
 @dataclass(frozen=True, slots=True)
 class Range:
@@ -148,7 +154,7 @@ RANGES = (
     Range("motion.*.jerk", "m/s^3", 1e-5, 1e3, ("cm/s^3", "mm/s^3")),
     *(
         row
-        for joint, most in (("shaft", 100), ("slewing", 100), ("slew", 100), ("luff", 3.2), ("fold", 6.4))
+        for joint, most in FARTHEST_TURN.items()
         for row in (
             Range(f"motion.{joint}.start", "rad", 1e-9, most, ANGLES, signed=True),
             Range(f"motion.{joint}*.end", "rad", 1e-9, most, ANGLES, signed=True),
@@ -249,6 +255,11 @@ def _check_friction(tree: dict[str, Any]) -> Iterator[Fault]:
             wanted = f'a {name} above 0, such as "{example}": the law "{law}" needs it'
             got = at(tree, key)
             yield Fault("", key, wanted, "nothing: the key is missing" if got is None else shown(got))
+
+
+def fastest_turn(kind: str) -> float:
+    """Largest plausible speed of a turn of this kind of crane that states none [rad/s]."""
+    return FASTEST_SLEWING if kind == "space" else FASTEST_TURN
 
 
 def at(tree: Any, key: str) -> Any:

@@ -171,6 +171,7 @@ def record_case(case: Case, *, model: Model | None = None, progress: Progress | 
     result.attrs["case"] = case.name
     result.attrs["changes"] = json.dumps(case.changes)
     result.attrs["case_text"] = json.dumps(case.as_written)
+    result.attrs["notices"] = json.dumps(case.notices)
     result.attrs["assumed"] = json.dumps([[a.key, str(a.value), a.why] for a in case.rests_on])
     return result
 

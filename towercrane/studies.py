@@ -23,6 +23,7 @@ from towercrane.terminal import (
     load,
     options_of,
     say,
+    say_notices,
     suggest,
     with_bar,
     write,
@@ -100,6 +101,7 @@ def linearise(
     from towercrane.statespace import FILE_TYPES
 
     loaded = load(case, changes)
+    say_notices(loaded)
     if not at < float("inf"):
         fail(f"--at {at}: wanted a finite number of seconds")
     if out is not None:
@@ -153,6 +155,7 @@ def shape(
 ) -> None:
     """Motions that leave the load at rest: how still, how surely, how fast; tables for the drives."""
     loaded = load(case, changes)
+    say_notices(loaded)
     folder = out if out is not None else Path("results") / f"{loaded.name}-shape"
     folder_for_results(folder)
     if not 0.0 < within < float("inf"):

@@ -173,6 +173,7 @@ def notices(case: Case, result: Result, natural: Natural, free: slice) -> list[s
         found.append(f"ended at {result.attrs['end_time']:.6g} s: {result.attrs['outcome']}{reason}")
     if (promised := accuracy(result)) and promised["reasons"]:
         found.append(f"the error asked for is {promised['outcome']}: {'; '.join(promised['reasons'])}")
+    found += case.notices
     tension = result["rope_tension"].values
     if case.rope.slack == "rod" and tension.min() < 0.0:
         first = float(result["time"].values[int(np.argmax(tension < 0.0))])

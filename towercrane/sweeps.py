@@ -25,6 +25,7 @@ from towercrane.terminal import (
     load,
     options_of,
     say,
+    say_notices,
     suggest,
     with_bar,
     write,
@@ -61,6 +62,7 @@ def sweep(
 ) -> None:
     """Run a case over a grid of values; write sweep.nc, sweep.csv and a picture."""
     loaded = load(case, changes)
+    say_notices(loaded)
     folder = out if out is not None else Path("results") / f"{loaded.name}-sweep"
     folder_for_results(folder)
     values = _values(loaded, vary)

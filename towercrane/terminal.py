@@ -39,6 +39,12 @@ def load(name: str, changes: list[str] | None) -> Case:
     return load_case(name, changes or [])
 
 
+def say_notices(case: Case) -> None:
+    """Tell what the case's tables do that nobody would expect, where no report does."""
+    for notice in case.notices:
+        say(f"note: {notice}")
+
+
 def announce_compilation(*uses: str) -> None:
     """Compile the kernels for uses of :data:`towercrane.compilation.KERNELS` if they are not yet, and say so."""
     from towercrane.compilation import compile_kernels, missing_kernels

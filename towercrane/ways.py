@@ -12,7 +12,7 @@ from towercrane.casefile import leaves
 from towercrane.faults import CaseError, Fault, shown
 from towercrane.kinds import TOWER_CRANES
 from towercrane.plans import Move, Plan
-from towercrane.plausibility import FASTEST, FASTEST_TURN, at, si, si_at
+from towercrane.plausibility import FARTHEST_TURN, FASTEST, at, fastest_turn, si, si_at
 from towercrane.profiles import plan
 from towercrane.schema_motions import HoistMotion, JointMotion, TrolleyMotion
 from towercrane.tower_checks import tower_height
@@ -47,20 +47,22 @@ def _reader(described: Any) -> TypeAdapter[Any]:
 
 @dataclass(frozen=True)
 class Way:
-    """Limits of a motion along a line; a turn has none.
+    """Limits of a motion along a line or of a turn.
 
     Parameters
     ----------
     key : str
         Key of the motion.
     high : float or None
-        Largest value [m]; None where it is not known.
+        Largest value [m], of a turn in either sense [rad]; None where it is not known.
     open_low : bool
         Whether zero itself is too low.
     wanted, hint : str
         For the message.
     turns : bool
-        Whether the motion is a turn, in radians and without limits.
+        Whether the motion is a turn, in radians.
+    fastest : float
+        Largest plausible speed [m/s or rad/s].
     """
 
     key: str
@@ -69,6 +71,7 @@ class Way:
     wanted: str = ""
     hint: str = ""
     turns: bool = False
+    fastest: float = FASTEST
 
     @property
     def unit(self) -> str:
@@ -78,7 +81,9 @@ class Way:
     def keeps(self, value: float) -> bool:
         """Whether a value lies within the limits."""
         high = float("inf") if self.high is None else self.high * (1 + ROUNDING)
-        return self.turns or ((value > 0.0 if self.open_low else value >= -ROUNDING) and value <= high)
+        if self.turns:
+            return abs(value) <= high
+        return (value > 0.0 if self.open_low else value >= -ROUNDING) and value <= high
 
     def fault(self, key: str, got: str) -> Fault:
         """Fault at ``key``."""
@@ -99,7 +104,9 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
         faults = [*faults, *more]
         plans |= {name: None if motion is None else Plan((Move(motion),)) for name, motion in wind.items()}
     for joint in _joints(tree, kind):
-        way = Way(f"motion.{joint}", turns=True)
+        most, hint = FARTHEST_TURN[joint], "the header names the units: slew [deg]"
+        wanted = f"angles up to {most:g} rad"
+        way = Way(f"motion.{joint}", most, False, wanted, hint, turns=True, fastest=fastest_turn(kind))
         plans[joint], more = _motion(tree, way, _reader(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
     more, plans["rope"] = _rope(tree, folder, kind)
@@ -213,18 +220,18 @@ def _motion(
     if hoists and abs(float(motion(0.0)) - begin) > 1e-6:
         got = f"a first length of {float(motion(0.0)):g} m"
         return None, [Fault("", key, f"a table that begins with rope.length, {begin:g} m", got)]
-    fastest, limit = max(abs(rate) for rate in motion.range(1)), FASTEST_TURN if way.turns else FASTEST
+    reached, limit = max(abs(rate) for rate in motion.range(1)), way.fastest
     # Other motions state their speed, which has a range of its own.
     hints = {
-        "table": "times in seconds? the curve through the points is smooth",
+        "table": f"{'angles in radians' if way.turns else 'seconds and metres'}? The header names the units: time [s]",
         "minimum-jerk": "a longer duration?",
     }
-    if described.shape in hints and fastest > limit:
+    if described.shape in hints and reached > limit:
         table, hint = described.shape == "table", hints[described.shape]
-        got = f"a {'table' if table else 'motion'} that reaches {fastest:.3g} {way.unit}/s"
-        hint = f"angles in radians? {hint}" if way.turns and table else hint
+        got = f"a {'table' if table else 'motion'} that reaches {reached:.3g} {way.unit}/s"
         return None, [Fault("", key, f"speeds up to {limit:g} {way.unit}/s", got, hint)]
     low, high = motion.range()
-    if not (way.keeps(low) and way.keeps(high)):
-        return None, [way.fault(key, f"a motion from {low:g} to {high:g} m")]
+    # Other turns state their angles, which have ranges of their own.
+    if not (way.keeps(low) and way.keeps(high)) and (described.shape == "table" or not way.turns):
+        return None, [way.fault(key, f"a motion from {low:g} to {high:g} {way.unit}")]
     return found, []

@@ -6,23 +6,34 @@ from dataclasses import replace
 from math import cos, sin
 from typing import TYPE_CHECKING, Any
 
-from towercrane.faults import CaseError, Fault, shown
+import numpy as np
+
+from towercrane.csv_table import SHOWN_FAULTS, TIME, Column, read_table
+from towercrane.faults import CaseError, Fault
 from towercrane.plausibility import at, si_at
-from towercrane.profiles import SHOWN_FAULTS, numbers_of
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from numpy.typing import NDArray
+
     from towercrane.motion import Motion
+
+    Floats = NDArray[np.float64]
 
 CHANNELS = ("wind_x", "wind_y", "wind_z")
 """Names of the wind's motions, as in :data:`towercrane.cranes.wind.CHANNELS`."""
 
-COLUMNS = 4
-"""Time and three components."""
+AXES = {
+    axis: (axis, f"wind_{axis}", f"wind {axis}", f"v{axis}", speed) for axis, speed in zip("xyz", "uvw", strict=True)
+}
+"""Components, and the names that a header may give them."""
 
-UNEVEN = 1e-6
-"""Departure of a time from the uniform grid, relative to its step, that is more than rounding."""
+ROUNDING = 1e-12
+"""Relative; what numbers differ by that are the same."""
+
+MOST_DECIMALS = 10
+"""Decimal places from which on a time is taken as exact."""
 
 STRONGEST = 80.0
 """Largest plausible component of the wind [m/s]."""
@@ -49,43 +60,37 @@ def wind_motions(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], dict[
     return [], dict(steady([speed * cos(direction), speed * sin(direction), upward]))
 
 
-def read_gusts(path: Path) -> tuple[float, list[list[float]]]:
-    """Time step [s] and velocities [m/s] of a CSV file with one header line and four columns.
+def read_gusts(path: Path) -> tuple[Floats, Floats]:
+    """Times [s], shape (p,), and velocities [m/s], shape (p, 3), of a CSV file.
 
     Raises
     ------
     CaseError
-        If the file cannot be read, a line is not four numbers, or the times are not evenly spaced from 0.
+        If it is no such table, see :func:`towercrane.csv_table.read_table`, its times are not evenly spaced within
+        the decimals that they are given with, or a wind is too strong to be one.
     """
-    wanted = "a CSV file: one header line, then time [s] and wind along x, y and z [m/s] per line"
-    try:
-        lines = path.read_text("utf-8-sig").splitlines()
-    except (OSError, ValueError) as error:
-        got = "text that is not UTF-8" if isinstance(error, UnicodeDecodeError) else "no readable file"
-        raise CaseError([Fault(str(path), "", wanted, got, "the path is relative to the case file")]) from None
-    written = [(number, line) for number, line in enumerate(lines, start=1) if line.strip()]
+    table = read_table(path, (TIME, *(Column(axis, "m/s", words) for axis, words in AXES.items())))
     faults = []
-    if written and len(numbers_of(written[0][1])) == COLUMNS:
-        faults.append(Fault(str(path), f"line {written[0][0]}", "a header line", shown(written[0][1])))
-    rows: list[list[float]] = []
-    for number, line in written[1:]:
-        values = numbers_of(line)
-        if len(values) != COLUMNS or line.count(",") != COLUMNS - 1:
-            what, hint = "four finite numbers: time, x, y, z", "columns are parted by commas; numbers have no units"
-            faults.append(Fault(str(path), f"line {number}", what, shown(line), hint))
-            continue
-        step = rows[1][0] - rows[0][0] if len(rows) > 1 else None
-        due = 0.0 if not rows else None if step is None else len(rows) * step
-        late = values[0] <= rows[-1][0] if rows else False
-        if late or (due is not None and abs(values[0] - due) > UNEVEN * (step or 1.0)):
-            what = f"the time {due:g} s, evenly spaced from 0" if due is not None else "a time after the last"
-            faults.append(Fault(str(path), f"line {number}", what, f"{values[0]:g}"))
-        elif max(abs(value) for value in values[1:]) > STRONGEST:
-            what = f"components up to {STRONGEST:g} m/s"
-            faults.append(Fault(str(path), f"line {number}", what, shown(line), "km/h meant?"))
-        rows.append(values)
-    if not faults and len(rows) < 2:
-        faults.append(Fault(str(path), "", wanted, f"{len(rows)} lines of numbers", "two or more are needed"))
+    times = table.written[:, 0]
+    steps = np.diff(times)
+    # A gap or a slip does not change the usual step, and many steps tell it more finely than one.
+    usual = float(np.mean(steps[abs(steps - np.median(steps)) <= 0.1 * np.median(steps)]))
+    due = np.arange(len(times)) * times[-1] / max(round(times[-1] / usual), 1)
+    # Both the time itself and the last one, which sets the step, are rounded; after a gap all are late.
+    for row in np.flatnonzero(abs(times - due) > _last_place(times) + ROUNDING * times[-1])[:1].tolist():
+        faults.append(table.fault(row, f"the time {due[row]:g} s, evenly spaced from 0", f"{times[row]:g}"))
+    largest = np.max(abs(table.values[:, 1:]), axis=1)
+    for row in np.flatnonzero(largest > STRONGEST).tolist():
+        what, hint = f"components up to {STRONGEST:g} m/s", "x [km/h] meant? The header names the unit"
+        faults.append(table.fault(row, what, f"{largest[row]:g} m/s", hint))
     if faults:
         raise CaseError(faults[:SHOWN_FAULTS])
-    return rows[-1][0] / (len(rows) - 1), [row[1:] for row in rows]
+    return table.values[:, 0], table.values[:, 1:]
+
+
+def _last_place(numbers: Floats) -> float:
+    """Size of the last decimal place that any of the numbers has."""
+    for decimals in range(MOST_DECIMALS):
+        if np.all(abs(np.round(numbers, decimals) - numbers) <= ROUNDING * (1.0 + abs(numbers))):
+            return float(10.0**-decimals)
+    return 0.0

@@ -67,30 +67,33 @@ def steady(velocity: ArrayLike) -> dict[str, Motion]:
     return {channel: rest(float(value)) for channel, value in zip(CHANNELS, vector, strict=True)}
 
 
-def gusts(step: float, velocities: ArrayLike) -> dict[str, Motion]:
-    """Wind that varies linearly between values on a uniform grid; after the last it stays.
+def gusts(times: ArrayLike, velocities: ArrayLike) -> dict[str, Motion]:
+    """Wind that varies linearly between values; after the last it stays.
 
     The solver restarts at every knot, so no accuracy is lost there.
 
     Parameters
     ----------
-    step : float
-        Time between two values [s].
+    times : float, or array_like, shape (p,)
+        Time between two values, or the time of each, which increase from 0 [s].
     velocities : array_like, shape (p, 3)
         [m/s]
 
     Raises
     ------
     ValueError
-        If the step is not positive, or there are not two or more rows of three finite values.
+        If the times do not increase, or there are not two or more rows of three finite values.
     """
-    rows = np.asarray(velocities, dtype=float)
-    if not 0.0 < step < np.inf:
-        raise ValueError(f"step: wanted a positive time, got {step!r}")
+    rows, knots = np.asarray(velocities, dtype=float), np.asarray(times, dtype=float)
     if rows.ndim != 2 or rows.shape[1] != 3 or len(rows) < 2 or not np.all(np.isfinite(rows)):
         raise ValueError(f"velocities: wanted two or more rows of 3 finite components, got shape {rows.shape}")
-    times = np.arange(len(rows), dtype=np.float64) * step
-    slopes = np.diff(rows, axis=0) / step
+    if knots.ndim == 0:
+        if not 0.0 < knots < np.inf:
+            raise ValueError(f"step: wanted a positive time, got {times!r}")
+        knots = np.arange(len(rows), dtype=np.float64) * knots
+    if knots.shape != rows.shape[:1] or knots[0] != 0.0 or not np.all(np.diff(knots) > 0.0):
+        raise ValueError(f"times: wanted {len(rows)} that increase from 0, got shape {knots.shape}")
+    slopes = np.diff(rows, axis=0) / np.diff(knots)[:, None]
     return {
-        channel: Motion(times, np.stack([rows[:-1, k], slopes[:, k]], axis=1)) for k, channel in enumerate(CHANNELS)
+        channel: Motion(knots, np.stack([rows[:-1, k], slopes[:, k]], axis=1)) for k, channel in enumerate(CHANNELS)
     }
