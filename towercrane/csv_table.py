@@ -39,6 +39,9 @@ IN_BRACKETS = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))")
 
 COUNTS = {2: "two", 4: "four"}
 
+KINDS_IN_WORDS = {"s": "seconds", "m": "metres", "rad": "radians", "m/s": "metres per second"}
+"""SI units of columns in words."""
+
 
 @dataclass(frozen=True, slots=True)
 class Column:
@@ -118,7 +121,7 @@ def read_table(path: Path, columns: Sequence[Column]) -> CsvTable:
         raise CaseError([Fault(file, "", f"at most {MOST_ROWS} lines of numbers", got, hint)])
     found = _parsed([line for _, line in rows[1:]], len(columns))
     if found is None:
-        slips = [(number, _slip(line, len(columns))) for number, line in rows[1:]]
+        slips = [(number, _slip(line, columns)) for number, line in rows[1:]]
         if faults := [Fault(file, f"line {number}", each, *slip) for number, slip in slips if slip]:
             raise CaseError(faults[:SHOWN_FAULTS])
         found = np.array([_numbers(_cells(line)) for _, line in rows[1:]])
@@ -178,15 +181,16 @@ def _parsed(lines: list[str], columns: int) -> Floats | None:
     return found if found.shape[1] == columns and np.all(np.isfinite(found)) else None
 
 
-def _slip(line: str, columns: int) -> tuple[str, str] | None:
+def _slip(line: str, columns: Sequence[Column]) -> tuple[str, str] | None:
     """What a line has instead of numbers in so many columns, and why perhaps; None for one that is right."""
     cells = _cells(line)
     hint = "columns are parted by commas, decimals by points" if ";" in line or "\t" in line else ""
-    if len(cells) != columns:
-        hint = "the decimal sign is a point, not a comma" if len(cells) == 2 * columns else hint
+    if len(cells) != len(columns):
+        hint = "the decimal sign is a point, not a comma" if len(cells) == 2 * len(columns) else hint
         return f"{len(cells)} in this line", hint
     bad = next((k for k, cell in enumerate(cells, start=1) if not _numbers([cell])), 0)
-    hint = hint or "numbers stand without units, which the header names: time [s], or that are SI"
+    si = " and ".join(dict.fromkeys(KINDS_IN_WORDS[column.unit] for column in columns))
+    hint = hint or f"numbers stand without units, which the header names: time [s], or that are {si}"
     return (f"none in column {bad}", hint) if bad else None
 
 

@@ -222,8 +222,9 @@ def _motion(
         return None, [Fault("", key, f"a table that begins with rope.length, {begin:g} m", got)]
     reached, limit = max(abs(rate) for rate in motion.range(1)), way.fastest
     # Other motions state their speed, which has a range of its own.
+    units = "angles in radians" if way.turns else "metres"
     hints = {
-        "table": f"{'angles in radians' if way.turns else 'seconds and metres'}? The header names the units: time [s]",
+        "table": f"seconds and {units}? The header names the units: time [s]",
         "minimum-jerk": "a longer duration?",
     }
     if described.shape in hints and reached > limit:
