@@ -42,6 +42,12 @@ def test_states_are_named_and_minimal(kind):
     assert [signal.name for signal in linear.outputs] == ["sway_radial", "drive_torque"]
 
 
+def test_sways_along_fixed_axes_have_their_names():
+    for turning, sways in ((None, ("sway_x", "sway_y")), ("platform_angle", ("sway_outward", "sway_sideways"))):
+        linear = linearise(crane("basic"), STILL, turning=turning, outputs=[])
+        assert tuple(s.name for s in linear.states if "sway" in s.name and "rate" not in s.name) == sways
+
+
 def test_small_motion_of_the_full_model_has_the_linear_frequency():
     model = undamped("basic")
     linear = frequencies(linearise(model, STILL, outputs=[]))

@@ -35,9 +35,49 @@ def test_recording_is_written_as_its_data_set(name, tmp_path):
     xr.testing.assert_identical(short, labelled)
     assert list(short.variables) == list(long.variables)
     assert short["axis"].values.tolist() == ["outward", "sideways", "up"]
-    assert len(short.dims) > 2
-    for dimension in set(short.dims) - {"time", "axis", "joint"}:
+    assert short["fixed_axis"].values.tolist() == ["x", "y", "up"]
+    assert len(short.dims) > 3
+    for dimension in set(short.dims) - {"time", "axis", "fixed_axis", "joint"}:
         assert short[dimension].values.tolist() == list(range(1, short.sizes[dimension] + 1))
+
+
+def test_a_turned_crane_tells_its_load_in_fixed_axes_and_in_its_own(tmp_path):
+    # The trolley at 40 m of a jib that has turned by 90 degrees: 40 m along y, 40 m outward.
+    turned = record_case(load_case("qtz5613/manoeuvre", ["solver.rtol=1e-4"]))
+    path = tmp_path / "run.csv"
+    results.save_csv(turned, path)
+    lines = [line for line in path.read_text("utf-8").splitlines() if not line.startswith("#")]
+    row = dict(zip(lines[0].split(","), map(float, lines[-1].split(",")), strict=True))
+    places = {name: value for name, value in row.items() if name.startswith("payload")}
+    assert list(places) == [
+        *(f"payload_position {axis} [m]" for axis in ("x", "y", "up")),
+        *(f"payload_in_crane_axes {axis} [m]" for axis in ("outward", "sideways", "up")),
+    ]
+    assert abs(places["payload_position x [m]"]) < 10.0 < 30.0 < places["payload_position y [m]"]
+    assert abs(places["payload_in_crane_axes sideways [m]"]) < 10.0 < 30.0
+    assert 30.0 < places["payload_in_crane_axes outward [m]"] < 45.0
+    assert places["payload_in_crane_axes up [m]"] == places["payload_position up [m]"]
+    x, y = (places[f"payload_position {axis} [m]"] for axis in "xy")
+    heading = row["slewing_angle [rad]"] + row["tower_tip_twist [rad]"]
+    assert_allclose(places["payload_in_crane_axes outward [m]"], x * np.cos(heading) + y * np.sin(heading), rtol=1e-9)
+    assert_allclose(
+        places["payload_in_crane_axes sideways [m]"], y * np.cos(heading) - x * np.sin(heading), atol=1e-8
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "angle"), [("slewing/multi-mass/example-1", "jib_angle"), ("jib-crane/combined", "joint_angle")]
+)
+def test_every_crane_that_turns_tells_its_load_in_both_axes(name, angle):
+    recording = record_case(load_case(name, ["run.duration=30 s", "solver.rtol=1e-4"]))
+    heading = recording[angle].values.reshape(len(recording.times), -1)[:, 0]
+    fixed, own = recording["payload_position"], recording["payload_in_crane_axes"]
+    assert (fixed.dims, own.dims) == (("time", "fixed_axis"), ("time", "axis"))
+    assert abs(heading[-1]) > 0.01
+    turned = np.exp(-1j * heading) * (fixed.values[:, 0] + 1j * fixed.values[:, 1])
+    assert_allclose(own.values, np.stack([turned.real, turned.imag, fixed.values[:, 2]], axis=1), atol=1e-9)
+    assert "x, y, up" in fixed.long_name
+    assert "turn with the crane" in own.long_name
 
 
 def test_recording_reads_like_its_data_set(recording, result):

@@ -24,7 +24,11 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Turning = tuple[Literal["coordinate", "channel"], int]
 
-SWAY = ("sway_outward", "sway_sideways")
+SWAY, FIXED_SWAY = ("sway_outward", "sway_sideways"), ("sway_x", "sway_y")
+"""Names of the sways in axes that turn with the crane, or of one that does not turn, and in fixed ones."""
+
+TURNING = ("platform_angle", "slewing_angle", "slewing", "slew")
+"""Coordinates and channels that are the angle of a crane's jib about the vertical."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +81,8 @@ class Chart:
         n = (model.system.size - 1) // 2 - axes
         named: dict[str, str] = dict(getattr(model, "state_names", {f"coordinate_{i + 1}": "" for i in range(n)}))
         if len(named) == n:
-            named |= dict.fromkeys(SWAY[: axes - 1], "rad")
+            turns = turning is None and any(name in TURNING for name in (*named, *model.channels))
+            named |= dict.fromkeys((FIXED_SWAY if turns else SWAY)[: axes - 1], "rad")
         if len(named) != n + axes - 1:
             raise ValueError(f"state_names: wanted {n} coordinates, with sways {n + axes - 1}, got {len(named)}")
         angle = None if turning is None else _find(turning, list(named)[:n], model.channels, axes)

@@ -6,15 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.chart import TURNING
 from towercrane.models import model_of
 
 if TYPE_CHECKING:
     from towercrane.case import Case
     from towercrane.statespace import StateSpace
-
-
-TURNING = ("platform_angle", "slewing_angle", "slewing", "slew")
-"""Coordinates and channels that are the angle of a crane's jib about the vertical."""
 
 
 def linear_model(case: Case, at: float) -> StateSpace:

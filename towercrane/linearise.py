@@ -61,7 +61,7 @@ def linearise(
     turning : str, optional
         Coordinate or channel that is an angle about the vertical: direction of the rope and its rate are then seen
         from a frame that turns with it, "outward" along its first axis, so a steady rotation is an equilibrium (but
-        for the angles themselves). Without it, outward is the fixed first axis.
+        for the angles themselves). Without it sways are along fixed axes, of a crane that turns called x and y.
 
     Returns
     -------

@@ -14,8 +14,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-LABELS: dict[str, list[Any]] = {"axis": ["outward", "sideways", "up"], "joint": ["slew", "luff", "fold"]}
-"""Entries of dimensions that have names."""
+LABELS: dict[str, list[Any]] = {
+    "axis": ["outward", "sideways", "up"],
+    "fixed_axis": ["x", "y", "up"],
+    "joint": ["slew", "luff", "fold"],
+}
+"""Entries of dimensions that have names: the crane's own axes, which turn with its jib; fixed ones, of which x is
+where the jib points at an angle of zero and y is to its left; and joints."""
 
 
 def labels(dimension: str, size: int) -> list[Any]:
@@ -45,6 +50,28 @@ class Quantity:
     def attrs(self) -> dict[str, str]:
         """Units and name, as a data set has them."""
         return {"units": self.units, "long_name": self.long_name}
+
+
+def load_places(place: NDArray[np.float64], heading: NDArray[np.float64], origin: str) -> dict[str, Quantity]:
+    """Place of a load in fixed axes and in those that turn with its crane.
+
+    Parameters
+    ----------
+    place : ndarray, shape (times, 3)
+        In fixed axes, from the axis that the crane turns about [m].
+    heading : ndarray, shape (times,)
+        Angle of the jib's root, or of the booms, from the x axis [rad].
+    origin : str
+        What the place counts from.
+    """
+    c, s, turned = np.cos(heading), np.sin(heading), place.copy()
+    turned[:, 0], turned[:, 1] = c * place[:, 0] + s * place[:, 1], c * place[:, 1] - s * place[:, 0]
+    fixed = f"load from {origin} in fixed axes: x, y, up"
+    own = f"load from {origin} in axes that turn with the crane: outward along its jib, sideways, up"
+    return {
+        "payload_position": Quantity(("time", "fixed_axis"), place, "m", fixed),
+        "payload_in_crane_axes": Quantity(("time", "axis"), turned, "m", own),
+    }
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.flexible_energy import total_energy
 from towercrane.cranes.flexible_motion import FlexibleMotion
 from towercrane.cranes.flexible_sections import SectionLoads
-from towercrane.recording import Quantity
+from towercrane.recording import Quantity, load_places
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -53,9 +53,7 @@ def observe(
             ),
         }.items()
     }
-    outputs["payload_position"] = Quantity(
-        ("time", "axis"), motion.load_in_space[0], "m", "load from the undeformed tower top in fixed axes: x, y, up"
-    )
+    outputs |= load_places(motion.load_in_space[0], motion.heading, "the undeformed tower top")
     for kind, part in model.parts.items():
         if model.counts[kind] and kind != "slewing":
             outputs[f"{kind}_coordinate"] = Quantity(

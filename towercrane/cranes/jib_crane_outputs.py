@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import jib_crane_kernel as kernel
-from towercrane.recording import Quantity
+from towercrane.recording import Quantity, load_places
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -134,12 +134,7 @@ def observe(
             ("time", "joint"), torque, "N m", "torque of each joint's drive; at a jump the right limit"
         ),
         "rope_tension": Quantity(("time",), guards[:, kernel.TENSION], "N", "rope tension"),
-        "payload_position": Quantity(
-            ("time", "axis"),
-            place,
-            "m",
-            "load from the post's foot: along the booms at zero slew, sideways, up",
-        ),
+        **load_places(place, rows.angles[:, 0], "the post's foot"),
         "total_energy": Quantity(
             ("time",), energies, "J", "kinetic and potential energy, zero level at the post's foot"
         ),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes import lumped_kernel as kernel
-from towercrane.recording import Quantity
+from towercrane.recording import Quantity, load_places
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -75,9 +75,7 @@ def observe(
         unit = "rad" if name in crane.angles else "m"
         outputs[name] = over_time(q[:, i], unit, f"coordinate: {name.replace('_', ' ')}")
     outputs |= {
-        "payload_position": Quantity(
-            ("time", "axis"), hung + stretched[:, None] * direction, "m", "load from the slewing axis: x, y, up"
-        ),
+        **load_places(hung + stretched[:, None] * direction, heading, "the slewing axis"),
         "total_energy": over_time(total_energy(model, motions, times, states), "J", "kinetic and potential energy"),
         "input_work": over_time(
             states[:, -1], "J", "work of shaft and winch less what dampers, friction and drag took, since the start"

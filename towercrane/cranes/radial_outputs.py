@@ -68,7 +68,7 @@ def observe(
             ("time", "axis"),
             motion.load_in_space[0],
             "m",
-            "load from the undeformed tower top: outward, sideways, up",
+            "load from the undeformed tower top: outward along the jib, which does not turn, sideways, up",
         ),
         "total_energy": over_time(total_energy(motion), "J", "kinetic and potential energy"),
         "input_work": over_time(
