@@ -130,7 +130,7 @@ def test_verification_compares_with_a_richer_model(capsys):
         assert 0.02 * output["estimated"] < output["actual"] < output["estimated"]
     verification_tables(report)
     assert "Run beside a richer model" in capsys.readouterr().out
-    assert finer(Setting(5, 12)).jib_modes == 14
+    assert (finer(Setting(8, 14)).tower_modes, finer(Setting(8, 14)).jib_modes) == (10, 18)
 
 
 @pytest.mark.parametrize("name", ["towers/laced", "towers/tapered", OPEN])

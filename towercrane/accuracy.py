@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic
 import numpy as np
 
 from towercrane.indicators import drift, vibration
-from towercrane.nodes import OUTPUTS, RICHEST, SWING, TENSION, nodes_of
+from towercrane.nodes import BEYOND, OUTPUTS, RICHEST, SWING, TENSION, nodes_of
 from towercrane.scene import AnySetting, Setting
 from towercrane.system import NoEquilibrium
 
@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 SAFETY = np.array([3.2, 3.2, 3.2, 3.2])
 """Factor on what the indicators expect of vibration, per output: what the drawn scenes of the benchmark needed."""
+
+LAST = 4
+"""Tower modes of the richest model whose effect stands for that of all beyond it."""
 
 STATIC_SAFETY = 1.1
 """Factor on the static part, which is all but exact."""
@@ -48,13 +51,13 @@ LOOSEST, TIGHTEST = 2e-3, 1e-9
 SMALLEST_PEAK = 1e-4
 """Peaks below this [m, rad or N] count as this."""
 
-WIDE = 0.5
-"""Swing beyond which small motions say little [rad]."""
+WIDE, LEANING = 0.5, 0.1
+"""Swing [rad], and deflections of tower and jib over their lengths, beyond which small motions say little."""
 
 GROWTH = 0.3
 """Exponent of a parametric resonance's growth over a run, beyond which nothing is promised."""
 
-MODES = ((0, 0), (1, 0), (0, 1), (1, 1), (1, 2), (2, 2), (2, 3), (2, 4), (3, 4), (3, 6), (4, 8), (5, 11))
+MODES = ((0, 0), (1, 0), (0, 1), (1, 1), (1, 2), (2, 2), (2, 3), (2, 4), (3, 4), (3, 6), (4, 8), (5, 11), (8, 11))
 """Numbers of tower and jib modes that are tried."""
 
 CAPS = (1.0, 2.0, 5.0, 12.0)
@@ -114,11 +117,21 @@ class Choice(Generic[AnySetting]):
 
 
 class Indicators:
-    """Estimates for settings of one scene."""
+    """Estimates for settings of one scene.
 
-    def __init__(self, scene: RadialScene) -> None:
-        self.scene, self.nodes = scene, nodes_of(scene)
+    Parameters
+    ----------
+    scene : RadialScene
+    tower_modes, jib_modes : int
+        Most that a setting will have; the richest model always has more.
+    """
+
+    def __init__(self, scene: RadialScene, tower_modes: int = 0, jib_modes: int = 0) -> None:
+        most = (max(RICHEST.tower_modes, tower_modes + BEYOND[0]), max(RICHEST.jib_modes, jib_modes + BEYOND[1]))
+        self.scene, self.richest = scene, Setting(*most)
+        self.nodes = nodes_of(scene, self.richest)
         self._rich: dict[bool, Vibration] = {}
+        self._lacking: dict[bool, Floats] = {}
         self._last: tuple[tuple[object, ...], Vibration, Floats] | None = None
 
     def rich(self, weight_softening: bool) -> Vibration:
@@ -131,12 +144,25 @@ class Indicators:
         """
         if weight_softening not in self._rich:
             try:
-                found = vibration(self.nodes, replace(RICHEST, weight_softening=weight_softening))
+                found = vibration(self.nodes, replace(self.richest, weight_softening=weight_softening))
             except np.linalg.LinAlgError:
-                message = self.scene.model(RICHEST).scene.buckling_message()
+                message = self.scene.model(self.richest).scene.buckling_message()
                 raise NoEquilibrium("tower buckled", message) from None
             self._rich[weight_softening] = found
         return self._rich[weight_softening]
+
+    def lacking(self, weight_softening: bool) -> Floats:
+        """What the richest model itself may lack: as much as its last tower modes bring; shape (outputs,).
+
+        Tower modes converge slowly where shear and the ground yield: their flexibility falls with the count alone.
+        """
+        if weight_softening not in self._lacking:
+            less = replace(
+                self.richest, tower_modes=self.richest.tower_modes - LAST, weight_softening=weight_softening
+            )
+            change = drift(self.rich(weight_softening), vibration(self.nodes, less))
+            self._lacking[weight_softening] = np.asarray(sum(change))
+        return self._lacking[weight_softening]
 
     def truncation(self, setting: Setting) -> Floats:
         """Largest error of every output by what the model leaves out, with its safety; shape (outputs,)."""
@@ -152,8 +178,10 @@ class Indicators:
         if self._last is None or self._last[0] != key:
             rich, poor = self.rich(setting.weight_softening), vibration(self.nodes, setting)
             static, ringing = drift(rich, poor)
-            lost = SAFETY * ringing + STATIC_SAFETY * static
+            lost = SAFETY * ringing + STATIC_SAFETY * static + self.lacking(setting.weight_softening)
             swing = rich.peaks[SWING]
+            # A pendulum is slower by a sixteenth of its squared swing: an error in that becomes one in its phase.
+            lost[SWING] *= 1.0 + 0.125 * swing**2 * rich.phase[-1, rich.pendulum]
             # The rope's force follows the square of the swing.
             lost[TENSION] += 3.0 * self.scene.load.mass * self.scene.crane.gravity * swing * lost[SWING]
             self._last = key, poor, lost
@@ -196,9 +224,15 @@ class Indicators:
         swing, found = rich.peaks[SWING], []
         if swing > WIDE:
             found.append(f"the load swings {swing:.2g} rad: small motions say little about it")
-        weight = self.scene.load.mass * self.scene.crane.gravity
+        crane = self.scene.crane
+        for part, length, deflection in zip(
+            ("tower", "jib"), (crane.tower.length, crane.jib.length), rich.peaks, strict=False
+        ):
+            if deflection > LEANING * length:
+                found.append(f"the {part} bends by {deflection / length:.0%} of its length: small motions say little")
+        weight = self.scene.load.mass * crane.gravity
         pumping = abs(rich.ringing(np.arange(len(self.nodes.times)))[:, TENSION]).sum(axis=2) / weight + swing**2
-        pendulum = abs(rich.shapes[0, -1]).argmax()
+        pendulum = rich.pendulum
         own = rich.frequencies[:, [pendulum]]
         # Mathieu's equation: a point that shakes at nearly twice the swing's frequency makes it grow.
         off = abs(rich.frequencies / (2.0 * own) - 1.0)
@@ -237,7 +271,7 @@ def choose(
     if not targets or not set(targets) <= set(OUTPUTS):
         raise ValueError(f"targets: wanted some of {', '.join(OUTPUTS)}, got {', '.join(targets) or 'none'}")
     began, stated = time.process_time(), dict(stated or {})
-    indicators = Indicators(scene)
+    indicators = Indicators(scene, stated.get("tower_modes", 0), stated.get("jib_modes", 0))
     softening = stated.get("weight_softening", True)
     peaks = np.maximum(indicators.rich(softening).peaks, SMALLEST_PEAK)
     allowed = limits(OUTPUTS, targets, peaks)
@@ -285,7 +319,7 @@ def _solver(
 def candidates(indicators: Indicators, outputs: set[str], stated: dict[str, Any]) -> list[Setting]:
     """Models to be tried, the cheapest first."""
     own = indicators.nodes.frequencies / (2.0 * np.pi)
-    tower, jib = own[: RICHEST.tower_modes], own[RICHEST.tower_modes : -1]
+    tower, jib = np.split(own[:-1], [indicators.richest.tower_modes])
     free = max(tower[1], jib[1])
     found: dict[Setting, float] = {}
     for a, b in MODES:
@@ -310,11 +344,10 @@ def _left_out(indicators: Indicators, setting: Setting) -> list[str]:
     """What a setting has not that the richest model has, and why not, in sentences."""
     rigid = [part for part, count in (("tower", setting.tower_modes), ("jib", setting.jib_modes)) if not count]
     found = [f"bending of the {part}: what is asked for hardly feels it" for part in rigid]
-    if setting.tower_modes < RICHEST.tower_modes or setting.jib_modes < RICHEST.jib_modes:
-        found.append(
-            f"modes beyond {setting.tower_modes} of the tower and {setting.jib_modes} of the jib: "
-            "their flexibility and ringing are in the estimate"
-        )
+    found.append(
+        f"modes beyond {setting.tower_modes} of the tower and {setting.jib_modes} of the jib: "
+        "their flexibility and ringing are in the estimate"
+    )
     if np.isfinite(setting.cap):
         found.append(f"vibration above {setting.cap:.3g} Hz: faster modes are slowed to it and keep their stiffness")
     found.append("motion out of the jib's plane: nothing drives the load out of it")

@@ -2,13 +2,15 @@
 
 Slewing couples what the small motions of a crane at rest keep apart, and wind and a drive may do anything. So here
 the crane is run in one mode of each kind, and again with one mode more or none of a single kind. The errors of the
-kinds add up, but for products of them: a setting is chosen from single rungs, and not run in all combinations.
+kinds add up, but for products of them: a setting is chosen from single rungs, and not run in all combinations. What
+the products matter, a run with one more mode of every kind than the chosen tells.
 """
 
 from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -164,13 +166,22 @@ def measured_choice(
             ladders = Ladders(scene, ladders.base.tightened(TIGHTER))
     setting = ladders.base.with_counts(counts)
     setting, result, stepping = _solved(ladders, setting, allowed, stated, progress)
+    together = _together(ladders, setting, kinds)
+    while excess <= 1.0 < _excess(together, MODELLED * allowed):
+        higher = [kind for kind in free if getattr(setting, kind) < MOST[kind]]
+        if not higher:
+            break
+        setting = _raised(setting, [max(higher, key=partial(_lost, ladders, setting, allowed))])
+        setting, result, stepping = _solved(ladders, setting, allowed, stated, progress)
+        together = _together(ladders, setting, kinds)
+    truncation = np.maximum(truncation, together)
     peaks = np.maximum([peak(result, name) for name in scene.outputs], SMALLEST_PEAK)
     estimate = Estimate(truncation, stepping / peaks)
     tried += len(ladders.runs)
     excess = _excess(estimate.errors(peaks), limits(scene.outputs, targets, peaks))
     doubts = [f"a model beside it ends early: {outcome}" for outcome in ladders.ended_early()]
     spent = time.process_time() - began - result.attrs["solver_cpu_seconds"]
-    left_out = tuple(_left_out(ladders, kinds, free, counts, np.isfinite(allowed)))
+    left_out = tuple(_left_out(ladders, kinds, free, setting.counts, np.isfinite(allowed)))
     choice = Choice(
         setting, estimate, peaks, excess <= 1.0, tuple(doubts), tried, spent, left_out
     )  # fmt: skip
@@ -220,6 +231,21 @@ def _counts(
         if _excess(sum(lost().values()), MODELLED * allowed) > 1.0:
             counts[kind] = kept
     return counts, np.asarray(sum(lost().values()))
+
+
+def _raised(setting: SpaceSetting, kinds: list[str]) -> SpaceSetting:
+    """The setting with one mode more of some kinds."""
+    return setting.with_counts({kind: getattr(setting, kind) + 1 for kind in kinds})
+
+
+def _together(ladders: Ladders, setting: SpaceSetting, kinds: list[str]) -> Floats:
+    """What all modes beyond a setting would change: more together than kind by kind, maybe; shape (outputs,)."""
+    return REST * ladders.apart(setting, _raised(setting, kinds))
+
+
+def _lost(ladders: Ladders, setting: SpaceSetting, allowed: Floats, kind: str) -> float:
+    """What one mode more of a kind changes beside all others, over what is allowed."""
+    return _excess(ladders.apart(setting, _raised(setting, [kind])), allowed)
 
 
 def _solved(

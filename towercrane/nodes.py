@@ -17,12 +17,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cranes.flexible import FlexibleModel
+    from towercrane.motion import Phases
     from towercrane.scene import RadialScene
 
     Floats = NDArray[np.float64]
 
-RICHEST = Setting(6, 14)
-"""What coarser models are compared with."""
+RICHEST = Setting(10, 14)
+"""What coarser models are compared with: a short tower that is soft in shear on soft ground wants many modes."""
+
+BEYOND = (2, 4)
+"""Tower and jib modes that the richest model has more than a model whose numbers of modes are stated."""
 
 OUTPUTS = tuple(RADIAL)
 """Outputs whose error is estimated, in the order of all arrays here."""
@@ -43,12 +47,14 @@ class Nodes:
     Parameters
     ----------
     scene : RadialScene
+    richest : Setting
+        Its numbers of modes.
+    motions : Phases
+        Of trolley and rope.
     times : ndarray, shape (N,)
         [s]
     place : ndarray of int, shape (N,)
         Which of the places each node is at.
-    steady : ndarray of bool, shape (N,)
-        Whether the drives' accelerations are constant from the node on.
     mass, rise : ndarray, shapes (P, n, n) and (P, n)
         Mass matrix; vertical motion of the point that the load hangs from.
     stiffness, softening : ndarray, shape (n, n)
@@ -57,8 +63,12 @@ class Nodes:
         Stiffness of the load's sway [N/m].
     weight : ndarray, shape (P, n)
         Generalised force of all weights.
-    drive : ndarray, shape (N, n)
-        Generalised force of the drives' accelerations.
+    drives : ndarray, shape (N, 2)
+        Accelerations of trolley and rope [m/s^2].
+    push : ndarray, shape (P, 2, n)
+        Generalised force over each of them.
+    moved : ndarray, shape (P, n)
+        Generalised force over the trolley's way.
     readings : ndarray, shape (P, outputs, n)
         Outputs per coordinate; the tension's per acceleration.
     events : ndarray of int, shape (E,)
@@ -70,16 +80,19 @@ class Nodes:
     """
 
     scene: RadialScene
+    richest: Setting
+    motions: Phases
     times: Floats
     place: NDArray[np.int64]
-    steady: NDArray[np.bool_]
     mass: Floats
     rise: Floats
     stiffness: Floats
     softening: Floats
     pendulum: Floats
     weight: Floats
-    drive: Floats
+    drives: Floats
+    push: Floats
+    moved: Floats
     readings: Floats
     events: NDArray[np.int64]
     jumps: Floats
@@ -93,13 +106,27 @@ class Nodes:
             return np.arange(len(self.times))
         return np.append(self.events, len(self.times) - 1)
 
+    def derivatives(self, times: Floats) -> Floats:
+        """Trolley's way, rope's length and all their derivatives and two more; shape (times, 2, orders)."""
+        cut = self.motions
+        phase = np.clip(np.searchsorted(cut.times, times, side="right") - 1, 0, len(cut.inputs) - 1)
+        return _derivatives(cut.inputs[phase], (times - cut.times[phase])[:, None])[:, 0]
 
-def nodes_of(scene: RadialScene) -> Nodes:
-    """Nodes at the switch points of a scene's motions and between them."""
-    times, states, events, changes = _instants(scene)
+
+def nodes_of(scene: RadialScene, richest: Setting = RICHEST) -> Nodes:
+    """Nodes at the switch points of a scene's motions and between them.
+
+    Parameters
+    ----------
+    scene : RadialScene
+    richest : Setting, optional
+        With the numbers of modes that coarser models are compared with.
+    """
+    cut = phases((scene.motions["trolley"], scene.motions["rope"]), scene.duration)
+    times, states, events, changes = _instants(scene, cut)
     visited, place = np.unique(states[:, :, 0].round(12), axis=0, return_inverse=True)
-    trolley, rope = visited.T
-    model = scene.model(RICHEST).scene
+    trolley, rope, place = *visited.T, place.ravel()
+    model = scene.model(richest).scene
     crane, load = model.crane, scene.load.mass
     a, n = crane.tower.count, model.coordinates + 1
     tip, slope, hung = crane.tower(crane.tower_height), crane.top_slope, load + crane.trolley_mass
@@ -128,26 +155,29 @@ def nodes_of(scene: RadialScene) -> Nodes:
     # A trolley that is sped up pushes along the jib as it hangs, and takes its weight along.
     hanging = np.linalg.solve(stiffness[:-1, :-1], weight[place[0], :-1])
     along = -hung * (out + (steep[:, :-1] @ hanging)[:, None] * rise) - load * sway
-    force = np.stack([along[place], load * rise[place]], axis=1)
-    moved = -crane.gravity * hung * steep[place]
-    jumps = np.einsum("eco,ecn->eon", changes[:, :, 2:], force[events])
-    jumps[:, 2:] += np.einsum("eo,en->eon", changes[:, 0, 2:-2], moved[events])
+    push = np.stack([along, load * rise], axis=1)
+    moved = -crane.gravity * hung * steep
+    jumps = np.einsum("eco,ecn->eon", changes[:, :, 2:], push[place[events]])
+    jumps[:, 2:] += np.einsum("eo,en->eon", changes[:, 0, 2:-2], moved[place[events]])
     # A load that is let go from a swing pulls less than its weight.
     jumps[0, 0] += load * crane.gravity * np.sin(scene.swing_angle) ** 2 * rise[place[0]]
     ratios = np.repeat([scene.tower_damping_ratio, scene.jib_damping_ratio], [a, n - 1 - a])
     frequencies = np.append(model.angular_frequencies, 0.0)
     return Nodes(
         scene,
+        richest,
+        cut,
         times,
-        place.ravel(),
-        ~np.any(states[:, :, 3:], axis=(1, 2)),
+        place,
         mass,
         rise,
         stiffness,
         softening,
         load * crane.gravity / rope,
         weight,
-        np.einsum("ic,icn->in", states[:, :, 2], force),
+        states[:, :, 2],
+        push,
+        moved,
         reading,
         events,
         jumps,
@@ -156,9 +186,8 @@ def nodes_of(scene: RadialScene) -> Nodes:
     )
 
 
-def _instants(scene: RadialScene) -> tuple[Floats, Floats, NDArray[np.int64], Floats]:
+def _instants(scene: RadialScene, cut: Phases) -> tuple[Floats, Floats, NDArray[np.int64], Floats]:
     """Times of the nodes, derivatives of the drives there, which nodes are switch points, jumps at these."""
-    cut = phases((scene.motions["trolley"], scene.motions["rope"]), scene.duration)
     since = np.diff(cut.times)[:, None] * (0.0, *INSIDE, 1.0)
     states = _derivatives(cut.inputs, since)
     damped = scene.tower_damping_ratio > 0.0 or scene.jib_damping_ratio > 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from towercrane.accuracy import Choice, Estimate, Indicators, choose, limits
 from towercrane.integrate import FINISHED, INTERRUPTED
-from towercrane.nodes import RICHEST
+from towercrane.nodes import BEYOND
 from towercrane.readings import RADIAL, SPACE, Tolerance, gap, peak, picked_in
 from towercrane.scene import Setting, provenance, scene_of, setting_of
 
@@ -24,6 +25,11 @@ if TYPE_CHECKING:
 KEPT = "promised"
 OUT_OF_REACH = "out of reach"
 CANNOT_BE_PROMISED = "cannot be promised"
+VERIFIED = "verified"
+BROKEN = "promise broken"
+
+AS_ASKED = (KEPT, VERIFIED)
+"""Outcomes of a run with the error that was asked for."""
 
 FINER, FINE = 1e-2, 1e-8
 """Rtol of the run that verifies: over that of the run, and at most; fast modes that only it has need the latter."""
@@ -81,9 +87,9 @@ def promise(case: Case, choice: Choice[Any], result: Recording) -> dict[str, Any
     Returns
     -------
     dict
-        ``outcome`` ("promised", "out of reach", "cannot be promised"), ``reasons`` of it, ``outputs`` (by output:
-        ``allowed``, ``estimated``, ``peak`` in ``units``), ``setting``, ``stated``, ``left_out`` in sentences,
-        ``tried``, ``choice_cpu_seconds``.
+        ``outcome`` ("promised", "out of reach", "cannot be promised"; later that of :func:`settle`), ``reasons`` of
+        it, ``outputs`` (by output: ``allowed``, ``estimated``, ``peak`` in ``units``), ``setting``, ``stated``,
+        ``left_out`` in sentences, ``tried``, ``choice_cpu_seconds``.
     """
     targets = case.accuracy.targets
     estimated, allowed, peaks = _figures(outputs_of(case), choice.estimate, targets, result)
@@ -123,8 +129,8 @@ def finer(setting: Setting) -> Setting:
     """The next richer model with a tighter tolerance."""
     return replace(
         setting,
-        tower_modes=min(setting.tower_modes + 2, RICHEST.tower_modes),
-        jib_modes=min(setting.jib_modes + 4, RICHEST.jib_modes),
+        tower_modes=setting.tower_modes + BEYOND[0],
+        jib_modes=setting.jib_modes + BEYOND[1],
         cap=np.inf,
         rtol=max(_fine(setting.rtol) * setting.rtol, 1e-12),
         atol=max(_fine(setting.rtol) * setting.atol, 1e-14),
@@ -178,6 +184,39 @@ def verification(case: Case, result: Recording) -> dict[str, Any]:
     }
 
 
+def settle(result: Recording, report: dict[str, Any]) -> None:
+    """Let what a verification found be the outcome of a run's promise; nothing for a run that promises nothing.
+
+    Parameters
+    ----------
+    result : Recording
+        Of a run that finished.
+    report : dict
+        From :func:`verification`.
+    """
+    if "accuracy" not in result.attrs:
+        return
+    promised = json.loads(result.attrs["accuracy"])
+    reasons = [
+        f"{name.replace('_', ' ')}: {report['outputs'][name]['actual']:.2g} {asked['units']} found beside a richer "
+        f"model, {asked['allowed']:.2g} wanted"
+        for name, asked in promised["outputs"].items()
+        if not report["outputs"][name]["actual"] <= asked["allowed"]
+    ]
+    outcome = promised["outcome"]
+    if reasons:
+        outcome = BROKEN if outcome == KEPT else outcome
+        reasons = [*promised["reasons"], *reasons]
+    elif report["outcome"] != FINISHED:
+        outcome = CANNOT_BE_PROMISED
+        reasons = [*promised["reasons"], f"a richer model ended early: {report['outcome']}"]
+    elif outcome == OUT_OF_REACH:
+        outcome = VERIFIED
+    else:
+        reasons = promised["reasons"]
+    result.attrs["accuracy"] = json.dumps({**promised, "outcome": outcome, "reasons": reasons})
+
+
 Verified = tuple[Any, Any, Estimate, tuple[str, ...], "Recording"]
 """Setting of a run and a finer one, estimate of the first and doubts of it, run of the second."""
 
@@ -185,7 +224,7 @@ Verified = tuple[Any, Any, Estimate, tuple[str, ...], "Recording"]
 def _in_plane(case: Case, result: Recording) -> Verified:
     scene, picked = scene_of(case), picked_in(result)
     setting = Setting(**{**picked, "cap": picked["cap"] or np.inf}) if picked else setting_of(case)
-    indicators, better = Indicators(scene), finer(setting)
+    indicators, better = Indicators(scene, setting.tower_modes, setting.jib_modes), finer(setting)
     return (
         setting,
         better,
