@@ -9,8 +9,11 @@ import pytest
 from qtz5613 import model, motions
 
 from towercrane import load_case
+from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.frequency_cap import added_mass
 from towercrane.cranes.radial import RadialModel
+from towercrane.linearise import linearise
+from towercrane.motion import rest
 from towercrane.simulate import simulate
 from towercrane.towers import as_chain
 
@@ -60,6 +63,20 @@ def test_a_capped_crane_keeps_its_energy(tower):
     energy, work = run["total_energy"].values, run["input_work"].values
     assert run.attrs["outcome"] == "finished"
     assert abs(energy - energy[0] - work).max() < 1e-8 * np.ptp(energy)
+
+
+@pytest.mark.parametrize("cap", [np.inf, CAP])
+def test_every_mode_is_damped_as_stated_whether_a_cap_slows_it_or_not(cap):
+    # Little on the jib and rope: the modes are those of the members.
+    tower, jib = 0.02, 0.03
+    crane = model(4, 6, load=1e-6, cap=cap, tower_damping_ratio=tower, jib_damping_ratio=jib).scene
+    mass = 1.0 + crane.added_mass
+    ratios = crane.system.vectors[layout.DAMPING] / (2.0 * np.sqrt(mass) * crane.angular_frequencies)
+    np.testing.assert_allclose(ratios, np.repeat([tower, jib], [4, 6]), rtol=1e-14)
+    # And so the solver has it: of the fastest, most of whose energy is one mode's, by its eigenvalue.
+    linear = linearise(crane, {"trolley": rest(0.0), "rope": rest(10.0)}, outputs=[])
+    fastest = max(linear.eigenvalues(), key=lambda e: e.frequency)
+    assert min(tower, jib) < fastest.damping_ratio < 1.3 * max(tower, jib)
 
 
 def test_bad_cap():

@@ -7,12 +7,12 @@ from jib_cranes import HEAVY, LOAD, PRINTED, peak, planned, printed_plan, smooth
 from numpy.testing import assert_allclose
 from scipy.optimize import least_squares
 
-from towercrane.cranes.jib_crane import DrivenJibCrane
+from towercrane.cranes.jib_crane import TORQUES, DrivenJibCrane
 from towercrane.cranes.jib_crane_linear import growth_rates, static_matrices, static_torques
 from towercrane.cranes.jib_crane_tracking import TrackingJibCrane
 from towercrane.directions import restore_rows
 from towercrane.integrate import integrate
-from towercrane.motion import phases, rest, trapezoid
+from towercrane.motion import Motion, phases, rest, trapezoid
 from towercrane.payload import Load
 from towercrane.simulate import simulate
 
@@ -158,6 +158,41 @@ def test_free_booms_keep_energy_and_momentum_about_the_post():
     result = simulate(model, idle, 3.0, swing_angle=0.3, rtol=1e-13, atol=1e-15)
     energy = result["total_energy"].values
     assert np.ptp(energy) < 1e-12 * peak(energy)
+
+
+def test_every_joint_gets_its_own_torque():
+    times, shares = np.array([0.0, 2.0]), np.array([1.0, 0.02, -0.003])
+    torques = {
+        name: Motion(times, size * shares[None]) for name, size in zip(TORQUES, (3e4, 1.7e6, 5e5), strict=False)
+    }
+    model = DrivenJibCrane(HEAVY, LOAD, (0.3, 0.6, -0.2))
+    result = simulate(model, torques | {"rope": rest(20.0)}, 2.0, output_step=0.25)
+    wanted = np.stack([torque(result.time.values) for torque in torques.values()], axis=1)
+    assert_allclose(result["joint_torque"], wanted, rtol=1e-14)
+    # And each moves its own joint: at the start by the masses alone.
+    start = model.start(np.zeros((4, 3)))
+    inputs = phases((*torques.values(), rest(20.0)), 1.0).inputs[0]
+    bare = inputs.copy()
+    bare[:3] = 0.0
+    slopes = [model.system.slope(0.0, start, row)[0] for row in (inputs, bare)]
+    mass, _ = static_matrices(HEAVY, LOAD, 0.6, -0.2, 20.0)
+    condensed = mass[:3, :3] - mass[:3, 3:] @ np.linalg.solve(mass[3:, 3:], mass[3:, :3])
+    rates = slice(6, 9)
+    assert_allclose(condensed @ (slopes[0] - slopes[1])[rates], inputs[:3, 0], rtol=1e-9)
+
+
+@pytest.mark.parametrize("swing_angle", [0.0, 0.4])
+def test_energy_at_rest_counts_from_the_foot_of_the_post(swing_angle):
+    luff, fold, rope = 0.6, -0.2, 20.0
+    result = simulate(planned(), standing(0.7, luff, fold, rope), 0.1, output_step=0.1, swing_angle=swing_angle)
+    hinge = HEAVY.post_height + 15.0 * np.sin(luff)
+    heights = {
+        200.0 * 15.0: HEAVY.post_height + 7.5 * np.sin(luff),
+        120.0 * 10.0: hinge + 5.0 * np.sin(luff + fold),
+        LOAD.mass: hinge + 10.0 * np.sin(luff + fold) - rope * np.cos(swing_angle),
+    }
+    wanted = G * sum(mass * height for mass, height in heights.items())
+    assert_allclose(result["total_energy"][0], wanted, rtol=1e-14)
 
 
 def test_slewing_the_whole_plan_turns_the_whole_answer():

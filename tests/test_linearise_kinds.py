@@ -9,7 +9,8 @@ from towercrane.case import load_case
 from towercrane.linearise import linearise
 from towercrane.models import model_of
 from towercrane.motion import rest, speed_trapezoid
-from towercrane.simulate import simulate
+from towercrane.simulate import run_case, simulate
+from towercrane.summary import summarise
 
 STILL = {"shaft": rest(0.0), "rope": rest(2.0)}
 
@@ -82,3 +83,26 @@ def test_jib_crane_has_two_equal_sways():
     found = frequencies(linearise(model_of(case), case.motions, outputs=[]))
     assert_allclose(found, np.sqrt(9.81 / 20.0), rtol=1e-9)
     assert len(found) == 2
+
+
+HOIST_LATER = (
+    "motion.hoist.shape=trapezoid", "motion.hoist.end=0.5 m", "motion.hoist.speed=0.5 m/s",
+    "motion.hoist.acceleration=0.5 m/s^2", "motion.hoist.delay=10 s", "run.duration=10 s",
+)  # fmt: skip
+
+
+def test_a_summary_tells_the_frequencies_where_the_run_ended_though_motions_go_on():
+    case = load_case("slewing/basic/example-1", HOIST_LATER)
+    found = summarise(case, run_case(case))["natural_frequencies_hz"]
+    assert found[0] == pytest.approx(0.350, abs=5e-4)
+
+
+@pytest.mark.parametrize("name", ["qtz5613/condition-3", "qtz5613/manoeuvre"])
+def test_a_summary_looks_at_the_end_of_the_run_not_at_its_last_row(name):
+    end = 20.0
+    rows = [load_case(name, [f"run.duration={end} s", f"run.output_step={step} s"]) for step in (20.0, 15.0)]
+    found = [summarise(case, run_case(case))["natural_frequencies_hz"] for case in rows]
+    assert_allclose(found[1], found[0], rtol=1e-12)
+    before = load_case(name, ["run.duration=15 s", "run.output_step=15 s"])
+    earlier = np.array(summarise(before, run_case(before))["natural_frequencies_hz"])
+    assert np.max(abs(earlier / found[0] - 1.0)) > 1e-3

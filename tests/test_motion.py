@@ -4,12 +4,24 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.polynomial.polynomial import polyder, polyval
 from numpy.testing import assert_allclose
 
-from towercrane.motion import SHORTEST_WAY, Motion, phases, rest, s_curve, sequence, smooth_ramps, table, trapezoid
+from towercrane.motion import (
+    SAME_INSTANT,
+    SHORTEST_WAY,
+    Motion,
+    phases,
+    rest,
+    s_curve,
+    sequence,
+    smooth_ramps,
+    table,
+    trapezoid,
+)
+from towercrane.superposition import total
 
 positive = st.floats(0.01, 10.0)
 place = st.floats(-50.0, 50.0)
@@ -171,6 +183,98 @@ def test_phases_cut_at_the_union_and_merge_rounding():
             for channel, motion in enumerate((trolley, rope)):
                 value = np.polyval(cut.inputs[phase, channel, ::-1], local)
                 assert_allclose(value, motion(start + local), atol=1e-9)
+
+
+SPANS = st.lists(st.one_of(st.floats(1e-10, 3e-9), st.floats(0.01, 2.0)), min_size=1, max_size=8)
+"""Spans of pieces, some of which last hardly an instant."""
+
+
+@st.composite
+def jerky(draw) -> Motion:
+    """Motion without jumps of value or rate, whose switches may follow each other within an instant."""
+    spans = draw(SPANS)
+    value, rate, pieces = draw(place), 0.0, []
+    for span in spans:
+        acceleration, jerk = draw(st.floats(-2.0, 2.0)), draw(st.floats(-3.0, 3.0))
+        pieces.append([value, rate, acceleration / 2, jerk / 6])
+        value, rate = (float(polyval(span, polyder(pieces[-1], k))) for k in (0, 1))
+    return Motion(np.concatenate([[0.0], np.cumsum(spans)]), np.array(pieces))
+
+
+def away_from(switches: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Those of the times that are no instant beside a switch."""
+    gaps = abs(times[:, None] - switches).min(axis=1)
+    return times[gaps > 2.0 * SAME_INSTANT]
+
+
+def exact(motion: Motion, time: float, derivative: int) -> float:
+    """Value of the piece that holds, the motion at rest once its pieces are over."""
+    if time >= motion.duration:
+        return motion.end if derivative == 0 else 0.0
+    piece = int(np.searchsorted(motion.switch_times, time, side="right")) - 1
+    return float(polyval(time - motion.switch_times[piece], polyder(motion.coefficients[piece], derivative)))
+
+
+def assert_same_everywhere(motions, duration: float, value) -> None:
+    """``value(time, channel, derivative)`` is that of the motions, but for an instant beside their switches."""
+    switches = np.concatenate([m.switch_times for m in motions])
+    times = away_from(np.append(switches, 0.0), np.linspace(0.0, duration, 14)[:-1])
+    for time in times:
+        for channel, motion in enumerate(motions):
+            for derivative in (0, 1, 2):
+                wanted = exact(motion, time, derivative)
+                assert_allclose(value(time, channel, derivative), wanted, rtol=1e-10, atol=1e-10)
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.lists(jerky(), min_size=1, max_size=3), st.floats(0.5, 10.0))
+def test_phases_are_the_motions_everywhere(motions, duration):
+    cut = phases(tuple(motions), duration)
+    assert (cut.times[0], cut.times[-1]) == (0.0, duration)
+    assert np.all(np.diff(cut.times) > 0.0)
+
+    def value(time, channel, derivative):
+        phase = int(np.searchsorted(cut.times, time, side="right")) - 1
+        return polyval(time - cut.times[phase], polyder(cut.inputs[phase, channel], derivative))
+
+    assert_same_everywhere(motions, duration, value)
+    if len(away_from(np.concatenate([m.switch_times for m in motions]), np.array([duration]))):
+        for channel, motion in enumerate(motions):
+            for derivative in (0, 1, 2):
+                found = polyder(cut.after[channel], derivative)[0]
+                assert_allclose(found, exact(motion, duration, derivative), rtol=1e-10, atol=1e-10)
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.lists(st.tuples(jerky(), st.floats(0.0, 3.0), st.floats(-2.0, 2.0)), min_size=1, max_size=3))
+def test_a_sum_of_motions_is_their_sum_everywhere(parts):
+    motions, delays, weights = zip(*parts, strict=True)
+    found = total(motions, delays, weights)
+
+    def summed(time, derivative):
+        rests = [m.coefficients[0, 0] if derivative == 0 else 0.0 for m in motions]
+        now = [
+            exact(m, time - d, derivative) if time >= d else r for m, d, r in zip(motions, delays, rests, strict=True)
+        ]
+        return float(np.dot(weights, now))
+
+    switches = np.concatenate(
+        [found.switch_times, *(m.switch_times + d for m, d in zip(motions, delays, strict=True))]
+    )
+    for time in away_from(switches, np.linspace(0.0, found.duration + 1.0, 14)):
+        for derivative in (0, 1, 2):
+            assert_allclose(found(time, derivative), summed(time, derivative), rtol=1e-9, atol=1e-8)
+
+
+def test_a_curve_of_hardly_limited_jerk_brakes_as_the_trapezoid_does():
+    curve, ramp = s_curve(0.0, 1.0, 10.0, 1.0, 1.25e9), trapezoid(0.0, 1.0, 10.0, 1.0)
+    cut = phases((curve,), 3.0)
+    for time in (0.3, 0.9, 1.1, 1.7, 2.5):
+        phase = int(np.searchsorted(cut.times, time, side="right")) - 1
+        local = time - cut.times[phase]
+        for derivative in (0, 1, 2):
+            found = polyval(local, polyder(cut.inputs[phase, 0], derivative))
+            assert_allclose(found, ramp(time, derivative), rtol=0, atol=1e-8)
 
 
 def test_phases_stop_at_the_duration():

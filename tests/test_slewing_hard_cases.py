@@ -68,8 +68,9 @@ def test_rope_goes_slack_above_the_horizontal(kind, speed):
 # --- the hard stop in the coupling ---------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("rtol", "error"), [(1e-6, 5e-3), (1e-8, 2e-6), (1e-10, 1e-6)])
+@pytest.mark.parametrize(("rtol", "error"), [(1e-6, 5e-3), (1e-8, 5e-6), (1e-11, 1e-6)])
 def test_hard_stop_of_the_coupling(rtol, error):
+    # Each of the 206 contacts magnifies what came before: a touch that is seen a step later costs up to 2e-5.
     trajectory, outputs, met = run(crane(drive_stiff_stiffness=7.5e6), motions(), 5.0, rtol=rtol)
     assert trajectory.outcome == "finished"
     assert abs(np.degrees(outputs["sway_radial"][-1]) - 11.444332) < error
@@ -154,6 +155,33 @@ def test_friction_never_exceeds_its_limit_and_opposes_sliding(sticking, kind):
         bare = crane(kind, friction_law="none").system.slope(time - cut.times[phase], state, cut.inputs[phase])[0]
         slips = state[(model.size - 1) // 2 + model.crane.coordinates.index("platform_angle")]
         assert_allclose(slope[-1] - bare[-1], -22.0 * abs(slips), atol=1e-6)
+
+
+def test_a_breakaway_is_no_reversal_though_rounding_turns_its_first_rates():
+    model, drive = crane("enhanced", friction_law="stick-slip"), motions()
+    cut = phases((drive["shaft"], drive["rope"]), 1.0)
+    switch, numbers, floors = model.system.switch, model.system.numbers.copy(), model.system.floors.copy()
+    state = model.start(cut.inputs[0])
+    driven = (model.size - 1) // 2 + model.crane.coordinates.index("platform_angle")
+    # Wound up by 0.2 rad with a soft stiffness of 750 N m/rad: more than friction can hold.
+    state[model.crane.coordinates.index("platform_angle")] = -0.2
+    numbers[kernel.SOFT] = 750.0
+
+    def guards_at():
+        constants = (numbers, *model.system.constants[1:])
+        slope, guards, work = np.empty(model.size), np.empty(6), np.zeros(model.system.work_shape)
+        model.system.rhs(0.0, state, slope, cut.inputs[0], *constants, work, guards)
+        return guards
+
+    switch.begin(state, numbers, floors, guards_at)
+    assert numbers[kernel.FRICTION_STATE] == kernel.SLIP_AHEAD
+    state[driven] = -1e-27
+    assert np.all(guards_at() >= floors)
+    # A rate that has turned is one.
+    state[driven] = -1e-9
+    assert guards_at()[kernel.SLIDING] < floors[kernel.SLIDING]
+    switch.cross(kernel.SLIDING, state, numbers, floors, guards_at)
+    assert state[driven] == 0.0
 
 
 def test_ever_narrower_friction_approaches_the_one_that_sticks(sticking):

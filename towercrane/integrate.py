@@ -144,10 +144,12 @@ def integrate(
     else:
         raise ValueError(f"split=False: wanted one of {', '.join(SCIPY_METHODS)}, got {method!r}")
     written = int(run.counts[WRITTEN])
-    if written == 0 and len(sample_times) and sample_times[0] == run.time:
-        run.samples[0], written = run.state, 1
     # Between steps the dense output keeps a direction as well as it keeps anything.
     restore_rows(run.samples[:written], system.directions)
+    if outcome == FINISHED:
+        run.samples[written:], written = run.state, len(sample_times)
+    elif written == 0 and len(sample_times) and sample_times[0] == run.time:
+        run.samples[0], written = run.state, 1
     return Trajectory(
         times=np.array(sample_times[:written]),
         states=run.samples[:written],
@@ -258,13 +260,15 @@ def _enter(
 
 
 def phase_of(times: Floats, phases: Phases) -> NDArray[np.int64]:
-    """Index of the phase that each time belongs to; a switch time belongs to the phase it begins."""
-    index = np.searchsorted(phases.times, times + SAME_INSTANT, side="right") - 1
-    return np.clip(index, 0, len(phases.inputs) - 1)
+    """Index of the phase that each time belongs to; a switch time belongs to the phase it begins, the end to none.
+
+    The end, and what is beyond it, has the index after the last phase's.
+    """
+    return np.maximum(np.searchsorted(phases.times, times + SAME_INSTANT, side="right") - 1, 0)
 
 
 def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> tuple[Floats, Floats]:
-    """Slopes and guards at known states; at a switch time the right limits.
+    """Slopes and guards at known states; at a switch time, as at the end of the last phase, the right limits.
 
     Parameters
     ----------
@@ -280,12 +284,24 @@ def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> t
 
     slopes, guards = np.empty_like(states), np.empty((len(times), len(system.guards)))
     work, owner = np.zeros(system.work_shape), phase_of(times, phases)
+    switch = system.switch if system.switch is not None and system.switch.changes_equations else None
+    numbers, floors = system.numbers.copy(), system.floors.copy()
     for phase in np.unique(owner):
         mine = np.flatnonzero(owner == phase)
-        part = slice(mine[0], mine[-1] + 1)
-        local = times[part] - phases.times[phase]
-        stepper.evaluate(
-            system.rhs, local, states[part], slopes[part], guards[part],
-            phases.inputs[phase], *system.constants, work,
-        )  # fmt: skip
+        inputs = phases.inputs[phase] if phase < len(phases.inputs) else phases.after
+        # Where equations switch, each state has its own.
+        parts = [slice(mine[0], mine[-1] + 1)] if switch is None else [slice(row, row + 1) for row in mine]
+        for part in parts:
+            arguments = (
+                system.rhs, times[part] - phases.times[phase], states[part], slopes[part], guards[part], inputs,
+                numbers, *system.constants[1:], work,
+            )  # fmt: skip
+            if switch is not None:
+
+                def guards_at(arguments: Any = arguments, row: Floats = guards[part.start]) -> Floats:
+                    stepper.evaluate(*arguments)
+                    return row
+
+                switch.begin(states[part.start].copy(), numbers, floors, guards_at)
+            stepper.evaluate(*arguments)
     return slopes, guards

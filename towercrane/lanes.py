@@ -280,7 +280,13 @@ def _told(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats) -> La
             answers.extremes[number] = np.nan
             continue
         written, end = answers.counts[number, WRITTEN], float(answers.end_times[number])
-        if outcomes[-1] != FINISHED and (written == 0 or sample_times[written - 1] < end):
+        if outcomes[-1] == FINISHED:
+            # The row at the end belongs to no phase.
+            for sample in range(written, len(sample_times)):
+                values = _record_end(run, answers, number, float(sample_times[sample]))
+                if len(answers.series):
+                    answers.series[number, sample] = values
+        elif written == 0 or sample_times[written - 1] < end:
             _record_end(run, answers, number, end)
     counts = answers.counts
     return LaneAnswers(
@@ -289,8 +295,8 @@ def _told(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats) -> La
     )  # fmt: skip
 
 
-def _record_end(run: LaneRun, answers: Answers, number: int, end: float) -> None:
-    """Let the state that ended a run count among its extremes, as it does in the rows of a single run."""
+def _record_end(run: LaneRun, answers: Answers, number: int, end: float) -> tuple[float, ...]:
+    """Let a run's end state count among its extremes, as it does in the rows of a single run; its outputs."""
     model, state = run.model, answers.end_states[number]
     _, guards = evaluate(model.system, run.phases, np.array([end]), state[None])
     n = model.coordinates
@@ -301,3 +307,4 @@ def _record_end(run: LaneRun, answers: Answers, number: int, end: float) -> None
             output[LARGEST], output[LARGEST + 1] = value, end
         if value < output[SMALLEST]:
             output[SMALLEST], output[SMALLEST + 1] = value, end
+    return values

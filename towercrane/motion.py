@@ -74,19 +74,19 @@ class Motion:
 
     def piece(self, time: float) -> Floats:
         """Coefficients about a ``time`` of zero or more, valid until the next switch time; shape (k,)."""
-        if time >= self.duration - SAME_INSTANT:
+        if self.duration <= time + SAME_INSTANT:
             return _padded(self.end, self.coefficients.shape[1])
         index = int(np.searchsorted(self.switch_times, time + SAME_INSTANT, side="right")) - 1
-        return _shifted(self.coefficients[index], max(time - self.switch_times[index], 0.0))
+        return _shifted(self.coefficients[index], time - self.switch_times[index])
 
     def __call__(self, time: ArrayLike, derivative: int = 0) -> Floats:
         """Value or derivative at ``time`` [s]; at a switch time the right limit. Shape as ``time``."""
         t = np.asarray(time, dtype=float)
-        rests = (t < 0.0) | (t >= self.duration - SAME_INSTANT)
+        rests = (t < 0.0) | (self.duration <= t + SAME_INSTANT)
         index = np.searchsorted(self.switch_times, t + SAME_INSTANT, side="right") - 1
         index = np.clip(index, 0, len(self.coefficients) - 1)
         pieces = np.polynomial.polynomial.polyder(self.coefficients, derivative, axis=1)
-        local = np.maximum(t - self.switch_times[index], 0.0)
+        local = t - self.switch_times[index]
         value = np.zeros_like(t)
         for column in pieces.T[::-1]:
             value = value * local + column[index]
@@ -256,26 +256,42 @@ class Phases:
         Start of each phase and end of the last [s].
     inputs : ndarray, shape (p, channels, k)
         For each phase and motion the ascending coefficients in the time since the phase began.
+    after : ndarray, shape (channels, k)
+        Those in the time since the end of the last phase, for the right limits there.
     """
 
     times: Floats
     inputs: Floats
+    after: Floats
+
+    def moved(self, channel: int, start: float) -> Phases:
+        """The same phases with one motion begun elsewhere that rests."""
+        inputs, after = self.inputs.copy(), self.after.copy()
+        inputs[:, channel, 0] = after[channel, 0] = start
+        return Phases(self.times, inputs, after)
 
 
 def phases(motions: tuple[Motion, ...], duration: float) -> Phases:
     """Cut ``duration`` [s] into the phases in which every motion is one polynomial."""
-    switches = np.concatenate([[0.0, duration], *(m.switch_times for m in motions)])
-    switches = np.unique(switches[(switches >= 0.0) & (switches <= duration)])
-    keep = np.concatenate([[True], np.diff(switches) > SAME_INSTANT])
-    times = switches[keep]
-    times[-1] = duration
+    switches = np.concatenate([[0.0], *(m.switch_times for m in motions)])
+    inside = switches[(switches >= 0.0) & (switches + SAME_INSTANT < duration)]
+    times = np.append(distinct(inside), duration)
     width = max((m.coefficients.shape[1] for m in motions), default=1)
-    inputs = np.zeros((len(times) - 1, len(motions), max(width, 3)))
-    for p, start in enumerate(times[:-1]):
+    inputs = np.zeros((len(times), len(motions), max(width, 3)))
+    for p, start in enumerate(times):
         for channel, motion in enumerate(motions):
             piece = motion.piece(float(start))
             inputs[p, channel, : len(piece)] = piece
-    return Phases(times, inputs)
+    return Phases(times, inputs[:-1], inputs[-1])
+
+
+def distinct(moments: Floats) -> Floats:
+    """Ascending times without those that are the same instant as the last one kept [s]."""
+    kept: list[float] = []
+    for moment in np.unique(moments).tolist():
+        if not kept or moment > kept[-1] + SAME_INSTANT:
+            kept.append(moment)
+    return np.array(kept)
 
 
 def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: float) -> Motion:

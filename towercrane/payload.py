@@ -23,6 +23,9 @@ from modal.traced import traced
 AIR_DENSITY = 1.225
 """Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""
 
+SLACK = -1e-6
+"""Tension below which a rope is slack [N]: where a whole crane is let fall, rounding decides the sign of none."""
+
 FORCE, VELOCITY, BIAS, ACCELERATION, DIRECTION, HINGE, WIND, ALONG, JACOBIAN = range(9)
 """Rows of the scratch array: forces without the load (n), velocity, bias acceleration and acceleration of D (d),
 rope direction (d), hinge force on the load (d), velocity of the air (d), direction seen by the coordinates (n), and

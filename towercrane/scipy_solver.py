@@ -58,7 +58,7 @@ def solve(
     current = 0
 
     def rhs(t: float, y: Floats) -> Floats:
-        phase = current if split else int(phase_of(np.array([t]), phases)[0])
+        phase = current if split else min(int(phase_of(np.array([t]), phases)[0]), len(phases.inputs) - 1)
         local = t - phases.times[phase]
         system.rhs(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards)
         return slope.copy()

@@ -66,7 +66,7 @@ def summarise(case: Case, result: Result) -> dict[str, Any]:
     """
     attributes = result.attrs
     free = _after_the_drives(case, result["time"].values)
-    natural = _natural(case, result)
+    natural = _natural(case, result, float(attributes["end_time"]))
     frequencies = natural.frequencies
     swings = [frequencies[index] for index in natural.swings.values()]
     shown = vibration(case.kind, result, free, swings, frequencies, lambda: _at_the_start(case, result, natural))
@@ -223,15 +223,16 @@ def _parametric(result: Result, frequencies: list[float], signal: str, swing: in
     return [f"2:1 tuning ({ratio}): a ringing structure can pump the swing; in this run it did not"]
 
 
-def _natural(case: Case, result: Result, row: int = -1) -> Natural:
-    """Natural frequencies where the run ended, or in another row; nothing for a tower that buckles."""
+def _natural(case: Case, result: Result, at: float) -> Natural:
+    """Natural frequencies where the drives are at a time of a run [s]; nothing for a tower that buckles."""
     picked = picked_in(result)
     try:
         if case.kind not in TOWER_CRANES:
-            return Natural(_linearised(case), [], {})
-        position, length = float(result["trolley_position"].values[row]), float(result["rope_length"].values[row])
+            return Natural(_linearised(case, at), [], {})
+        drives = {channel: float(motion(at)) for channel, motion in case.motions.items()}
+        position, length = drives["trolley"], drives["rope"]
         if case.kind == "space":
-            angle = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"].values[row])
+            angle = drives["shaft" if "shaft" in drives else "slewing"]
             # A load that only swings along the jib may swing across it.
             model = space_model(case, **{**picked, "planar": False})
             return _in_space(natural_modes(model, position, length, angle))
@@ -247,7 +248,7 @@ def _at_the_start(case: Case, result: Result, at_the_end: Natural) -> list[float
     ways = [result[name].values for name in ("trolley_position", "rope_length") if name in result]
     if case.kind not in TOWER_CRANES or all(way[0] == way[-1] for way in ways):
         return at_the_end.frequencies
-    return _natural(case, result, 0).frequencies
+    return _natural(case, result, 0.0).frequencies
 
 
 def _in_space(modes: list[NaturalMode]) -> Natural:
@@ -257,12 +258,11 @@ def _in_space(modes: list[NaturalMode]) -> Natural:
     return Natural([mode.frequency_hz for mode in modes], kinds, swings)
 
 
-def _linearised(case: Case) -> list[float]:
-    """Frequencies [Hz] about the equilibrium at the end of all motions."""
+def _linearised(case: Case, end: float) -> list[float]:
+    """Frequencies [Hz] about the equilibrium with the drives where they are at the end of a run [s]."""
     from towercrane.linearise import linearise
 
-    stop = max(motion.duration for motion in case.motions.values())
-    found = linearise(model_of(case), case.motions, time=stop, outputs=[]).eigenvalues()
+    found = linearise(model_of(case), case.motions, time=end, outputs=[]).eigenvalues()
     return sorted(e.frequency for e in found if e.value.imag > 0.0)
 
 

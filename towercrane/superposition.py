@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.motion import SAME_INSTANT, Motion
+from towercrane.motion import Motion, distinct
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,17 +29,21 @@ def total(motions: Sequence[Motion], delays: Sequence[float], weights: Sequence[
     """
     if not motions or min(delays) < 0.0:
         raise ValueError(f"total: wanted motions and delays of zero or more, got {len(motions)} and {list(delays)}")
-    moments = np.concatenate([m.switch_times + d for m, d in zip(motions, delays, strict=True)])
-    times = switches(np.append(moments, 0.0))
+    begun = [_delayed(m, d) for m, d in zip(motions, delays, strict=True)]
+    times = distinct(np.concatenate([m.switch_times for m in begun]))
     pieces = np.zeros((max(len(times) - 1, 1), max(m.coefficients.shape[1] for m in motions)))
-    for motion, delay, weight in zip(motions, delays, weights, strict=True):
+    for motion, weight in zip(begun, weights, strict=True):
         for row, time in zip(pieces, times, strict=False):
-            if time < delay - SAME_INSTANT:
-                row[0] += weight * motion.coefficients[0, 0]
-            else:
-                piece = motion.piece(max(time - delay, 0.0))
-                row[: len(piece)] += weight * piece
+            piece = motion.piece(float(time))
+            row[: len(piece)] += weight * piece
     return Motion(times if len(times) > 1 else np.zeros(2), pieces)
+
+
+def _delayed(motion: Motion, delay: float) -> Motion:
+    """The motion after a wait in which it rests."""
+    waits = np.zeros((1, motion.coefficients.shape[1]))
+    waits[0, 0] = motion.coefficients[0, 0]
+    return Motion(np.append(0.0, motion.switch_times + delay), np.vstack([waits, motion.coefficients]))
 
 
 def integral(rate: Motion, start: float) -> Motion:
@@ -57,9 +61,3 @@ def rate(motion: Motion) -> Motion:
     """Derivative of a motion over time, as a motion that ends where the motion's last piece does."""
     pieces = np.asarray(np.polynomial.polynomial.polyder(motion.coefficients, axis=1), dtype=float)
     return Motion(motion.switch_times, pieces)
-
-
-def switches(moments: Floats) -> Floats:
-    """Ascending times without those that lie within `SAME_INSTANT` of the one before [s]."""
-    ordered = np.unique(moments)
-    return np.asarray(ordered[np.concatenate([[True], np.diff(ordered) > SAME_INSTANT])])

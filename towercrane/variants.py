@@ -13,7 +13,7 @@ import numpy as np
 from towercrane.case import load_case
 from towercrane.faults import CaseError
 from towercrane.models import radial_model
-from towercrane.motion import Phases, phases
+from towercrane.motion import phases
 from towercrane.tableaus import TABLEAUS
 
 if TYPE_CHECKING:
@@ -143,9 +143,7 @@ class Variants:
         if LOAD in self._quick:
             model = model.with_load(dataclasses.replace(model.load, mass=float(self._values[LOAD][run])))
         if ROPE in self._quick:
-            inputs = cut.inputs.copy()
-            inputs[:, model.channels.index("rope"), 0] = float(self._values[ROPE][run])
-            cut = Phases(cut.times, inputs)
+            cut = cut.moved(model.channels.index("rope"), float(self._values[ROPE][run]))
         return Variant(plain.case, dataclasses.replace(lane, model=model, phases=cut))
 
 

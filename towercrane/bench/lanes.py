@@ -15,7 +15,7 @@ from towercrane.integrate import INTERRUPTED, evaluate, integrate
 from towercrane.lane_vector import LANES
 from towercrane.lanes import LaneRun, available_cores, integrate_many
 from towercrane.models import radial_model
-from towercrane.motion import Phases, phases
+from towercrane.motion import phases
 from towercrane.simulate import rows_of
 
 if TYPE_CHECKING:
@@ -94,10 +94,8 @@ def _variations(count: int, duration: float) -> list[LaneRun]:
     random = np.random.default_rng(0)
     runs = []
     for mass, length in zip(random.uniform(100.0, 2000.0, count), random.uniform(5.0, 23.0, count), strict=True):
-        inputs = cut.inputs.copy()
-        inputs[:, 1, 0] = length
         loaded = model.with_load(dataclasses.replace(model.load, mass=float(mass)))
-        runs.append(LaneRun(loaded, Phases(cut.times, inputs)))
+        runs.append(LaneRun(loaded, cut.moved(1, length)))
     return runs
 
 

@@ -18,7 +18,7 @@ from towercrane.cranes.shape_table import shape_table
 from towercrane.cranes.small_motions import fastest_vibration
 from towercrane.cranes.wind import CHANNELS
 from towercrane.equilibrium import Unstable, stable_equilibrium
-from towercrane.payload import FORCE, JACOBIAN, WIND, Load, work_shape
+from towercrane.payload import FORCE, JACOBIAN, SLACK, WIND, Load, work_shape
 from towercrane.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
@@ -173,7 +173,7 @@ class FlexibleModel:
         """The model as the solver sees it."""
         n, drive = self.coordinates, self.drive
         floors = np.full(layout.GUARDS, -np.inf)
-        floors[layout.TENSION] = -np.inf if self.rope_as_rod else 0.0
+        floors[layout.TENSION] = -np.inf if self.rope_as_rod else SLACK
         floors[[layout.INNER_END, layout.OUTER_END]] = -ROUNDING
         floors[layout.TILT] = 0.0
         rows, columns = work_shape(n)

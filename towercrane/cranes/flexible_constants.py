@@ -81,7 +81,8 @@ def vectors(model: FlexibleModel) -> Floats:
         values[layout.EXPOSURE, jib] = crane.exposure.first
     d = model.damping
     ratios = np.repeat([d.tower, d.tower, d.torsion, 0.0, d.lateral, d.vertical], list(model.counts.values()))
-    values[layout.DAMPING] = 2.0 * ratios * model.angular_frequencies
+    # Of a mode that a cap slows, of its slowed frequency and greater mass: the ratio is as stated.
+    values[layout.DAMPING] = 2.0 * ratios * model.angular_frequencies * np.sqrt(1.0 + model.added_mass)
     values[layout.CAP] = model.added_mass
     return values
 

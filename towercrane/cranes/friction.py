@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
+REST = 1e-12
+"""Rate [rad/s] that counts as none: after a breakaway rounding decides the sign of the first, far smaller ones."""
+
+
 @dataclass(frozen=True, slots=True)
 class Transitions:
     """Restarts at corners and the states of set-valued friction.
@@ -43,7 +47,8 @@ class Transitions:
         """Set corner and friction from the state."""
         if numbers[kernel.FRICTION_LAW] == kernel.STICK_SLIP:
             rate = state[self.rates + self.driven]
-            if rate == 0.0:
+            if abs(rate) <= REST:
+                state[self.rates + self.driven] = 0.0
                 self._settle(numbers, floors, guards_at)
             else:
                 self._slip(float(np.sign(rate)), numbers, floors)
@@ -78,4 +83,4 @@ class Transitions:
 
     def _slip(self, direction: float, numbers: Floats, floors: Floats) -> None:
         numbers[kernel.FRICTION_STATE] = direction
-        floors[kernel.SLIDING], floors[kernel.HOLDING] = 0.0, -np.inf
+        floors[kernel.SLIDING], floors[kernel.HOLDING] = -REST, -np.inf

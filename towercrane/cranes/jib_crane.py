@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes import jib_crane_kernel as kernel
+from towercrane.payload import SLACK
 from towercrane.system import System
 
 if TYPE_CHECKING:
@@ -137,7 +138,7 @@ class JibModel:
         guards = (SLACK_ROPE, *TORQUES[: kernel.JOINTS], *more_guards)
         floors = np.full(len(guards), -np.inf)
         if not self.rope_as_rod:
-            floors[kernel.TENSION] = floors[kernel.PLANNED_TENSION :] = 0.0
+            floors[kernel.TENSION] = floors[kernel.PLANNED_TENSION :] = SLACK
         scale = np.ones(works[-1] + 1)
         scale[list(works)] = np.inf  # It steers no step.
         return System(

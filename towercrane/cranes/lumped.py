@@ -11,7 +11,7 @@ import numpy as np
 from towercrane.cranes import lumped_kernel as kernel
 from towercrane.cranes.friction import Transitions
 from towercrane.equilibrium import Unstable, stable_equilibrium
-from towercrane.payload import FORCE, JACOBIAN, Load, work_shape
+from towercrane.payload import FORCE, JACOBIAN, MASS, SLACK, Load, work_shape
 from towercrane.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ class LumpedModel:
             equations=lambda: kernel.rhs,
             size=self.size,
             guards=(SLACK_ROPE, "corner", "corner", "slip", "stick", "needed"),
-            floors=np.array([-np.inf if self.rope_as_rod or self.elastic else 0.0, *[-np.inf] * 5]),
+            floors=np.array([-np.inf if self.rope_as_rod else SLACK, *[-np.inf] * 5]),
             scale=scale,
             numbers=numbers,
             vectors=np.array([crane.row(crane.inertias)[:-1], crane.row(crane.steady_force)[:-1]]),
@@ -136,7 +136,36 @@ class LumpedModel:
                 rates=(self.size - 1) // 2,
                 changes_equations=drive.friction == "stick-slip",
             ),
+            fastest=lambda: self.fastest,
         )
+
+    @cached_property
+    def fastest(self) -> float:
+        """Highest angular frequency of its small motions, the coupling at its stiffest [rad/s].
+
+        A load on an inextensible rope only adds inertia; on an elastic one it vibrates along the rope, whose
+        direction is taken along each of the axes.
+        """
+        from scipy.linalg import eigh
+
+        n, rope = self.coordinates, self.crane.rope_stiffness
+        work, constants = np.zeros(self.system.work_shape), self.system.constants
+        kernel.structure(0.0, np.zeros(self.size), np.array([[0.0] * 3, [1.0, 0.0, 0.0]]), *constants, work)
+        lower = np.tril(work[MASS : MASS + n, :n])
+        driven = self.crane.coordinates.index(self.crane.drive.on)
+        stiffness = np.zeros((n + self.elastic, n + self.elastic))
+        stiffness[:n, :n] = constants[2][kernel.STIFFNESS]
+        stiffness[driven, driven] += max(self.crane.drive.soft, self.crane.drive.stiff)
+        stiffness[n:, n:] = rope
+        squares = []
+        for axis in range(3):
+            mass = np.zeros_like(stiffness)
+            mass[:n, :n] = lower + np.tril(lower, -1).T
+            if self.elastic:
+                along = np.append(work[JACOBIAN + axis, :n], 1.0)
+                mass += self.load.mass * np.outer(along, along)
+            squares.append(eigh(stiffness, mass, eigvals_only=True)[-1])
+        return float(np.sqrt(max(squares)))
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at rest at the start: "equilibrium", or "zero" with all weights on; swing positive outward.
@@ -155,30 +184,37 @@ class LumpedModel:
         if state not in ("equilibrium", "zero"):
             raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
         n, y = self.coordinates, np.zeros(self.size)
-        if state == "equilibrium":
-            y[:n] = self.equilibrium(inputs)
-            if self.elastic:
-                y[n] = self.load.mass * self.crane.gravity / self.crane.rope_stiffness
+        y[:n] = self.equilibrium(inputs) if state == "equilibrium" else self.undeformed(inputs)
+        if self.elastic and state == "equilibrium":
+            y[n] = self.load.mass * self.crane.gravity * np.cos(swing_angle) / self.crane.rope_stiffness
         heading = y[self.crane.coordinates.index(self.crane.jib_angle)]
         sideways = np.sin(swing_angle)
         y[self.rope : self.rope + 3] = sideways * np.cos(heading), sideways * np.sin(heading), -np.cos(swing_angle)
         return y
 
+    def undeformed(self, inputs: Floats) -> Floats:
+        """Coordinates that stretch no spring and do not twist the drive's coupling; shape (n,)."""
+        crane = self.crane
+        forms = [*(spring.stretch for spring in crane.springs), {crane.drive.on: 1.0}]
+        held = np.array([crane.row(form)[:-1] for form in forms])
+        values = np.append(np.zeros(len(crane.springs)), inputs[kernel.SHAFT, 0])
+        return np.asarray(np.linalg.lstsq(held, values, rcond=None)[0])
+
     def equilibrium(self, inputs: Floats) -> Floats:
         """Coordinates at rest under all weights, load hanging straight down; shape (n,)."""
-        n = self.coordinates
+        n, origin = self.coordinates, self.undeformed(inputs)
         fixed = np.zeros_like(inputs)
         fixed[:, 0] = inputs[:, 0]
 
-        def residual(q: Floats) -> Floats:
+        def residual(departure: Floats) -> Floats:
             y = np.zeros(self.size)
-            y[:n] = q
+            y[:n] = origin + departure
             work = np.zeros(self.system.work_shape)
             kernel.structure(0.0, y, fixed, *self.system.constants, work)
             return work[FORCE, :n] - self.load.mass * self.crane.gravity * work[JACOBIAN + 2, :n]
 
         try:
-            return stable_equilibrium(residual, np.ones(n))
+            return origin + stable_equilibrium(residual, np.ones(n))
         except Unstable as failure:
             raise NoEquilibrium(UNSTABLE, str(failure)) from failure
 

@@ -89,7 +89,7 @@ def linear_matrices(model: FlexibleModel, drives: ArrayLike, *, about: Floats | 
 
 
 def fastest_vibration(model: FlexibleModel) -> float:
-    """Highest angular frequency of a crane without load, its trolley at the tower [rad/s].
+    """Highest angular frequency of a crane without load, its trolley at the tower, its drive at its stiffest [rad/s].
 
     A load can only lower it, by its inertia along the rope, and so does the trolley further out, but for one per
     cent where that hardly moves.
@@ -103,7 +103,11 @@ def fastest_vibration(model: FlexibleModel) -> float:
     n = model.coordinates
     # Only the lower triangle is there, and read.
     mass = model.at_rest(np.zeros(n), inputs)[MASS : MASS + n, :n]
-    return float(np.sqrt(max(eigh(model.system.matrices[layout.STIFFNESS], mass, eigvals_only=True)[-1], 0.0)))
+    stiffness = model.system.matrices[layout.STIFFNESS].copy()
+    if model.drive is not None:
+        turned = model.parts["slewing"].start
+        stiffness[turned, turned] += max(model.drive.soft, model.drive.stiff)
+    return float(np.sqrt(max(eigh(stiffness, mass, eigvals_only=True)[-1], 0.0)))
 
 
 def reciprocal_modes(model: FlexibleModel, mass: Floats, stiffness: Floats) -> tuple[Floats, Floats]:
