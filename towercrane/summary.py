@@ -258,11 +258,11 @@ def _in_space(modes: list[NaturalMode]) -> Natural:
     return Natural([mode.frequency_hz for mode in modes], kinds, swings)
 
 
-def _linearised(case: Case, end: float) -> list[float]:
-    """Frequencies [Hz] about the equilibrium with the drives where they are at the end of a run [s]."""
+def _linearised(case: Case, at: float) -> list[float]:
+    """Frequencies [Hz] about the equilibrium with the drives where they are at a time [s]."""
     from towercrane.linearise import linearise
 
-    found = linearise(model_of(case), case.motions, time=end, outputs=[]).eigenvalues()
+    found = linearise(model_of(case), case.motions, time=at, outputs=[]).eigenvalues()
     return sorted(e.frequency for e in found if e.value.imag > 0.0)
 
 
