@@ -87,12 +87,12 @@ def read_case(path: Path, overrides: Sequence[str] = ()) -> CaseText:
     if not text.tree:
         sections = "crane, [payload], [rope], [motion.trolley], [run]"
         raise CaseError([Fault(str(path), "", f"a case: {sections}", "an empty file")])
-    from towercrane.kinds import known_keys
+    from towercrane.kinds import known_to
 
     if "crane" not in text.tree and {"tower", "jib"} & set(text.tree):
         hint = 'a case names its crane: crane = "crane.toml"'
         raise CaseError([Fault(str(path), "", "a case: crane, [payload], [rope], ...", "a crane file", hint)])
-    if not set(known_keys()) & set(text.tree):
+    if not any(map(known_to, text.tree)):
         # This is some other file, of which nothing is shown.
         wanted = "a case: crane, [payload], [rope], [motion.trolley], [run]"
         raise CaseError([Fault(str(path), "", wanted, "a file without any of its keys")])
@@ -234,9 +234,9 @@ def _read_crane(text: CaseText) -> None:
         wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
         text.faults.append(Fault(str(path), "", wanted, "an empty file"))
         return
-    from towercrane.kinds import known_keys
+    from towercrane.kinds import known_to
 
-    if not {f"crane.{key}" for key in crane} & set(known_keys()):
+    if not any(known_to(f"crane.{key}") for key in crane):
         # This is some other file, of which nothing is shown.
         wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
         text.faults.append(Fault(str(path), "", wanted, "a file without any table of a crane"))
