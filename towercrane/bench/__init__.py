@@ -7,6 +7,7 @@ import platform
 from typing import TYPE_CHECKING, Any
 
 from towercrane.bench.accuracy import error_controlled
+from towercrane.bench.events import event_runs
 from towercrane.bench.growth import growth
 from towercrane.bench.lattice import lattice
 from towercrane.bench.radial import modes_left_out, right_hand_side
@@ -47,6 +48,7 @@ SUBJECTS: dict[str, tuple[str, Subject]] = {
         "error-controlled runs of drawn scenes in space",
         lambda repeats, quick: error_controlled_in_space(quick),
     ),
+    "events": ("random short runs full of events", lambda repeats, quick: event_runs(quick)),
     "many": ("many runs at once", lambda repeats, quick: _many(repeats)),
     "growth": ("growth of the cost", lambda repeats, quick: growth(repeats)),
 }
