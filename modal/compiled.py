@@ -9,12 +9,21 @@ from __future__ import annotations
 
 import hashlib
 import os
+import tempfile
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+
+class CacheWarning(UserWarning):
+    """Machine code could not be kept, or had to be made anew."""
+
+
+class NoCompiler(RuntimeError):
+    """Numba is told not to compile."""
 
 
 @cache
@@ -30,6 +39,18 @@ def cache_folder() -> Path:
         for source in sorted(folder.glob("*.py")):
             digest.update(source.read_bytes())
     return Path(platformdirs.user_cache_dir("towercrane", appauthor=False)) / digest.hexdigest()[:16]
+
+
+@cache
+def obstacle(folder: Path) -> str:
+    """Why a folder, which is made if need be, cannot keep files; empty if it can."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        os.listdir(folder)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        return (error.strerror or str(error)).lower()
+    return ""
 
 
 def is_compiled(module: str) -> bool:
@@ -68,30 +89,37 @@ def kernel(
     import numba
     from numba.core import config as numba_config
 
+    from modal.kernel_cache import keep
+
     # Both are typed more narrowly than they are used here, or not at all.
     config: Any = numba_config
     compile_: Any = numba.njit
+    if config.DISABLE_JIT:
+        raise NoCompiler("NUMBA_DISABLE_JIT: wanted unset or 0, got 1: the equations are written for the compiler")
     # A door for Python takes longer to compile than many a function behind it.
     inner = signature is None and not (door or inline)
 
     def decorate(function: Callable[..., Any]) -> Any:
+        made = compile_(
+            error_model="numpy",
+            inline="always" if inline else "never",
+            _nrt=allocates,
+            nogil=parallel_calls,
+            no_cpython_wrapper=inner,
+            no_cfunc_wrapper=inner,
+        )(function)
+        if inner:
+            # Not kept: numba would take the machine code of a function without a door for that of one with a door.
+            made.__class__ = _inner(type(made))
+            return made
         before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
         try:
-            made = compile_(
-                *(() if signature is None else (signature,)),
-                # numba would take the machine code of a function without a door for that of the same one with a door.
-                cache=not inner,
-                error_model="numpy",
-                inline="always" if inline else "never",
-                _nrt=allocates,
-                nogil=parallel_calls,
-                no_cpython_wrapper=inner,
-                no_cfunc_wrapper=inner,
-            )(function)
+            keep(made, function, cache_folder())
         finally:
             config.CACHE_DIR = before
-        if inner:
-            made.__class__ = _inner(type(made))
+        if signature is not None:
+            made.compile(signature)
+            made.disable_compile()
         if isinstance(door, tuple):
             made.compile(door)
         return made

@@ -20,9 +20,11 @@ from towercrane.terminal import (
     held_interrupts,
     load,
     options_of,
+    path_of,
     say,
     say_notices,
     suggest,
+    tell,
     with_bar,
     with_progress,
 )
@@ -41,9 +43,6 @@ MOST_MAGNIFIED = 1e5
 OPTIONS = {"start": "--from", "end": "--to", "speed": "--speed", "frames_per_second": "--frames-per-second"}
 """Where the parts of a playback come from."""
 
-NEEDED = ("rope_length", "payload_position")
-"""Outputs that every film needs; others depend on the crane."""
-
 INCOMPLETE = "wanted a result with all that `towercrane run` writes, got one without"
 
 FRAMES_PER_SWING = 8.0
@@ -56,7 +55,13 @@ def animate(
         typer.Argument(metavar="CASE", help="A case file, the name of a shipped case, or a result.nc of a run."),
     ],
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="FILE", help="The film, .gif or (where there is ffmpeg) .mp4.")
+        Path | None,
+        typer.Option(
+            "--out",
+            metavar="FILE",
+            help="The film, .gif or (where there is ffmpeg) .mp4.",
+            parser=path_of,
+        ),
     ] = None,
     changes: Changes = None,
     speed: Annotated[
@@ -97,6 +102,7 @@ def animate(
 def _finished(path: str, changes: list[str] | None) -> xr.Dataset:
     """A result file."""
     from towercrane import results
+    from towercrane.result_file import check_run
 
     if changes:
         fail(f"--set {changes[0]}: wanted a case to change, got the finished result {path}")
@@ -106,26 +112,11 @@ def _finished(path: str, changes: list[str] | None) -> xr.Dataset:
         fail(f"{path}: wanted a case or a result.nc, got no file")
     except (OSError, ValueError, RuntimeError, KeyError) as error:
         fail(f"{path}: wanted a result.nc of `towercrane run`, got a file that cannot be read: {error}")
-    if "time" not in result or "outcome" not in result.attrs:
-        fail(f"{path}: wanted a result.nc of `towercrane run`, got another data set")
-    _check_rows(path, result)
+    try:
+        check_run(result)
+    except ValueError as error:
+        fail(f"{path}: {error}")
     return result
-
-
-def _check_rows(path: str, result: xr.Dataset) -> None:
-    """Refuse a result file whose numbers make no run."""
-    import numpy as np
-
-    if missing := [name for name in NEEDED if name not in result]:
-        fail(f"{path}: {INCOMPLETE}: {missing[0]}")
-    times = result["time"].values
-    if not (len(times) and np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
-        fail(f"{path}: wanted times that increase from row to row, got others")
-    for name, variable in result.data_vars.items():
-        if variable.dims[:1] == ("time",):
-            finite = np.isfinite(variable.values.reshape(len(times), -1)).all(axis=1)
-            if not finite.all():
-                fail(f"{path}: wanted finite values of {name}, got others at {times[int(finite.argmin())]:g} s")
 
 
 def _case_of(path: str, result: xr.Dataset) -> Case:
@@ -205,7 +196,7 @@ def _film(case: Case, result: xr.Dataset, playback: Playback, magnify: float | N
         _save(film, out, playback, ask)
     drawn = f", deformation {magnification:g} times as large" if poses.deformation else ""
     span = f"{playback.start:g} to {playback.end:.6g} s at {playback.speed:g} times real time"
-    typer.echo(f"written to {out}: {film.frames} frames, {span}{drawn}")
+    tell(f"written to {out}: {film.frames} frames, {span}{drawn}")
     rows, swing = (
         step_of(result),
         2.0 * pi * sqrt(float(result["rope_length"].min()) / result.attrs["gravity"]),

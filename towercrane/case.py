@@ -7,7 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from towercrane.casefile import Assumption, read_case, split_provenance
+from towercrane.casefile import Assumption, in_utf8, read_case, split_provenance
 from towercrane.faults import CaseError, Fault
 from towercrane.shipped import case_folder, case_name, find_case, list_cases
 
@@ -345,6 +345,7 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     from towercrane.ways import channels, check_motions
 
     found = find_case(Path(path))
+    overrides = [in_utf8(override) for override in overrides]
     text = read_case(found, overrides)
     tree, assumed, faults = split_provenance(text.tree)
     kind, kind_faults = kind_of(tree)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
 import tomllib
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -127,6 +129,23 @@ def read_toml(path: Path) -> dict[str, Any]:
         return tomllib.loads(content)
     except (ValueError, RecursionError) as error:
         raise CaseError([_syntax_fault(path, content, error)]) from None
+
+
+def in_utf8(override: str) -> str:
+    """An override whose bytes were no text where the terminal's encoding is another.
+
+    Raises
+    ------
+    CaseError
+        If it is not UTF-8 either.
+    """
+    try:
+        override.encode()
+    except UnicodeEncodeError:
+        with suppress(UnicodeError):
+            return os.fsencode(override).decode()
+        raise CaseError([Fault(f"--set {override}", "", "text in UTF-8", shown(override))]) from None
+    return override
 
 
 def is_file(path: Path) -> bool:

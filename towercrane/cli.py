@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from towercrane.__main__ import main
 from towercrane.animate_command import animate
 from towercrane.compare_command import compare
 from towercrane.lattice_command import lattice
@@ -28,12 +28,16 @@ from towercrane.terminal import (
     announce_compilation,
     fail,
     folder_for_results,
+    held_interrupts,
     load,
     options_of,
+    path_of,
     say,
     suggest,
+    tell,
     with_progress,
     write,
+    write_run,
 )
 
 if TYPE_CHECKING:
@@ -52,53 +56,11 @@ cases_app = typer.Typer(help="List the cases that ship with the program, or copy
 app.add_typer(cases_app, name="cases")
 
 
-GARBAGE = 500_000
-"""New objects between two searches for garbage."""
-
-
-def _end_interrupted() -> None:
-    """End at once with the exit code of Ctrl-C: after one, an orderly end may report the signal instead."""
-    import os
-
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(INTERRUPTED)
-
-
-def main() -> None:
-    """Entry point: bad input becomes a message and exit code 2, Ctrl-C exit code 130."""
-    import gc
-
-    from towercrane.faults import CaseError
-
-    # Imports make objects by the hundred thousand that live to the end: searching them for garbage costs 0.2 s a run.
-    gc.set_threshold(GARBAGE)
-    try:
-        app()
-    except CaseError as error:
-        fail(str(error))
-    except KeyboardInterrupt:
-        say("interrupted")
-        _end_interrupted()
-    except SystemExit as done:
-        # The command's own words go before an exit that it has chosen itself.
-        if isinstance(getattr(done.__context__, "__cause__", None), KeyboardInterrupt):
-            say("interrupted")
-        if done.code == INTERRUPTED:
-            _end_interrupted()
-        raise
-    except OSError as error:
-        fail(f"cannot write the output: {error.strerror or error}")
-    finally:
-        # Nor are they searched once more at the end.
-        gc.freeze()
-
-
 def _version(wanted: bool) -> None:
     if wanted:
         from towercrane import __version__
 
-        typer.echo(f"towercrane {__version__}")
+        tell(f"towercrane {__version__}")
         raise typer.Exit
 
 
@@ -121,30 +83,31 @@ def cases(context: typer.Context) -> None:
     found = list_cases()
     width = max(len(name) for name, _ in found)
     for name, title in found:
-        typer.echo(f"{name:<{width}}  {title}")
+        tell(f"{name:<{width}}  {title}")
     suggest("modes", "qtz5613/condition-3")
 
 
 @cases_app.command("copy")
 def copy_cases(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder to copy into; it must not hold them yet.")],
+    folder: Annotated[
+        Path,
+        typer.Argument(
+            metavar="DIR",
+            help="Folder to copy into; it must not hold them yet.",
+            parser=path_of,
+        ),
+    ],
 ) -> None:
     """Copy the shipped cases to a folder of yours, to change them."""
-    import shutil
-
     from towercrane.case import case_folder
 
     source = case_folder()
-    clashes = [
-        folder / path.relative_to(source) for path in sorted([*source.rglob("*.toml"), *source.rglob("*.csv")])
-    ]
-    if existing := [str(path) for path in clashes if path.exists()]:
+    found = sorted([*source.rglob("*.toml"), *source.rglob("*.csv")])
+    files = {str(path.relative_to(source)): path.read_text("utf-8") for path in found}
+    if existing := [str(folder / name) for name in files if (folder / name).exists()]:
         fail(f"{folder}: nothing copied, {existing[0]} and {len(existing) - 1} more would be overwritten")
-    try:
-        shutil.copytree(source, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__"))
-    except OSError as error:
-        fail(f"{folder}: cannot copy the cases there: {error.strerror or error}")
-    typer.echo(f"{len(clashes)} files in {folder}")
+    write(folder, files)
+    tell(f"{len(files)} files in {folder}")
     suggest("run", str(folder / "qtz5613" / "condition-3.toml"))
 
 
@@ -153,7 +116,13 @@ def modes(
     case: CaseName,
     changes: Changes = None,
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="DIR", help="Folder for pictures of the modes.")
+        Path | None,
+        typer.Option(
+            "--out",
+            metavar="DIR",
+            help="Folder for pictures of the modes.",
+            parser=path_of,
+        ),
     ] = None,
     actual: Annotated[
         bool, typer.Option("--actual", help="Solve for the effect of shear, weight, ... beside its prediction.")
@@ -167,6 +136,8 @@ def modes(
         return
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
+    if out is not None:
+        folder_for_results(out)
     announce_compilation("modes", "chain")
     from towercrane.natural import natural_frequencies
 
@@ -174,13 +145,13 @@ def modes(
     if out is not None:
         write(out, {"modes.png": _mode_picture(loaded)})
     if as_json:
-        typer.echo(json.dumps(report, indent=2))
+        tell(json.dumps(report, indent=2))
     else:
         from towercrane.tables.modes import modes_tables
 
         modes_tables(report)
         if out is not None:
-            typer.echo(f"written to {out}: modes.png")
+            tell(f"written to {out}: modes.png")
         suggest("run", case, *options_of(changes))
     if any("outcome" in row for row in report["crane"]):
         raise typer.Exit(ENDED_EARLY)
@@ -203,9 +174,10 @@ def run(
     if verify and loaded.kind not in ("radial", "space"):
         fail(f"--verify: wanted a case of kind 'radial' or 'space', got {loaded.kind!r}")
     folder = out if out is not None else Path("results") / loaded.name
-    folder_for_results(folder)
+    from towercrane.folder import RUN_FILES
+
+    folder_for_results(folder, RUN_FILES)
     announce_compilation(*loaded.uses, "runs")
-    from towercrane.folder import remove_stale
     from towercrane.simulate import record_case
     from towercrane.summary import summarise
 
@@ -218,28 +190,31 @@ def run(
             verified["verification"] = verification(loaded, result)
             settle(result, verified["verification"])
         except KeyboardInterrupt:
-            say("interrupted: the run is kept, its verification is not")
+            say("the run is kept, its verification is not")
             interrupted = True
     summary = summarise(loaded, result) | verified
-    text = json.dumps(summary, indent=2, allow_nan=False)
-    files: dict[str, Any] = {"result.nc": result, "summary.json": text + "\n"}
-    if csv:
-        files["result.csv"] = result
-    if pictures and not interrupted:
-        files |= _pictures(loaded, result.dataset())
-    write(folder, files)
-    stale = remove_stale(folder, files)
+    files: dict[str, Any] = {"result.nc": result, **({"result.csv": result} if csv else {})}
+    try:
+        if pictures and not interrupted:
+            with held_interrupts():
+                files |= _pictures(loaded, result.dataset())
+    except KeyboardInterrupt:
+        interrupted = True
+    finally:
+        # Whatever becomes of the pictures, the run is kept.
+        text, stale = write_run(folder, files, summary)
+    files["summary.json"] = text
     if as_json:
-        typer.echo(text)
+        tell(text)
     else:
         from towercrane.tables.runs import run_tables, verification_tables
 
         run_tables(summary)
         if "verification" in summary:
             verification_tables(summary["verification"])
-        typer.echo(f"written to {folder}: {', '.join(files)}")
+        tell(f"written to {folder}: {', '.join(files)}")
         if stale:
-            typer.echo(f"removed, of an earlier run: {', '.join(stale)}")
+            tell(f"removed, of an earlier run: {', '.join(stale)}")
         if changes:
             suggest("modes" if loaded.kind in ("radial", "space") else "linearise", case, *options_of(changes))
         elif loaded.kind == "radial":
@@ -247,7 +222,7 @@ def run(
         else:
             suggest("modes" if loaded.kind == "space" else "linearise", case)
     if interrupted:
-        say(f"interrupted; kept in {folder}: {', '.join(files)}")
+        say(f"kept in {folder}: {', '.join(files)}")
         raise typer.Exit(INTERRUPTED)
     if summary["expected"] and not summary["expected"]["met"]:
         say("\n".join(summary["expected"]["misses"]))
@@ -265,9 +240,15 @@ def run(
 
 @app.command()
 def figures(
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for the pictures.")] = Path(
-        "results/figures"
-    ),
+    out: Annotated[
+        Path,
+        typer.Option(
+            "--out",
+            metavar="DIR",
+            help="Folder for the pictures.",
+            parser=path_of,
+        ),
+    ] = Path("results/figures"),
     changes: Changes = None,
 ) -> None:
     """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
@@ -283,7 +264,7 @@ def figures(
             raise KeyboardInterrupt
     drawn = radial.source_figures(conditions)
     write(out, drawn)
-    typer.echo(f"written to {out}: {', '.join(drawn)}")
+    tell(f"written to {out}: {', '.join(drawn)}")
     suggest("run", "qtz5613/condition-4-zero")
 
 

@@ -22,6 +22,7 @@ from towercrane.terminal import (
     options_of,
     say_notices,
     suggest,
+    tell,
     with_bar,
     write,
 )
@@ -64,12 +65,12 @@ def compare(
         files["paths.png"] = paths(report, results)
     write(folder, files)
     if as_json:
-        typer.echo(json.dumps(report, indent=2, allow_nan=False))
+        tell(json.dumps(report, indent=2, allow_nan=False))
         return
     from towercrane.tables.space import comparison_tables
 
     comparison_tables(report)
-    typer.echo(f"written to {folder}: {', '.join(files)}")
+    tell(f"written to {folder}: {', '.join(files)}")
     counts: dict[str, int] = next(
         (row["modes"] for row in report["rows"] if row["name"] == report["recommended"]), {}
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from contextlib import suppress
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -68,7 +69,8 @@ def _started(modules: list[str]) -> BaseProcess:
 
 
 def _import(*modules: str) -> None:
-    # If it fails, it does no harm: what it should have compiled is compiled where it is used.
+    # If it fails, it does no harm: what it should have compiled is compiled where it is used, and said there.
+    warnings.simplefilter("ignore")
     with suppress(Exception, KeyboardInterrupt):
         for module in modules:
             import_module(module)

@@ -38,7 +38,7 @@ class Fault:
         lines += [f"  wanted: {self.wanted}", f"  got:    {self.got}"]
         if self.hint:
             lines.append(f"  hint:   {self.hint}")
-        return "\n".join(lines)
+        return "\n".join(map(printable, lines))
 
 
 class CaseError(ValueError):
@@ -67,6 +67,11 @@ def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:
     """Hint that names the closest known word, or ``otherwise`` if none is near."""
     near = closest(word, known)
     return f'did you mean "{near}"?' if near else otherwise
+
+
+def printable(text: str) -> str:
+    """Text in which everything that a terminal would obey, or no encoding can write, is spelled out."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def shown(value: object) -> str:

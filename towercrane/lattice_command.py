@@ -6,9 +6,7 @@ import json
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-import typer
-
-from towercrane.terminal import AsJson, CaseName, Changes, announce_compilation, fail, load, options_of, suggest
+from towercrane.terminal import AsJson, CaseName, Changes, announce_compilation, fail, load, options_of, suggest, tell
 
 if TYPE_CHECKING:
     from towercrane.case import Case
@@ -29,7 +27,7 @@ def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) ->
     except ValueError as error:
         fail(f"{case}: crane.tower.lattice: {error}")
     if as_json:
-        typer.echo(json.dumps(report, indent=2))
+        tell(json.dumps(report, indent=2))
         return
     from towercrane.tables.modes import lattice_tables
 

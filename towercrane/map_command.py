@@ -24,6 +24,7 @@ from towercrane.terminal import (
     options_of,
     say,
     suggest,
+    tell,
     with_bar,
     write,
 )
@@ -105,12 +106,12 @@ def frequency_map(
         files |= _mode_picture(loaded, frame, where, modes)
     write(folder, files)
     if as_json:
-        typer.echo(json.dumps(report, indent=2))
+        tell(json.dumps(report, indent=2))
     else:
         from towercrane.tables.modes import map_tables
 
         map_tables(report)
-        typer.echo(f"written to {folder}: {', '.join(files)}")
+        tell(f"written to {folder}: {', '.join(files)}")
         if where is None:
             suggest("map", case, *options_of(changes), "--shapes", f"{0.5 * reach:g} m")
         else:

@@ -10,6 +10,7 @@ import numpy as np
 
 from towercrane.models import SLEWING
 from towercrane.playback import ROUND
+from towercrane.result_file import entries
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -133,11 +134,9 @@ def sampled(result: xr.Dataset, name: str, times: Floats) -> Floats:
     Raises
     ------
     ValueError
-        If the result has no such variable.
+        If the result has no such variable, or one of another shape.
     """
-    if name not in result:
-        raise ValueError(f"wanted a result with {name}, got one without")
-    rows, values = result["time"].values, result[name].values
+    rows, values = result["time"].values, entries(result, name)
     found = np.empty((len(times), *values.shape[1:]))
     for entry in np.ndindex(values.shape[1:]):
         found[:, *entry] = np.interp(times, rows, values[:, *entry])

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from towercrane.case import Case
 from towercrane.casefile import split_provenance
-from towercrane.kinds import kind_of
+from towercrane.kinds import TOWER_CRANES, kind_of
 from towercrane.schema_cases import KINDS
+from towercrane.tower_checks import check_tower
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,10 +26,15 @@ def case_of(result: xr.Dataset) -> Case:
     """
     from pydantic import ValidationError
 
-    if "case_text" not in result.attrs:
+    if not isinstance(result.attrs.get("case_text"), str):
         raise ValueError("wanted a result that holds its case, as `towercrane run` writes it, got one without")
-    written = json.loads(result.attrs["case_text"])
-    tree, assumed, _ = split_provenance(written)
+    try:
+        written = json.loads(result.attrs["case_text"])
+        tree, assumed, _ = split_provenance(written)
+    except (ValueError, RecursionError):
+        written = tree = {}
+    if not isinstance(tree.get("crane"), dict):
+        raise ValueError("wanted a result that holds its case as JSON, got one without its crane")
     kind, _ = kind_of(tree)
     tree.pop("kind", None)
     tree["crane"]["kind"] = kind
@@ -37,6 +43,9 @@ def case_of(result: xr.Dataset) -> Case:
     except ValidationError as error:
         first = ".".join(str(part) for part in error.errors()[0]["loc"])
         raise ValueError(f"the result's case cannot be read by this version, at {first}") from error
+    # What no single value shows: a tower whose parts do not fit each other.
+    for fault in check_tower(tree) if kind in TOWER_CRANES else ():
+        raise ValueError(f"the result's case cannot be read by this version, at {fault.key}: {fault.got}")
     changes = tuple(json.loads(result.attrs.get("changes", "[]")))
     name = result.attrs["case"]
     return Case(name, Path(name), checked.title or name, checked, {}, tuple(assumed), written, changes)

@@ -48,4 +48,6 @@ def case_name(path: Path) -> str:
     """Name of a case: its path in the folder of the shipped ones, or its file's name; without the ending."""
     folder = case_folder().resolve()
     full = path.resolve()
-    return (full.relative_to(folder) if full.is_relative_to(folder) else Path(full.name)).with_suffix("").as_posix()
+    name = (full.relative_to(folder) if full.is_relative_to(folder) else Path(full.name)).with_suffix("").as_posix()
+    # A file's name may be bytes that are no text; what is written about it is text.
+    return name.encode("utf-8", "backslashreplace").decode()

@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from towercrane.terminal import ENDED_EARLY, announce_compilation, folder_for_results, options_of, suggest, write
+from towercrane.terminal import (
+    ENDED_EARLY,
+    announce_compilation,
+    folder_for_results,
+    options_of,
+    suggest,
+    tell,
+    write,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -37,13 +45,13 @@ def space_modes(case: Case, name: str, changes: list[str] | None, out: Path | No
     if out is not None:
         write(out, files)
     if as_json:
-        typer.echo(json.dumps(report, indent=2))
+        tell(json.dumps(report, indent=2))
     else:
         from towercrane.tables.space import space_modes_tables
 
         space_modes_tables(report)
         if out is not None:
-            typer.echo(f"written to {out}: {', '.join(files)}")
+            tell(f"written to {out}: {', '.join(files)}")
         suggest("run", name, *options_of(changes))
     if "outcome" in report or any("outcome" in row for rows in report["sweeps"].values() for row in rows):
         raise typer.Exit(ENDED_EARLY)

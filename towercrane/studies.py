@@ -22,9 +22,11 @@ from towercrane.terminal import (
     folder_for_results,
     load,
     options_of,
+    path_of,
     say,
     say_notices,
     suggest,
+    tell,
     with_bar,
     write,
 )
@@ -76,12 +78,12 @@ def sensitivity(
         files |= {f"surface-{name}.png": pictured.surface(study.data, name) for name in names}
     write(folder, files)
     if as_json:
-        typer.echo(json.dumps(summary, indent=2))
+        tell(json.dumps(summary, indent=2))
         return
     from towercrane.tables.studies import sensitivity_tables
 
     sensitivity_tables(summary)
-    typer.echo(f"written to {folder}: {len(files)} files")
+    tell(f"written to {folder}: {len(files)} files")
     suggest("run", case, *options_of(changes))
 
 
@@ -92,7 +94,13 @@ def linearise(
         typer.Option("--at", metavar="SECONDS", min=0.0, help="When: trolley and rope stand where they are then."),
     ] = 0.0,
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="FILE", help="Write A, B, C, D to a .mat or .npz file.")
+        Path | None,
+        typer.Option(
+            "--out",
+            metavar="FILE",
+            help="Write A, B, C, D to a .mat or .npz file.",
+            parser=path_of,
+        ),
     ] = None,
     changes: Changes = None,
     as_json: AsJson = False,
@@ -121,13 +129,13 @@ def linearise(
         linear.save(out)
     report = linear_report(loaded, at, linear)
     if as_json:
-        typer.echo(json.dumps(report, indent=2, allow_nan=False))
+        tell(json.dumps(report, indent=2, allow_nan=False))
         return
     from towercrane.tables.modes import linear_tables
 
     linear_tables(report, tuple(loaded.motions))
     if out is not None:
-        typer.echo(f"written to {out}")
+        tell(f"written to {out}")
         suggest("run", case, *options_of(changes))
     else:
         suggest(
@@ -197,12 +205,12 @@ def shape(
         files["profiles.png"] = pictured.profiles(done, loaded.crane.name, notes)
     write(folder, files)
     if as_json:
-        typer.echo(json.dumps(summary, indent=2, allow_nan=False))
+        tell(json.dumps(summary, indent=2, allow_nan=False))
         return
     from towercrane.tables.studies import shape_tables
 
     shape_tables(summary)
-    typer.echo(f"written to {folder}: {', '.join(files)}")
+    tell(f"written to {folder}: {', '.join(files)}")
     suggest("run", case, *options_of(changes), *_reshaped(loaded, chosen.name, driven(loaded.plans)))
 
 
@@ -237,7 +245,13 @@ def bench(
         bool, typer.Option("--stability", help="Energy drift, error growth and failures of every method.")
     ] = False,
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="DIR", help="Folder for bench.json and the pictures.")
+        Path | None,
+        typer.Option(
+            "--out",
+            metavar="DIR",
+            help="Folder for bench.json and the pictures.",
+            parser=path_of,
+        ),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -256,13 +270,13 @@ def bench(
         files = {**pictures(report), "bench.json": json.dumps(_finite(report), indent=2, allow_nan=False) + "\n"}
         write(out, files)
     if as_json:
-        typer.echo(json.dumps(_finite(report), indent=2, allow_nan=False))
+        tell(json.dumps(_finite(report), indent=2, allow_nan=False))
     else:
         from towercrane.tables.studies import bench_tables
 
         bench_tables(report)
         if out is not None:
-            typer.echo(f"written to {out}: {', '.join(files)}")
+            tell(f"written to {out}: {', '.join(files)}")
         suggest("run", "qtz5613/condition-3", "--set", "solver.rtol=1e-6")
     if not report.get("met", True):
         say("not all as expected, see the rows marked NO or !")

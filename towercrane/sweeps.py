@@ -27,6 +27,7 @@ from towercrane.terminal import (
     say,
     say_notices,
     suggest,
+    tell,
     with_bar,
     write,
 )
@@ -82,12 +83,12 @@ def sweep(
         files |= pictured.extremes(data)
     write(folder, files)
     if as_json:
-        typer.echo(json.dumps(summary, indent=2, allow_nan=False))
+        tell(json.dumps(summary, indent=2, allow_nan=False))
     else:
         from towercrane.tables.studies import sweep_tables
 
         sweep_tables(summary)
-        typer.echo(f"written to {folder}: {', '.join(files)}")
+        tell(f"written to {folder}: {', '.join(files)}")
         suggest("run", case, *options_of([*(changes or []), *_worst(data)]))
     if INTERRUPTED_RUN in summary["outcomes"]:
         raise typer.Exit(INTERRUPTED)

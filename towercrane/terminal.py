@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeVar
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Collection, Iterator, Mapping
 
     from towercrane.case import Case
 
@@ -27,7 +27,16 @@ Changes = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help='Change a key, e.g. --set payload.mass="1200 kg".'),
 ]
-Out = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.")]
+
+
+def path_of(text: str) -> Path:
+    """A path as it was typed; an empty name, which an unset variable leaves, is not the current folder."""
+    if not text:
+        raise typer.BadParameter("wanted a name, got an empty one")
+    return Path(text)
+
+
+Out = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.", parser=path_of)]
 Pictures = Annotated[bool, typer.Option(help="Draw the pictures.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
 
@@ -47,9 +56,13 @@ def say_notices(case: Case) -> None:
 
 def announce_compilation(*uses: str) -> None:
     """Compile the kernels for uses of :data:`towercrane.compilation.KERNELS` if they are not yet, and say so."""
+    from modal.compiled import cache_folder, obstacle
     from towercrane.compilation import compile_kernels, missing_kernels
 
     if missing := missing_kernels(*uses):
+        if obstacle(cache_folder()):
+            say("compiling, some seconds ...")
+            return
         say("compiling for the first time, some seconds; later runs start at once ...")
         compile_kernels(*missing)
 
@@ -87,9 +100,9 @@ def with_progress(case: Case, simulate: Callable[..., Found]) -> Found:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:.0f} s"))
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.completed:.0f} s"))
     with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(case.name, total=case.run.duration)
+        task = bar.add_task(_readable(case.name), total=case.run.duration)
         return simulate(case, progress=lambda time: bar.update(task, completed=time))
 
 
@@ -98,30 +111,46 @@ def with_bar(title: str, run: Callable[..., Found], total: float = 1.0) -> Found
     if not sys.stderr.isatty():
         return run()
     from rich.console import Console
+    from rich.markup import escape
     from rich.progress import Progress
 
     with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(title, total=total)
+        task = bar.add_task(escape(_readable(title)), total=total)
         return run(progress=lambda done: bar.update(task, completed=done))
 
 
-def folder_for_results(folder: Path) -> None:
-    """Refuse a folder that cannot be written before the work, not after it."""
+def folder_for_results(folder: Path, names: Collection[str] = ()) -> None:
+    """Refuse a folder where files of these names cannot be written before the work, not after it."""
     from towercrane.folder import obstacle
 
-    if reason := obstacle(folder):
+    if reason := obstacle(folder, names):
         fail(f"--out {folder}: {reason}")
 
 
 def write(folder: Path, files: Mapping[str, Any]) -> None:
-    """Put files into a folder, each whole."""
+    """Put files into a folder, all of them or none."""
     from towercrane import folder as results
 
+    with _writing(folder):
+        results.write(folder, files)
+
+
+def write_run(folder: Path, files: Mapping[str, Any], summary: dict[str, Any]) -> tuple[str, list[str]]:
+    """Put a run's files into a folder; its summary as written, and what was taken away of an earlier run."""
+    from towercrane import folder as results
+
+    with _writing(folder):
+        return results.write_run(folder, files, summary)
+
+
+@contextmanager
+def _writing(folder: Path) -> Iterator[None]:
+    """Say why a folder cannot be written."""
     folder_for_results(folder)
     try:
-        results.write(folder, files)
+        yield
     except OSError as error:
-        fail(f"{folder}: cannot be written: {error.strerror or error}")
+        fail(f"{folder}: cannot be written, what was there stays: {error.strerror or error}")
 
 
 def options_of(changes: list[str] | None) -> list[str]:
@@ -129,16 +158,32 @@ def options_of(changes: list[str] | None) -> list[str]:
     return [part for change in changes or [] for part in ("--set", change)]
 
 
+def tell(text: str) -> None:
+    """Print a result; what a terminal would obey is spelled out."""
+    typer.echo(_readable(text))
+
+
 def say(text: str) -> None:
     """Tell the person, not the pipe."""
-    typer.echo(text, err=True)
+    typer.echo(_readable(text), err=True)
+
+
+def _readable(text: str) -> str:
+    from towercrane.faults import printable
+
+    return "\n".join(line if line.isprintable() else printable(line) for line in text.split("\n"))
+
+
+def show_warning(message: Warning | str) -> None:
+    """Say what went otherwise than it should, without the line of the program that found it."""
+    say(f"note: {message}")
 
 
 def suggest(*arguments: str) -> None:
     """Print the next useful command, quoted so that it works as it stands."""
     import shlex
 
-    typer.echo(f"next: {shlex.join(['towercrane', *arguments])}")
+    tell(f"next: {shlex.join(['towercrane', *arguments])}")
 
 
 def fail(message: str) -> NoReturn:

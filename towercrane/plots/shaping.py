@@ -73,7 +73,7 @@ def profiles(study: RestStudy, crane: str, notes: Notes) -> Figure:
             speeds.plot(t, factor * motion(t, 1), **_look(i, study, row))
             accelerations.plot(t, factor * motion(t, 2), **_look(i, study, row))
         speeds.set_ylabel(f"{channel} speed\n[{unit}/s]")
-        accelerations.set_ylabel(f"{channel} acceleration\n[{unit}/s$^2$]")
+        accelerations.set_ylabel(f"{channel} acceleration\n[{unit}/s²]")
     for axes in panels.flat:
         axes.grid(axis="y", color="0.9", lw=0.6)
     panels[-1, -1].set_xlabel("time [s]")

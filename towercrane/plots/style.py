@@ -9,6 +9,7 @@ from towercrane.summary import assumed
 
 if TYPE_CHECKING:
     from os import PathLike
+    from pathlib import Path
 
     import xarray as xr
     from matplotlib.axes import Axes
@@ -33,14 +34,19 @@ SPEEDS = ("trolley_speed", "slewing_speed", "shaft_speed")
 def save(figure: Figure, path: str | PathLike[str]) -> None:
     """Write a figure whole or not at all."""
     with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=150)
+        put(figure, temporary)
+
+
+def put(figure: Figure, path: Path) -> None:
+    """Write a figure to a file that nobody reads yet."""
+    figure.savefig(path, dpi=150)
 
 
 def figure_of(width: float, height: float) -> Figure:
-    """Empty figure of a size [inch] whose parts keep out of each other's way."""
-    from matplotlib.figure import Figure
+    """Empty figure of a size [inch] whose parts keep out of each other's way, and whose text is text."""
+    from towercrane.plots.literal import LiteralFigure
 
-    return Figure(figsize=(width, height), layout="constrained")
+    return LiteralFigure(figsize=(width, height), layout="constrained")
 
 
 def over_time(results: list[xr.Dataset], name: str, factor: float, label: str, title: str) -> Figure:
@@ -62,7 +68,14 @@ def legend(axes: Axes) -> None:
 
 def line(i: int, result: xr.Dataset) -> dict[str, Any]:
     """Look and name of the i-th run's line."""
-    return {"color": COLOURS[i % 6], "ls": DASHES[i % 4], "lw": 1.2, "label": run_label(result)}
+    # Matplotlib hides names that begin with an underscore.
+    label = run_label(result)
+    return {
+        "color": COLOURS[i % 6],
+        "ls": DASHES[i % 4],
+        "lw": 1.2,
+        "label": f" {label}" if label.startswith("_") else label,
+    }
 
 
 def run_label(result: xr.Dataset) -> str:

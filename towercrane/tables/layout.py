@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from rich.console import Console
 from rich.table import Table
+
+from towercrane.faults import printable
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 WIDTH_OF_A_PIPE = 120
 """Columns where no terminal tells its width."""
 
 
+class ReportConsole(Console):
+    """Console on which text is text: brackets and colons mark nothing, what a terminal would obey is spelled out."""
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        """Text as it is printed."""
+        lines = "\n".join(printable(line) for line in text.split("\n"))
+        return super().render_str(lines, **{**options, "markup": False, "emoji": False, "highlight": False})
+
+
 def console_of_reports() -> Console:
     """Console as wide as the terminal, or as a pipe should be."""
-    # Without markup: brackets in units and titles are text.
-    width = None if Console().is_terminal else WIDTH_OF_A_PIPE
-    return Console(width=width, markup=False, highlight=False)
+    return ReportConsole(width=None if Console().is_terminal else WIDTH_OF_A_PIPE)
 
 
 def report_table(title: str, *columns: str, left: int = 1) -> Table:
