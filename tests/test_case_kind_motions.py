@@ -50,7 +50,7 @@ def test_smooth_ramps_follow_the_quintic_step(hold):
 @pytest.mark.parametrize(("ramp", "hold"), [(0.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (math.nan, 1.0)])
 def test_ramps_refuse_impossible_times(ramp, hold):
     for build in (speed_trapezoid, smooth_ramps):
-        with pytest.raises(ValueError, match="ramp, hold: wanted a positive time"):
+        with pytest.raises(ValueError, match=r"(ramp|hold): wanted"):
             build(0.0, 1.0, ramp, hold)
 
 

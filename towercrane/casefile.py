@@ -19,6 +19,13 @@ ABOUT = ("assumed", "source")
 """What may stand beside `value` in a table that says where a value is from."""
 
 
+DEEPEST = 20
+"""Tables and lists within each other; a case has a handful."""
+
+LARGEST = 4 * 2**20
+"""Bytes of a case or a crane file; those that ship with the program have a few thousand."""
+
+
 @dataclass(frozen=True, slots=True)
 class Assumption:
     """A value that no source gives.
@@ -99,6 +106,9 @@ def read_case(path: Path, overrides: Sequence[str] = ()) -> CaseText:
         wanted = "a case: crane, [payload], [rope], [motion.trolley], [run]"
         raise CaseError([Fault(str(path), "", wanted, "a file without any of its keys")])
     settings = [s for s in (_setting(text, o) for o in overrides) if s]
+    if any(is_deep(value) for _, value, _ in settings) or is_deep(text.tree):
+        wanted, hint = f"tables and lists up to {DEEPEST} within each other", "no key of a case lies so deep"
+        raise CaseError([Fault(str(path), "", wanted, "deeper ones", hint)])
     for key, value, origin in settings:
         if not key.startswith("crane."):
             _put(text, key, value, origin)
@@ -119,7 +129,11 @@ def read_toml(path: Path) -> dict[str, Any]:
     """
     wanted = "a TOML file"
     try:
-        content = path.read_bytes().decode("utf-8-sig")
+        with path.open("rb") as file:
+            data = file.read(LARGEST + 1)
+        if len(data) > LARGEST:
+            raise CaseError([Fault(str(path), "", f"{wanted} of at most {LARGEST} bytes", "a larger one")])
+        content = data.decode("utf-8-sig")
     except OSError as error:
         raise CaseError([Fault(str(path), "", wanted, (error.strerror or "no file").lower())]) from None
     except UnicodeDecodeError as error:
@@ -146,6 +160,15 @@ def in_utf8(override: str) -> str:
             return os.fsencode(override).decode()
         raise CaseError([Fault(f"--set {override}", "", "text in UTF-8", shown(override))]) from None
     return override
+
+
+def is_deep(tree: Any) -> bool:
+    """Whether tables and lists lie so deep within each other that a walk through them would not end well."""
+    level = [tree] if isinstance(tree, dict | list) else []
+    for _ in range(DEEPEST):
+        level = [item for node in level for item in (node.values() if isinstance(node, dict) else node)]
+        level = [item for item in level if isinstance(item, dict | list)]
+    return bool(level)
 
 
 def is_file(path: Path) -> bool:
@@ -191,7 +214,7 @@ def _setting(text: CaseText, override: str) -> tuple[str, Any, str] | None:
     """Key, value and wording of an override."""
     key, sign, written = override.partition("=")
     key, written = key.strip(), written.strip()
-    if not (sign and key and all(key.split("."))):
+    if not (sign and key and all(key.split(".")) and key.count(".") < DEEPEST):
         hint = 'for example payload.mass="1200 kg"'
         text.faults.append(Fault(f"--set {override}", "", "key=value", shown(override), hint))
         return None
@@ -207,8 +230,8 @@ def _put(text: CaseText, key: str, value: Any, origin: str) -> None:
     *parents, last = key.split(".")
     place: Any = text.tree
     for depth, name in enumerate(parents, start=1):
-        if isinstance(place, list) and name.isdecimal() and int(name) < len(place):
-            place = place[int(name)]
+        if isinstance(place, list) and (index := _index(name, place)) is not None:
+            place = place[index]
         elif isinstance(place, dict):
             if name not in place:
                 place[name] = {}
@@ -222,12 +245,19 @@ def _put(text: CaseText, key: str, value: Any, origin: str) -> None:
     if isinstance(place, dict):
         place[last] = value
         text.origins[key] = origin
-    elif last.isdecimal() and int(last) < len(place):
-        place[int(last)] = value
+    elif (index := _index(last, place)) is not None:
+        place[index] = value
         text.origins[key] = origin
     else:
         wanted = f"an index below {len(place)}"
         text.faults.append(Fault(f"--set {origin}", key, wanted, shown(last), "the first has index 0"))
+
+
+def _index(name: str, items: list[Any]) -> int | None:
+    """Place in a list that a part of a key names; None if there is none."""
+    # Python refuses to read numbers of more than 4300 digits.
+    index = int(name) if name.isdecimal() and len(name) < 10 else len(items)
+    return index if index < len(items) else None
 
 
 def _read_crane(text: CaseText) -> None:

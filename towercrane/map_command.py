@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from modal import CraneFrame
     from towercrane.case import Case
 
-MOST_POSITIONS, MOST_MODES = 1000, 20
-"""Beyond these a map takes minutes and cannot be read."""
+MOST_MODES = 20
+"""Branches beyond which a map takes minutes and cannot be read."""
 
 
 def frequency_map(
@@ -71,6 +71,8 @@ def frequency_map(
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
     folder = out if out is not None else Path("results") / f"{loaded.name}-map"
     folder_for_results(folder)
+    from towercrane.schema_cases import MOST_POSITIONS
+
     if positions is not None and not 1 <= positions <= MOST_POSITIONS:
         fail(f"--positions {positions}: wanted 1 to {MOST_POSITIONS}")
     if not 1 <= modes <= MOST_MODES:

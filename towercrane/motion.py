@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.arguments import check_not_negative, check_number, check_positive
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -113,8 +115,8 @@ class Motion:
 
 def rest(value: float, duration: float = 0.0) -> Motion:
     """Motion that stays at ``value`` for ``duration`` [s] (and after)."""
-    if not duration >= 0.0:
-        raise ValueError(f"rest: duration wants zero or more seconds, got {duration!r}")
+    check_number("rest: value", value)
+    check_not_negative("rest: duration", duration)
     return Motion(np.array([0.0, duration]), np.array([[float(value)]]))
 
 
@@ -141,6 +143,7 @@ def s_curve(start: float, end: float, speed: float, acceleration: float, jerk: f
     speed, acceleration, jerk : float
         Largest rate [m/s], acceleration [m/s^2] and jerk [m/s^3], all positive.
     """
+    check_positive("jerk", jerk)
     return _ramped(start, end, speed, acceleration, jerk)
 
 
@@ -273,6 +276,7 @@ class Phases:
 
 def phases(motions: tuple[Motion, ...], duration: float) -> Phases:
     """Cut ``duration`` [s] into the phases in which every motion is one polynomial."""
+    check_positive("duration", duration)
     switches = np.concatenate([[0.0], *(m.switch_times for m in motions)])
     inside = switches[(switches >= 0.0) & (switches + SAME_INSTANT < duration)]
     times = np.append(distinct(inside), duration)
@@ -295,9 +299,10 @@ def distinct(moments: Floats) -> Floats:
 
 
 def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: float) -> Motion:
-    for name, value in (("speed", speed), ("acceleration", acceleration), ("jerk", jerk)):
-        if not value > 0.0:
-            raise ValueError(f"{name}: wanted a positive number, got {value!r}")
+    check_number("start", start)
+    check_number("end", end)
+    check_positive("speed", speed)
+    check_positive("acceleration", acceleration)
     way = abs(end - start)
     if way < SHORTEST_WAY:
         return rest(end)
@@ -327,8 +332,10 @@ def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: f
 
 def _speed_ramps(start: float, speed: float, ramp: float, hold: float, rise: tuple[float, ...]) -> Motion:
     """Ramps whose way, as a fraction of speed times ramp, is the polynomial ``rise`` of x, with rise(1) = 1/2."""
-    if not ramp > 0.0 or not hold >= 0.0:
-        raise ValueError(f"ramp, hold: wanted a positive time and zero or more, got {ramp!r} and {hold!r}")
+    check_number("start", start)
+    check_number("speed", speed)
+    check_positive("ramp", ramp)
+    check_not_negative("hold", hold)
     way = speed * ramp
     # Floats of Python raise where numpy would warn: a ramp of 1e-300 s is refused, not turned into infinities.
     up = np.array([way * share / float(ramp) ** power for power, share in enumerate(rise)])

@@ -19,6 +19,7 @@ import numpy as np
 
 from modal.compiled import kernel
 from modal.traced import traced
+from towercrane.arguments import check_fields
 
 AIR_DENSITY = 1.225
 """Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""
@@ -60,11 +61,7 @@ class Load:
     drag_area: float = 0.0
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.mass < np.inf:
-            raise ValueError(f"Load.mass: wanted a positive finite number, got {self.mass!r}")
-        for name in ("rope_damping", "drag_area"):
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(f"Load.{name}: wanted zero or more, got {getattr(self, name)!r}")
+        check_fields(self, positive=("mass",), not_negative=("rope_damping", "drag_area"))
 
     @property
     def drag(self) -> float:

@@ -75,11 +75,17 @@ class Range:
         if size <= 0.0 or self.low <= size <= self.high:
             return None
         allow = f'if it is right, put allow_implausible = ["{key}"] at the top of the case file'
-        meant = (u for u in self.likely if self.low <= to_si(f"{number!r} {u}", self.unit) <= self.high)
-        unit = next(meant, None)
+        unit = next((unit for unit in self.likely if self._holds(f"{number!r} {unit}")), None)
         hint = f"{unit} meant? {allow}" if unit else allow
         wanted = f"a value from {self.low:g} to {self.high:g} {self.unit}".removesuffix(" 1")
         return Fault("", key, wanted, f"{shown(value)}, which is not plausible", hint)
+
+    def _holds(self, text: str) -> bool:
+        """Whether a quantity lies within the range; one too large for a number does not."""
+        try:
+            return self.low <= to_si(text, self.unit) <= self.high
+        except UnitError:
+            return False
 
 
 LENGTHS = ("mm", "cm", "km", "ft")

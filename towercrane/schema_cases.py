@@ -59,6 +59,10 @@ class ModesRequest(Table):
     elements: Annotated[StrictInt, Field(ge=2, le=2000)] = 32
 
 
+MOST_POSITIONS = 1000
+"""Places of the trolley in one map: more take minutes and cannot be read."""
+
+
 class MapRequest(Table):
     """Where the frequency map is taken.
 
@@ -66,7 +70,7 @@ class MapRequest(Table):
     the jib; without masses of the load half the case's own, that itself, and its double.
     """
 
-    position_count: Annotated[StrictInt, Field(ge=2, le=2000)] = 50
+    position_count: Annotated[StrictInt, Field(ge=2, le=MOST_POSITIONS)] = 50
     trolley_positions: tuple[Position, ...] = ()
     payload_masses: tuple[Mass, ...] = ()
 

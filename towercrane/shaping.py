@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.arguments import check_number, check_positive
 from towercrane.motion import SAME_INSTANT, Motion, rest
 from towercrane.superposition import integral, total
 
@@ -206,8 +207,9 @@ def minimum_jerk(start: float, end: float, duration: float) -> Motion:
     duration : float
         Positive [s].
     """
-    if not 0.0 < duration < np.inf:
-        raise ValueError(f"minimum_jerk: duration wants a positive time, got {duration!r}")
+    check_number("minimum_jerk: start", start)
+    check_number("minimum_jerk: end", end)
+    check_positive("minimum_jerk: duration", duration)
     if start == end:
         return rest(start, duration)
     shares = np.array([0.0, 0.0, 0.0, 10.0, -15.0, 6.0]) * (end - start) / float(duration) ** np.arange(6)
@@ -219,7 +221,7 @@ def _impulses(
     frequencies: Sequence[float], damping_ratio: float, weights: Callable[[float], tuple[float, ...]]
 ) -> Shaper:
     """Impulses half a damped period apart, weighted as the decay over that time asks, for each frequency."""
-    if not 0.0 <= damping_ratio < 1.0:
+    if not isinstance(damping_ratio, int | float) or not 0.0 <= damping_ratio < 1.0:
         raise ValueError(f"damping_ratio: wanted a fraction of critical from 0 to less than 1, got {damping_ratio!r}")
     damped = sqrt(1.0 - damping_ratio**2)
     sizes = weights(exp(-pi * damping_ratio / damped))
@@ -230,7 +232,16 @@ def _impulses(
     return reduce(Shaper.then, each)
 
 
+def _is_frequency(value: object) -> bool:
+    """Whether something is a positive number."""
+    try:
+        check_positive("frequency", value)
+    except ValueError:
+        return False
+    return True
+
+
 def _checked(frequencies: Sequence[float]) -> Sequence[float]:
-    if len(frequencies) == 0 or not all(0.0 < f < np.inf for f in frequencies):
+    if len(frequencies) == 0 or not all(_is_frequency(f) for f in frequencies):
         raise ValueError(f"frequencies: wanted one or more positive numbers in Hz, got {list(frequencies)}")
     return frequencies

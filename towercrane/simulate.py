@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec
 import numpy as np
 
 from towercrane import __version__, drift
+from towercrane.arguments import check_number, check_positive
 from towercrane.integrate import FINISHED, Trajectory, evaluate, integrate
 from towercrane.kinds import TOWER_CRANES
 from towercrane.models import flexible_model, model_of
@@ -89,7 +90,9 @@ def record(
     EnergyDriftWarning
         If a free vibration would gain or lose more than one per cent of its energy in 600 s.
     """
-    if not 0.0 < output_step <= duration < np.inf:
+    check_positive("output_step", output_step)
+    check_positive("duration", duration)
+    if output_step > duration:
         raise ValueError(f"output_step, duration: wanted 0 < step <= duration, got {output_step}, {duration}")
     if method in drift.ENERGY_DRIFT:
         if reason := drift.refusal(method, rtol, atol):
@@ -97,7 +100,10 @@ def record(
         if said := drift.notice(method, rtol, atol):
             warnings.warn(said, drift.EnergyDriftWarning, stacklevel=3)
     began = time.perf_counter()
-    cut = phases(tuple(motions[channel] for channel in model.channels), duration)
+    check_number("swing_angle", swing_angle)
+    cut = phases(tuple(_motion(motions, channel) for channel in model.channels), duration)
+    if "rope" in model.channels and (shortest := float(cut.inputs[:, model.channels.index("rope"), 0].min())) <= 0.0:
+        raise ValueError(f"motions: wanted a rope longer than 0 m, got {shortest:g} m")
     sample_times = rows_of(duration, output_step, looks)
     message, inputs = "", start_inputs(model, motions, cut.inputs[0])
     try:
@@ -136,6 +142,14 @@ def record(
         "versions": json.dumps(versions()),
     }
     return Recording(times, quantities, provenance, looks)
+
+
+def _motion(motions: dict[str, Motion], channel: str) -> Motion:
+    """What drives a channel."""
+    found = motions.get(channel)
+    if not isinstance(found, Motion):
+        raise ValueError(f"motions: wanted a Motion for {channel!r}, got {found!r}")
+    return found
 
 
 def record_case(case: Case, *, model: Model | None = None, progress: Progress | None = None) -> Recording:

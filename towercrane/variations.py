@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.case import load_case
+from towercrane.case import Case, load_case
 from towercrane.faults import CaseError
 from towercrane.integrate import INTERRUPTED
 from towercrane.kinds import knows, plain_key, unit_of
@@ -21,12 +21,12 @@ from towercrane.units import UnitError, to_si
 from towercrane.variants import Variants, change
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable, Mapping, Sequence
 
     import xarray as xr
     from numpy.typing import NDArray
 
-    from towercrane.case import Case
     from towercrane.recording import Recording
     from towercrane.variants import Variant
 
@@ -42,7 +42,7 @@ def grid(vary: Mapping[str, Sequence[Value]]) -> dict[str, list[Value]]:
 
 
 def sweep(
-    case: Case | str,
+    case: Case | str | os.PathLike[str],
     vary: Mapping[str, Sequence[Value] | Floats],
     *,
     threads: int | None = None,
@@ -53,7 +53,7 @@ def sweep(
 
     Parameters
     ----------
-    case : Case or str
+    case : Case, str or path-like
         Case, or what :func:`towercrane.load_case` takes.
     vary : mapping of str to sequence
         For each key of the case file as many values as there are runs: numbers in SI, or text with units. For all
@@ -82,7 +82,7 @@ def sweep(
     """
     if threads is not None and threads < 1:
         raise ValueError(f"threads: wanted one or more, got {threads!r}")
-    loaded = load_case(case) if isinstance(case, str) else case
+    loaded = case if isinstance(case, Case) else load_case(case)
     values = _read(loaded, vary)
     found = Found(len(next(iter(values.values()))))
     waiting = _one_by_one(Variants(loaded, values), found, series, progress)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
+
+from towercrane.arguments import check_fields
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,4 @@ class ModalDamping:
     vertical: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in self.__slots__:
-            if not 0.0 <= getattr(self, name) < inf:
-                raise ValueError(f"ModalDamping.{name}: wanted zero or more, got {getattr(self, name)!r}")
+        check_fields(self, not_negative=self.__slots__)

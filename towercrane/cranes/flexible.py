@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from towercrane.arguments import check_fields
 from towercrane.cranes import drive_kernel, flexible_kernel
 from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.corner import Corner
@@ -89,7 +90,8 @@ class FlexibleModel:
     cap: float = np.inf
 
     def __post_init__(self) -> None:
-        if not self.cap > 0.0:
+        check_fields(self, not_negative=("drive_inertia",))
+        if not isinstance(self.cap, int | float) or not self.cap > 0.0:
             raise ValueError(f"FlexibleModel.cap: wanted a positive frequency [Hz], got {self.cap!r}")
         crane = self.crane
         leaves = crane.planes > 1 or crane.torsion.count or crane.lateral.count or self.slewing != "fixed"
@@ -101,8 +103,6 @@ class FlexibleModel:
             raise ValueError(f"FlexibleModel.drive_inertia: wanted 0 without a drive, got {self.drive_inertia!r}")
         if self.drive is not None and self.drive.friction == "stick-slip":
             raise ValueError("FlexibleModel.slewing: wanted friction 'none' or 'tanh', got 'stick-slip'")
-        if not 0.0 <= self.drive_inertia < np.inf:
-            raise ValueError(f"FlexibleModel.drive_inertia: wanted zero or more, got {self.drive_inertia!r}")
 
     @property
     def drive(self) -> Drive | None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from modal.shapes import cantilever_modes
 from modal.torsion import torsion_modes
+from towercrane.arguments import check_count
 from towercrane.cranes import wind
 from towercrane.cranes.mass_sums import Basis, MassSums, rigid_sums, uniform_sums
 
@@ -58,7 +59,7 @@ class ModeCounts:
     Raises
     ------
     ValueError
-        If one is negative.
+        If one is no whole number of zero or more.
     """
 
     tower: int = 1
@@ -68,8 +69,7 @@ class ModeCounts:
 
     def __post_init__(self) -> None:
         for name in self.__slots__:
-            if getattr(self, name) < 0:
-                raise ValueError(f"ModeCounts.{name}: wanted zero or more, got {getattr(self, name)!r}")
+            check_count(f"ModeCounts.{name}", getattr(self, name))
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.arguments import check_fields
 from towercrane.cranes import jib_crane_kernel as kernel
 from towercrane.payload import SLACK
 from towercrane.system import System
@@ -74,15 +75,8 @@ class JibCrane:
     gravity: float = 9.81
 
     def __post_init__(self) -> None:
-        for name in ("post_height", "post_inertia"):
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(f"JibCrane.{name}: wanted zero or more, got {getattr(self, name)!r}")
-        for boom in ("primary", "secondary"):
-            for name in (f"{boom}_length", f"{boom}_mass_per_length"):
-                if not 0.0 < getattr(self, name) < np.inf:
-                    raise ValueError(f"JibCrane.{name}: wanted a positive number, got {getattr(self, name)!r}")
-        if not 0.0 < self.gravity < np.inf:
-            raise ValueError(f"JibCrane.gravity: wanted a positive number, got {self.gravity!r}")
+        booms = [f"{boom}_{what}" for boom in ("primary", "secondary") for what in ("length", "mass_per_length")]
+        check_fields(self, positive=(*booms, "gravity"), not_negative=("post_height", "post_inertia"))
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.arguments import check_fields
 from towercrane.cranes import jib_crane_kernel as kernel
 from towercrane.cranes.jib_crane import DRIVEN_ROPE, SLACK_ROPE, JibModel, driven_start, hanging
 
@@ -49,9 +50,7 @@ class TrackingJibCrane(JibModel):
     damping: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("stiffness", "damping"):
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(f"TrackingJibCrane.{name}: wanted zero or more, got {getattr(self, name)!r}")
+        check_fields(self, not_negative=("stiffness", "damping"))
 
     @cached_property
     def system(self) -> System:

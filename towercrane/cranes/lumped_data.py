@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from towercrane.arguments import check_fields
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -58,6 +60,9 @@ class Point:
     height: Row
     drag: float | tuple[float, float, float] = 0.0
 
+    def __post_init__(self) -> None:
+        check_fields(self, not_negative=("mass",))
+
 
 @dataclass(frozen=True)
 class Spring:
@@ -78,6 +83,9 @@ class Spring:
     stiffness: float
     damping: float = 0.0
 
+    def __post_init__(self) -> None:
+        check_fields(self, not_negative=("stiffness", "damping"))
+
 
 @dataclass(frozen=True)
 class Drive:
@@ -94,6 +102,11 @@ class Drive:
     friction : {"none", "tanh", "stick-slip"}
     friction_torque, friction_rate : float
         Limit [N m], and the rate at which tanh reaches 76 % of it [rad/s].
+
+    Raises
+    ------
+    ValueError
+        If a number is negative or not finite, the corner zero, or the law another.
     """
 
     on: str
@@ -104,6 +117,13 @@ class Drive:
     friction: Literal["none", "tanh", "stick-slip"] = "tanh"
     friction_torque: float = 0.0
     friction_rate: float = 0.01
+
+    def __post_init__(self) -> None:
+        check_fields(self, positive=("corner",), not_negative=("soft", "stiff", "damping", "friction_torque"))
+        if self.friction not in ("none", "tanh", "stick-slip"):
+            raise ValueError(f"Drive.friction: wanted 'none', 'tanh' or 'stick-slip', got {self.friction!r}")
+        if self.friction == "tanh":
+            check_fields(self, positive=("friction_rate",))
 
 
 @dataclass(frozen=True)

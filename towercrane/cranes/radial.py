@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from towercrane.arguments import check_count, check_fields
 from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.damping import ModalDamping
 from towercrane.cranes.flexible import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB, FlexibleModel
@@ -74,8 +75,8 @@ class RadialModel:
 
     def __post_init__(self) -> None:
         for name in ("tower_modes", "jib_modes"):
-            if getattr(self, name) < 0:
-                raise ValueError(f"RadialModel.{name}: wanted zero or more, got {getattr(self, name)!r}")
+            check_count(f"RadialModel.{name}", getattr(self, name))
+        check_fields(self, not_negative=("tower_damping_ratio", "jib_damping_ratio"))
 
     @cached_property
     def scene(self) -> FlexibleModel:

@@ -7,8 +7,9 @@ name differ in kind between the models: the basic model's jib shifts sideways [N
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from math import isfinite
 from typing import Literal
+
+from towercrane.arguments import check_fields
 
 FrictionLaw = Literal["tanh", "stick-slip", "none"]
 
@@ -75,13 +76,9 @@ class SlewingParameters:
 
     def __post_init__(self) -> None:
         for field in fields(self):
-            value = getattr(self, field.name)
-            if field.name in ("name", "friction_law"):
-                continue
-            may_be_zero = field.name.startswith(MAY_BE_ZERO)
-            if not isfinite(value) or value < 0.0 or (value == 0.0 and not may_be_zero):
-                wanted = "zero or more" if may_be_zero else "a positive number"
-                raise ValueError(f"{type(self).__name__}.{field.name}: wanted {wanted}, got {value!r}")
+            if field.name not in ("name", "friction_law"):
+                way = "not_negative" if field.name.startswith(MAY_BE_ZERO) else "positive"
+                check_fields(self, **{way: (field.name,)})
         if self.friction_law not in ("tanh", "stick-slip", "none"):
             wanted = "'tanh', 'stick-slip' or 'none'"
             raise ValueError(f"{type(self).__name__}.friction_law: wanted {wanted}, got {self.friction_law!r}")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from modal.beam import Beam, EndBody
+from towercrane.arguments import check_fields
 
 if TYPE_CHECKING:
     from modal.chain import Chain
@@ -46,7 +47,7 @@ class TowerCrane:
     Raises
     ------
     ValueError
-        If jib and lateral jib, or tower and shaft, differ in what they must share.
+        If a number is negative or not finite, or jib and lateral jib, or tower and shaft, differ in what they share.
     """
 
     name: str
@@ -62,14 +63,14 @@ class TowerCrane:
     roll_inertia: float = 0.0
 
     def __post_init__(self) -> None:
+        masses = ("counter_jib_mass_per_length", "counterweight", "trolley_mass", "gravity", "roll_inertia")
+        check_fields(self, not_negative=("counter_jib_length", *masses))
         pairs = [("jib_lateral", self.jib_lateral, self.jib, "length"), ("shaft", self.shaft, self.tower, "length")]
         pairs.append(("jib_lateral", self.jib_lateral, self.jib, "mass_per_length"))
         for name, other, member, shared in pairs:
             if other is not None and getattr(other, shared) != getattr(member, shared):
                 wanted, got = getattr(member, shared), getattr(other, shared)
                 raise ValueError(f"TowerCrane.{name}.{shared}: wanted {wanted!r}, as in the plane, got {got!r}")
-        if not 0.0 <= self.roll_inertia < float("inf"):
-            raise ValueError(f"TowerCrane.roll_inertia: wanted zero or more, got {self.roll_inertia!r}")
 
     @property
     def counter_mass(self) -> float:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.arguments import check_fields
 from towercrane.motion import Motion, rest
 from towercrane.payload import AIR_DENSITY
 
@@ -43,9 +44,7 @@ class WindAreas:
     counterweight: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in self.__slots__:
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(f"WindAreas.{name}: wanted zero or more, got {getattr(self, name)!r}")
+        check_fields(self, not_negative=self.__slots__)
 
 
 def drag(area: float) -> float:
