@@ -293,7 +293,7 @@ def test_phases_stop_at_the_duration():
         (lambda: sequence(), "at least one motion"),
         (lambda: table([0, 2, 1], [0, 1, 2]), "start at 0 and increase"),
         (lambda: table([0.0], [1.0]), "two or more"),
-        (lambda: rest(0.0, -1.0), "zero or more seconds"),
+        (lambda: rest(0.0, -1.0), "duration: wanted zero or more"),
         (lambda: Motion(np.array([0.0, 1.0]), np.array([[np.nan]])), "finite numbers"),
     ],
 )
