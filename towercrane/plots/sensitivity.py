@@ -54,14 +54,14 @@ def ranking(study: Study) -> Figure:
     for k, name in enumerate(outputs):
         sizes = [max(100.0 * entry["near"][name], 1e-3) for entry in study.influence]
         axes.barh(
-            places + (k - 0.5 * len(outputs)) * height, sizes, height, color=COLOURS[k % 6],
+            places + (k - 0.5 * (len(outputs) - 1)) * height, sizes, height, color=COLOURS[k % 6],
             label=str(name).replace("_", " "),
         )  # fmt: skip
     axes.set_yticks(places, [entry["parameter"].replace("_", " ") for entry in study.influence], fontsize=8)
     axes.invert_yaxis()
     axes.set(
         xscale="log",
-        xlim=(1e-3, 200.0),
+        xlim=(1e-3, max(200.0, 2.0 * axes.get_xlim()[1])),
         xlabel="largest change of the output within 50 to 150 % of nominal [% of its peak]",
     )
     axes.set_ylabel("parameter [varied alone]")
