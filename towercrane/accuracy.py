@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
 
+from towercrane.cranes.frequency_cap import FREE_MODES
 from towercrane.indicators import drift, vibration
 from towercrane.nodes import BEYOND, OUTPUTS, RICHEST, SWING, TENSION, nodes_of
 from towercrane.scene import AnySetting, Setting
@@ -52,7 +53,7 @@ SMALLEST_PEAK = 1e-4
 """Peaks below this [m, rad or N] count as this."""
 
 WIDE, LEANING = 0.5, 0.1
-"""Swing [rad], and deflections of tower and jib over their lengths, beyond which small motions say little."""
+"""Swing [rad], and deflection of the tower over its height, beyond which small motions say little."""
 
 GROWTH = 0.3
 """Exponent of a parametric resonance's growth over a run, beyond which nothing is promised."""
@@ -225,11 +226,9 @@ class Indicators:
         if swing > WIDE:
             found.append(f"the load swings {swing:.2g} rad: small motions say little about it")
         crane = self.scene.crane
-        for part, length, deflection in zip(
-            ("tower", "jib"), (crane.tower.length, crane.jib.length), rich.peaks, strict=False
-        ):
-            if deflection > LEANING * length:
-                found.append(f"the {part} bends by {deflection / length:.0%} of its length: small motions say little")
+        leaning = rich.peaks[0] / crane.tower.length
+        if leaning > LEANING:
+            found.append(f"the tower bends by {leaning:.0%} of its height: small motions say little about its head")
         weight = self.scene.load.mass * crane.gravity
         pumping = abs(rich.ringing(np.arange(len(self.nodes.times)))[:, TENSION]).sum(axis=2) / weight + swing**2
         pendulum = rich.pendulum
@@ -320,7 +319,7 @@ def candidates(indicators: Indicators, outputs: set[str], stated: dict[str, Any]
     """Models to be tried, the cheapest first."""
     own = indicators.nodes.frequencies / (2.0 * np.pi)
     tower, jib = np.split(own[:-1], [indicators.richest.tower_modes])
-    free = max(tower[1], jib[1])
+    free = free_frequency(indicators)
     found: dict[Setting, float] = {}
     for a, b in MODES:
         counts = {"tower_modes": a, "jib_modes": b, **stated}
@@ -333,6 +332,12 @@ def candidates(indicators: Indicators, outputs: set[str], stated: dict[str, Any]
             if cap == np.inf or cap < highest:
                 found[Setting(**{"cap": cap, **counts})] = cost(a + b, min(highest, cap))
     return sorted(found, key=found.__getitem__)
+
+
+def free_frequency(indicators: Indicators) -> float:
+    """Highest frequency of the modes that a cap never slows [Hz]."""
+    own = indicators.nodes.frequencies
+    return float(max(own[FREE_MODES - 1], own[indicators.richest.tower_modes + FREE_MODES - 1]) / (2.0 * np.pi))
 
 
 def cost(n: int, highest: float) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy import SMALLEST_PEAK, Choice, Indicators, candidates, choose
+from towercrane.accuracy import SMALLEST_PEAK, Choice, Indicators, candidates, choose, free_frequency
 from towercrane.bench.clock import short
 from towercrane.bench.drawn import scenes
 from towercrane.integrate import FINISHED
@@ -26,11 +26,20 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-REFERENCE = Setting(6, 12, rtol=1e-8, atol=1e-11)
+REFERENCE = Setting(10, 14, rtol=1e-8, atol=1e-11)
 """For the rope tension, which sees accelerations."""
 
-CAPPED_REFERENCE = replace(REFERENCE, cap=40.0, rtol=1e-6, atol=1e-9)
-"""For positions, in which nothing vibrates visibly beyond 40 Hz: within 1e-5 of a peak of the one without cap."""
+CAPPED_REFERENCE = replace(REFERENCE, rtol=1e-6, atol=1e-9)
+"""For positions, in which modes far above those that are never capped are not seen to vibrate."""
+
+REFERENCE_CAPS = {"equilibrium": (40.0, 5.0), "zero": (150.0, 12.0)}
+"""Least cap of that [Hz], and over the fastest of those modes, by start: a crane let fall rings all its modes."""
+
+CYCLES = 1e4
+"""Cycles of the fastest mode in a scene up to which its rope tension is asked for: a reference takes that long."""
+
+COSTED = 8
+"""Of so many scenes, one shows what the cheapest run that keeps the target costs."""
 
 TARGETS = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
 """Errors over peaks that are asked for."""
@@ -41,19 +50,19 @@ TENSION_TARGET = 3e-3
 LOOSE_RTOL = 2e-3
 """Rtol that contenders for the cheapest run have besides the chosen one."""
 
-QUICK, FULL, SEED = 8, 240, 4052
+QUICK, FULL, SEED = 8, 400, 7301
 """Scenes drawn, and the seed that the safety factors were not set on."""
 
 
 def error_controlled(repeats: int) -> dict[str, Any]:
     """Error-controlled runs of drawn scenes."""
     notes = [
-        f"scenes: cranes, loads, ropes, drives and starts drawn with seed {SEED}; outputs: positions, in a quarter "
+        f"scenes: cranes, loads, ropes, drives and starts drawn with seed {SEED}; outputs: positions, in some "
         "of the scenes the rope tension as well",
-        f"reference: {REFERENCE.tower_modes}+{REFERENCE.jib_modes} modes, rtol {CAPPED_REFERENCE.rtol:g} and "
-        f"a cap at {CAPPED_REFERENCE.cap:g} Hz for positions, rtol {REFERENCE.rtol:g} without cap for the tension",
+        f"reference: {REFERENCE.tower_modes}+{REFERENCE.jib_modes} modes, rtol {CAPPED_REFERENCE.rtol:g} and a cap "
+        f"for positions, rtol {REFERENCE.rtol:g} without cap for the tension",
         "cost: CPU time of choosing, building and solving, over that of building and solving the cheapest of the "
-        "program's settings that keeps the target",
+        f"program's settings that keeps the target, in one of {COSTED} scenes",
     ]
     records = measured(FULL if repeats > 3 else QUICK, SEED)
     return promises("accuracy", "Error-controlled runs", records, notes, "median cost")
@@ -93,32 +102,56 @@ def promises(name: str, title: str, records: list[dict[str, Any]], notes: list[s
     }
 
 
-def measured(count: int, seed: int) -> list[dict[str, Any]]:
-    """One record per scene, see :func:`measured_scene`."""
+def measured(count: int, seed: int, first: int = 0) -> list[dict[str, Any]]:
+    """One record per scene from the first that is wanted, see :func:`measured_scene`."""
     rng = np.random.default_rng(seed + 1)
     found = []
     for number, scene in enumerate(scenes(count, seed)):
-        target = float(rng.choice(TARGETS))
-        outputs = OUTPUTS if rng.random() < 0.25 else OUTPUTS[:3]
-        if len(outputs) > TENSION:
-            target = max(target, TENSION_TARGET)
-        found.append({"scene": number, "target": target, **measured_scene(scene, target, outputs)})
+        target, tension = float(rng.choice(TARGETS)), rng.random() < 0.25
+        if number < first:
+            continue
+        record = measured_scene(scene, target, tension=tension, costed=number % COSTED == 0)
+        found.append({"scene": number, **record})
     return found
 
 
-def measured_scene(scene: RadialScene, target: float, outputs: tuple[str, ...]) -> dict[str, Any]:
+def reference_of(scene: RadialScene, *, tension: bool) -> Setting:
+    """The setting whose run counts as exact."""
+    if tension:
+        return REFERENCE
+    free = free_frequency(Indicators(scene))
+    least, factor = REFERENCE_CAPS[scene.state]
+    return replace(CAPPED_REFERENCE, cap=max(least, factor * free))
+
+
+def measured_scene(scene: RadialScene, target: float, *, tension: bool, costed: bool) -> dict[str, Any]:
     """Choose, run, compare with the reference and with cheaper settings.
+
+    Parameters
+    ----------
+    scene : RadialScene
+    target : float
+        Error over the peak.
+    tension : bool
+        Whether the rope tension is asked for besides the positions, where the scene is short enough.
+    costed : bool
+        Whether the cheapest run that keeps the target is sought.
 
     Returns
     -------
     dict
-        ``outcome`` ("promised", or why not), ``error`` (largest over the peak), ``estimate``, ``output`` (the worst),
-        ``setting``, ``cost`` (over the cheapest run that keeps the target; None where none does), ``choice_seconds``.
+        ``target``, ``outcome`` ("promised", or why not), ``error`` (largest over the peak), ``estimate``, ``output``
+        (the worst), ``setting``, ``cost`` (over the cheapest run that keeps the target; None where none does or is
+        sought), ``choice_seconds``.
     """
-    nothing: dict[str, Any] = {"error": None, "estimate": None, "output": "", "setting": "", "cost": None}
+    tension = tension and Indicators(scene).nodes.frequencies.max() * scene.duration < 2.0 * np.pi * CYCLES
+    outputs, target = (OUTPUTS, max(target, TENSION_TARGET)) if tension else (OUTPUTS[:TENSION], target)
+    nothing: dict[str, Any] = {
+        "target": target, "error": None, "estimate": None, "output": "", "setting": "", "cost": None
+    }  # fmt: skip
     targets = {name: Tolerance(target, relative=True) for name in outputs}
     try:
-        reference = scene.run(REFERENCE if len(outputs) > TENSION else CAPPED_REFERENCE)
+        reference = scene.run(reference_of(scene, tension=tension))
         choice = choose(scene, targets)
     except NoEquilibrium as failure:
         return {"outcome": failure.outcome, **nothing}
@@ -127,16 +160,17 @@ def measured_scene(scene: RadialScene, target: float, outputs: tuple[str, ...]) 
     if reference.attrs["outcome"] != FINISHED or run.attrs["outcome"] != FINISHED:
         return {"outcome": f"ended early: {run.attrs['outcome']}", **nothing, "setting": _name(choice.setting)}
     errors = _errors(run, reference, outputs)
-    outcome = KEPT if choice.kept else OUT_OF_REACH
-    estimates = choice.estimate.errors(choice.peaks)[[OUTPUTS.index(name) for name in outputs]]
-    peaks = np.maximum([float(abs(run[name].values).max()) for name in outputs], SMALLEST_PEAK)
-    cheapest = _cheapest(scene, choice, target, reference, outputs) if choice.kept else None
+    peaks = np.maximum([peak(run, name) for name in OUTPUTS], SMALLEST_PEAK)
+    shares = (choice.estimate.errors(peaks) / peaks)[: len(outputs)]
+    kept = bool(shares.max() <= target)
+    cheapest = _cheapest(scene, choice, target, reference, outputs) if kept and costed else None
     return {
-        "outcome": "may resonate or swing wide" if choice.doubts else outcome,
+        "target": target,
+        "outcome": "may resonate, swing wide or lean" if choice.doubts else KEPT if kept else OUT_OF_REACH,
         "error": float(errors.max()),
-        "estimate": float((estimates / peaks).max()),
+        "estimate": float(shares.max()),
         "errors": errors.tolist(),
-        "estimates": (estimates / peaks).tolist(),
+        "estimates": shares.tolist(),
         "output": outputs[int(errors.argmax())],
         "setting": _name(choice.setting),
         "cost": None if cheapest is None else cost / cheapest,
