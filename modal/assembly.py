@@ -1,16 +1,17 @@
-"""A structure made ready for the compiled search: cut where it has to be, in arrays, in its own units."""
+"""A structure made ready for the compiled search: cut and joined to runs as its waves ask for, in its own units."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, inf, isinf, log, sqrt
+from math import ceil, isinf, log, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.stiffness import TERMS
-from modal.structure import HELD, Structure
-from modal.structure_kernel import ROWS, dynamic_stiffness, find_roots, piece_ends
+from modal.piece import TERMS
+from modal.stiffness import ROWS
+from modal.structure import HELD, POINTS, Structure
+from modal.structure_kernel import block_count, dynamic_stiffness, find_roots, find_runs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,23 +19,21 @@ if TYPE_CHECKING:
     from modal.structure import Member
 
     Floats = NDArray[np.float64]
+    Runs = NDArray[np.int64]
 
 LONGEST = 5
-"""Pieces, see `modal.stiffness`, that a member may have without a node of its own; each is some 1.7 rad of wave."""
+"""Blocks, see `modal.stiffness`, that a run may have without a node of its own; each is 1.7 rad of wave at most."""
 
-SHORT = 0.03
-"""Length over that of the longest member below which a member's far end is counted from its near end."""
+MOST_RUNS = 128
+"""Number of runs from which on they get longer instead: matrices are full."""
 
-STRONGEST = 3.0
-"""Change of breadth along a tapered member, as a factor, that needs no node of its own."""
-
-FOREVER = 1e9
-"""Load factor beyond which buckling is not looked for."""
+STRONGEST = 30.0
+"""Change of bending or shear stiffness along a run, as a factor, that needs no node of its own."""
 
 
 @dataclass(frozen=True, eq=False)
 class Assembly:
-    """Arrays of a structure that hold up to a frequency.
+    """Arrays of a structure that hold up to a frequency and a load factor.
 
     Parameters
     ----------
@@ -42,50 +41,52 @@ class Assembly:
         The structure with the nodes that were put inside its members; the unknowns of the original come first.
     units : tuple of float
         Length [m], force [N] and circular frequency [rad/s] that the arrays are counted in.
-    segments, motions, points : ndarray
+    segments, nodes, runs, motions, points : ndarray
         As `modal.structure_kernel` takes them.
-    composition : ndarray, shape (n, n)
-        What turns the arrays' unknowns into the structure's [m, rad]; beyond short members they are departures.
+    composition : ndarray, shape (u, n)
+        What turns the arrays' unknowns into the structure's u [m, rad]; beyond single blocks they are departures, and
+        those inside a run do not follow.
     """
 
     structure: Structure
     units: tuple[float, float, float]
     segments: Floats
+    nodes: Floats
+    runs: Runs
     motions: Floats
     points: Floats
     composition: Floats
 
     @property
-    def _arrays(self) -> tuple[Floats, Floats, Floats, Floats]:
-        return self.segments, self.motions, self.points, np.zeros((ROWS, TERMS))
+    def arrays(self) -> tuple[Floats, Floats, Runs, Floats, Floats, Floats]:
+        """What kernels take, the scratch array last."""
+        return self.segments, self.nodes, self.runs, self.motions, self.points, np.zeros((ROWS, TERMS))
 
     def matrix(self, angular_frequency: float, load: float = 1.0) -> tuple[Floats, int]:
-        """Dynamic stiffness in the arrays' units, and the count of fixed-end modes of the segments."""
-        matrix = np.zeros_like(self.composition)
-        inside = dynamic_stiffness((angular_frequency / self.units[2]) ** 2, load, *self._arrays, matrix)
+        """Dynamic stiffness in the arrays' units, and the count of fixed-end modes of the runs."""
+        matrix = np.zeros(self.points.shape[1:])
+        inside = dynamic_stiffness((angular_frequency / self.units[2]) ** 2, load, *self.arrays, matrix)
         return matrix, int(inside)
 
-    def count(self, angular_frequency: float) -> int:
-        """Number of natural frequencies below one [rad/s], each with its multiplicity."""
-        matrix, inside = self.matrix(angular_frequency)
-        _, geometric, bodies = self.points
-        # Heavy bodies are scaled down, or their rounding errors would drown light ones.
+    def scaled(self, angular_frequency: float, load: float = 1.0) -> tuple[Floats, Floats, int]:
+        """Dynamic stiffness with every unknown brought to size, by what it was multiplied, and the count."""
+        matrix, inside = self.matrix(angular_frequency, load)
+        _, geometric, bodies = (np.abs(np.diag(points)) for points in self.points)
         squared = (angular_frequency / self.units[2]) ** 2
-        size = np.diag(self.matrix(0.0, 0.0)[0]) + np.abs(np.diag(geometric)) + squared * np.diag(bodies)
-        scale = 1.0 / np.sqrt(size)
-        return inside + int((np.linalg.eigvalsh(matrix * np.outer(scale, scale)) < 0.0).sum())
+        size = np.diag(self.matrix(0.0, 0.0)[0]) + load * geometric + squared * bodies + np.abs(np.diag(matrix))
+        scale = 1.0 / np.sqrt(np.where(size > 0.0, size, 1.0))
+        return matrix * np.outer(scale, scale), scale, inside
 
-    def angular_frequencies(self, count: int) -> Floats:
-        """Lowest natural angular frequencies [rad/s]; shape (count,)."""
-        roots = np.zeros(count)
-        find_roots(dynamic_stiffness, *self._arrays, False, 1.0, inf, roots)
-        return roots * self.units[2]
+    def count(self, angular_frequency: float, load: float = 1.0) -> int:
+        """Number of natural frequencies below one [rad/s], each with its multiplicity."""
+        matrix, _, inside = self.scaled(angular_frequency, load)
+        return inside + int((np.linalg.eigvalsh(matrix) < 0.0).sum())
 
-    def buckling_factor(self) -> float:
-        """Lowest factor on all weights and axial loads at which the structure buckles [1]; ``inf``: it never does."""
-        roots = np.zeros(1)
-        found = find_roots(dynamic_stiffness, *self._arrays, True, 1.0, FOREVER, roots)
-        return float(roots[0]) if found else inf
+    def roots(self, above: float, below: float, known: int, count: int, *, by_load: bool = False) -> Floats:
+        """The next natural angular frequencies [rad/s], or load factors, between two; so many are known below."""
+        roots, unit = np.zeros(count), 1.0 if by_load else self.units[2]
+        find_roots(dynamic_stiffness, *self.arrays, by_load, above / unit, below / unit, known, roots)
+        return roots * unit
 
     def stiffness(self, unknowns: int) -> Floats:
         """Static stiffness of the original's unknowns under all weights and loads [N/m, N, N m], shape (n, n)."""
@@ -103,97 +104,128 @@ class Assembly:
         length, force, _ = self.units
         # Not by way of `stiffness`, which short members spoil.
         kept = self.composition[: len(forces)]
-        matrix, _ = self.matrix(0.0)
-        scale = 1.0 / np.sqrt(np.diag(matrix))
-        solved = np.linalg.solve(
-            matrix * np.outer(scale, scale), scale[:, None] * (kept.T @ np.atleast_2d(forces.T).T)
-        )
+        matrix, scale, _ = self.scaled(0.0)
+        solved = np.linalg.solve(matrix, scale[:, None] * (kept.T @ np.atleast_2d(forces.T).T))
         found = kept @ (scale[:, None] * solved) / (force * length)
         return found.reshape(np.shape(forces))
 
-    def null_vectors(self, angular_frequencies: Floats, double: float) -> Floats:
-        """The arrays' unknowns at natural frequencies, shape (k, n); independent ones where they are equal.
-
-        Parameters
-        ----------
-        angular_frequencies : ndarray, shape (k,)
-            Ascending [rad/s].
-        double : float
-            Relative distance below which frequencies count as equal [1].
-        """
-        scale = 1.0 / np.sqrt(np.diag(self.matrix(0.0, 0.0)[0]))
-        vectors = np.zeros((angular_frequencies.size, scale.size))
+    def null_vectors(self, angular_frequencies: Floats) -> Floats:
+        """The arrays' unknowns at natural frequencies that count as one [rad/s], shape (k, n), independent."""
+        vectors = []
         for k, omega in enumerate(angular_frequencies):
-            values, found = np.linalg.eigh(self.matrix(omega)[0] * np.outer(scale, scale))
-            before = int((np.abs(angular_frequencies[:k] - omega) <= double * omega).sum())
-            vectors[k] = scale * found[:, np.argsort(np.abs(values))[before]]
-        return vectors
+            matrix, scale, _ = self.scaled(omega)
+            values, found = np.linalg.eigh(matrix)
+            vectors.append(scale * found[:, np.argsort(np.abs(values))[k]])
+        return np.array(vectors)
 
 
-def assembly(structure: Structure, angular_frequency: float) -> Assembly:
-    """A structure made ready for frequencies up to one [rad/s].
+def refined(
+    structure: Structure, angular_frequency: float, load: float = 1.0, most_runs: int = MOST_RUNS
+) -> Structure:
+    """The structure with nodes inside long members, up to a frequency [rad/s] and a load factor.
 
-    Three things would cost digits and are avoided. Between its ends a member that is long for the waves has fixed-end
-    frequencies exponentially close to natural ones of the structure, which its condensed stiffness no longer tells
-    apart: e^x digits are lost, x the length in waves; so it gets nodes. In a strong taper the slender end hides the
-    stout one: it gets nodes too. And a short member is so stiff, as 1/h^3, that rounding of its rigid motion would
-    outweigh the rest: beyond it, unknowns are counted from where it would be if it were rigid.
+    Between its ends a member that is long for the waves has fixed-end frequencies exponentially close to natural ones
+    of the structure, which its condensed stiffness no longer tells apart: e^x digits are lost, x the length in waves.
+    In a strong taper the slender end hides the stout one. Both get nodes.
     """
-    units = _units(structure)
-    squared, none = (angular_frequency / units[2]) ** 2, np.empty(1)
+    units = units_of(structure)
+    squared = (angular_frequency / units[2]) ** 2
     fine = Structure(structure.unknowns, shear_theory=structure.shear_theory)
+    parts = [part for member in structure.members for part in _even(member, fine)]
+    blocks = [block_count(row_of(part, structure, units), squared, load) for part in parts]
+    longest = max(LONGEST, sum(blocks) // most_runs)
+    for part, count in zip(parts, blocks, strict=True):
+        # Equal ones would all have the same fixed-end frequencies.
+        cut = part.cut(-(-count // longest), len(fine.unknowns), spread=0.1)
+        fine.members += cut
+        fine.unknowns += ("m", "rad") * (len(cut) - 1)
+    for name in POINTS:
+        getattr(fine, name).update(getattr(structure, name))
+    return fine
+
+
+def assembly(
+    fine: Structure, angular_frequency: float, load: float = 1.0, most_runs: int = MOST_RUNS, *, whole: bool = False
+) -> Assembly:
+    """The arrays of a `refined` structure for frequencies up to one [rad/s] and a load factor.
+
+    Segments are joined to runs as long as the waves allow, so that neither the number of unknowns nor the digits hang
+    on how finely the structure is cut. A run that is a single block is so stiff, as 1/h^3, that rounding of its rigid
+    motion would outweigh the rest: beyond it, unknowns are counted from where it would be if it were rigid.
+
+    Parameters
+    ----------
+    fine : Structure
+    angular_frequency, load : float
+    most_runs : int
+    whole : bool
+        Whether to keep every unknown.
+    """
+    units = units_of(fine)
+    length, force, frequency = units
+    segments = np.array([row_of(member, fine, units) for member in fine.members])
+    size = np.array([length if unit == "m" else 1.0 for unit in fine.unknowns])
+    free = np.zeros(len(segments)) if whole else _free(fine)
+    scale = {"springs": 1.0, "geometric": 1.0, "bodies": frequency**2}
+    nodes = np.zeros((len(segments), len(POINTS), 3))
+    for s in np.flatnonzero(free):
+        v, theta = fine.members[s].unknowns[:2]
+        for row, name in enumerate(POINTS):
+            found = getattr(fine, name)
+            for column, (i, j) in enumerate(((v, v), (v, theta), (theta, theta))):
+                nodes[s, row, column] = found.get((i, j), 0.0) * scale[name] * size[i] * size[j] / (force * length)
+    squared, runs = (angular_frequency / frequency) ** 2, np.zeros((len(segments), 3), dtype=np.int64)
+    longest, number = LONGEST, most_runs + 1
+    while number > most_runs and longest <= LONGEST * len(segments):
+        number = find_runs(segments, nodes, free, squared, load, longest, STRONGEST, runs)
+        longest *= 2
+    runs = runs[:number]
+
+    starts = set(runs[:, 0].tolist())
+    inside = {u for s in np.flatnonzero(free) if s not in starts for u in fine.members[s].unknowns[:2]}
+    outer = [u for u in range(size.size) if u not in inside]
+    composition, motions = _motions(fine, runs, size, outer, angular_frequency**2)
+    motions[:, [0, 2]] /= length
+    points = np.zeros((len(POINTS), len(outer), len(outer)))
+    place = {u: k for k, u in enumerate(outer)}
+    for row, name in enumerate(POINTS):
+        for (i, j), value in getattr(fine, name).items():
+            if i in place:
+                points[row, place[i], place[j]] = value * scale[name]
+    kept = composition[outer]
+    points = np.ascontiguousarray(kept.T @ points @ kept / (force * length))
+    return Assembly(fine, units, segments, nodes, runs, motions, points, composition)
+
+
+def units_of(structure: Structure) -> tuple[float, float, float]:
+    """Length [m], force [N] and circular frequency [rad/s] of the size of the structure's own, however it is cut."""
+    parts: dict[str, float] = {}
     for member in structure.members:
-        for part in _even(member, fine):
-            pieces = piece_ends(np.array(_properties(part, structure, units)), squared, 1.0, none)
-            # Equal ones would all have the same fixed-end frequencies.
-            cut = part.cut(max(1, -(-pieces // LONGEST)), len(fine.unknowns), spread=0.1)
-            fine.members += cut
-            fine.unknowns += ("m", "rad") * (len(cut) - 1)
-    extra = len(fine.unknowns) - len(structure.unknowns)
-    for name in ("springs", "geometric", "bodies"):
-        setattr(fine, name, np.pad(getattr(structure, name), (0, extra)))
-
-    segments = np.array([_properties(member, structure, units) for member in fine.members])
-    short = [
-        member.segment.length < SHORT * units[0] and piece_ends(row, squared, 1.0, none) == 1
-        for member, row in zip(fine.members, segments, strict=True)
-    ]
-    # A rotation counts as it is, a deflection in units of length.
-    size = np.array([units[0] if unit == "m" else 1.0 for unit in fine.unknowns])
-    composition, motions, departing = _motions(fine, short, size)
-    segments[:, -1] = departing
-    motions[:, [0, 2]] /= units[0]
-    points = np.array([fine.springs, fine.geometric, fine.bodies * units[2] ** 2])
-    points = composition.T @ points @ composition / (units[0] * units[1])
-    return Assembly(fine, units, segments, motions, np.ascontiguousarray(points), composition)
-
-
-def _units(structure: Structure) -> tuple[float, float, float]:
-    """Length [m], force [N] and circular frequency [rad/s] of the size of the structure's own."""
-    segments = [member.segment for member in structure.members]
-    length = max(segment.length for segment in segments)
-    bending = max(segment.bending_stiffness for segment in segments)
-    mass = max(segment.mass_per_length for segment in segments)
+        parts[member.part] = parts.get(member.part, 0.0) + member.segment.length
+    length = max(parts.values())
+    bending = max(member.segment.bending_stiffness for member in structure.members)
+    mass = max(member.segment.mass_per_length for member in structure.members)
     return length, bending / length**2, sqrt(bending / mass) / length**2
 
 
-def _properties(member: Member, structure: Structure, units: tuple[float, float, float]) -> list[float]:
-    """Row of `modal.stiffness` for a member."""
+def row_of(member: Member, structure: Structure, units: tuple[float, float, float]) -> Floats:
+    """Row of `modal.piece` for a member, shape (13,)."""
     s, (length, force, frequency) = member.segment, units
     mass = force / (length * frequency**2)
     flexibility = 0.0 if isinf(s.shear_stiffness) else force / s.shear_stiffness
-    return [
+    return np.array([
         s.length / length, s.mass_per_length * length / mass, s.bending_stiffness / (force * length**2),
         flexibility, s.rotary_inertia / (mass * length), s.end_ratio,
-        s.mass_power, s.bending_power, s.shear_power,
-        member.compression / force, member.gravity * mass / force, float(structure.shear_theory == "engesser"), 0.0,
-    ]  # fmt: skip
+        s.mass_power, s.bending_power, s.shear_power, member.compression / force, member.gravity * mass / force,
+        float(structure.shear_theory == "engesser"), float(s.inclined_chords),
+    ])  # fmt: skip
 
 
 def _even(member: Member, structure: Structure) -> list[Member]:
     """A tapered member as several with equal changes of breadth, on new unknowns of the structure."""
-    ratio = member.segment.end_ratio
-    parts = max(1, ceil(abs(log(ratio)) / log(STRONGEST)))
+    s = member.segment
+    power = max(s.bending_power, 0.0 if isinf(s.shear_stiffness) else abs(s.shear_power))
+    parts = max(1, ceil(power * abs(log(s.end_ratio)) / log(STRONGEST)))
     found, rest = [], member
     for left in range(parts, 1, -1):
         # Of the breadth that is left, its parts-th root.
@@ -205,21 +237,66 @@ def _even(member: Member, structure: Structure) -> list[Member]:
     return [*found, rest]
 
 
-def _motions(structure: Structure, short: list[bool], size: Floats) -> tuple[Floats, Floats, list[bool]]:
-    """How the arrays' unknowns move those of the structure and the ends of members, and which far ends depart."""
-    composition = np.diag(size)
-    motions, departing = np.zeros((len(structure.members), 4, size.size)), []
+def _free(structure: Structure) -> Floats:
+    """Where the node before a member may lie inside a run: nothing else hangs on its unknowns; shape (members,)."""
+    uses = np.zeros(len(structure.unknowns), dtype=int)
+    for member in structure.members:
+        for unknown in member.unknowns:
+            if unknown != HELD:
+                uses[unknown] += 1
+    members = structure.members
+    free, own = np.zeros(len(members)), {}
+    for s in range(1, len(members)):
+        near, far = members[s].unknowns[:2], members[s - 1].unknowns[2:]
+        plain = members[s].factors[:2] == members[s - 1].factors[2:] == (1.0, 1.0)
+        if plain and near == far and HELD not in near and near[0] != near[1] and (uses[[*near]] == 2).all():
+            free[s] = 1.0
+            own.update(dict.fromkeys(near, s))
+    for name in POINTS:
+        for i, j in getattr(structure, name):
+            if own.get(i) != own.get(j):
+                for unknown in (i, j):
+                    if unknown in own:
+                        free[own[unknown]] = 0.0
+    return free
+
+
+def _is_light(structure: Structure, members: list[Member], v: int, theta: int, omega2: float) -> bool:
+    """Whether the body at the far end of members yields to their stiffness at a square of a circular frequency."""
+    span = turn = slide = 0.0
+    for member in members:
+        s = member.segment
+        span += s.length
+        turn += s.length / (s.bending_stiffness * min(1.0, s.end_ratio**s.bending_power))
+        slide += s.length / (s.shear_stiffness * min(1.0, s.end_ratio**s.shear_power))
+    sway = span**2 * turn + slide
+    body = structure.bodies
+    return omega2 * (body.get((v, v), 0.0) * sway + body.get((theta, theta), 0.0) * turn) < 1.0
+
+
+def _motions(
+    structure: Structure, runs: Runs, size: Floats, outer: list[int], omega2: float
+) -> tuple[Floats, Floats]:
+    """How the arrays' unknowns move those of the structure and the ends of runs; of runs only some remain single."""
+    composition = np.zeros((size.size, len(outer)))
+    composition[outer, range(len(outer))] = size[outer]
+    motions = np.zeros((len(runs), 4, len(outer)))
     used: set[int] = set()
-    for s, (member, flag) in enumerate(zip(structure.members, short, strict=True)):
-        for row, (i, factor) in enumerate(zip(member.unknowns, member.factors, strict=True)):
+    for r, (first, last, single) in enumerate(runs):
+        near, far = structure.members[first], structure.members[last - 1]
+        unknowns, factors = (*near.unknowns[:2], *far.unknowns[2:]), (*near.factors[:2], *far.factors[2:])
+        for row, (i, factor) in enumerate(zip(unknowns, factors, strict=True)):
             if i != HELD:
-                motions[s, row] = factor * composition[i]
-        v, theta = member.unknowns[2:]
-        # An end that something was measured from already cannot be counted from elsewhere any more.
-        departs = flag and HELD not in (v, theta) and not used & {v, theta} and member.factors[2:] == (1.0, 1.0)
-        if departs:
-            composition[v] += motions[s, 0] + member.segment.length * motions[s, 1]
-            composition[theta] += motions[s, 1]
-        used.update(member.unknowns)
-        departing.append(departs)
-    return composition, motions, departing
+                motions[r, row] = factor * composition[i]
+        v, theta = unknowns[2:]
+        # An end that something was measured from already cannot be counted from elsewhere any more, and one with a
+        # heavy body rests where it is.
+        lone = HELD not in (v, theta) and not used & {v, theta} and factors[2:] == (1.0, 1.0)
+        if single and not (lone and _is_light(structure, structure.members[first:last], v, theta, omega2)):
+            runs[r, 2] = 0
+        elif single:
+            span = sum(member.segment.length for member in structure.members[first:last])
+            composition[v] += motions[r, 0] + span * motions[r, 1]
+            composition[theta] += motions[r, 1]
+        used.update(unknowns)
+    return composition, motions

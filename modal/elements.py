@@ -127,17 +127,23 @@ class Elements:
         return self._column(lambda member: float(getattr(member.segment, name))) * breadth**powers
 
     @cached_property
+    def _incline(self) -> Floats:
+        """Change of breadth over breadth where chords are inclined, shape (n, q) [1/m]."""
+        change = self._column(lambda m: (m.segment.end_ratio - 1.0) * m.segment.inclined_chords)
+        return change / (self._length + change * self._depth)
+
+    @cached_property
     def _compression(self) -> Floats:
         """Axial force at the quadrature points, shape (n, q) [N]."""
-        change = self._column(lambda member: member.segment.end_ratio - 1.0)
+        ratio = self._column(lambda member: member.segment.end_ratio)
         power = 1.0 + self._column(lambda member: member.segment.mass_power)
-        # Of the breadth^mass_power, integrated from the near end; expm1 keeps the digits of a slight taper.
-        slight = np.where(change == 0.0, 1.0, change)
-        tapered = self._length / (slight * power) * np.expm1(power * np.log1p(slight * self._depth / self._length))
-        passed = self._column(lambda member: member.segment.mass_per_length) * np.where(
-            change == 0.0, self._depth, tapered
-        )
-        force = self._column(lambda member: member.compression) - self._column(lambda m: m.gravity) * passed
+        # The breadth^mass_power from there to the far end; expm1 keeps the digits of a slight taper or a thin end.
+        left = self._length - self._depth
+        slight = np.where(ratio == 1.0, 1.0, 1.0 - ratio)
+        growth = np.expm1(power * np.log1p(slight * left / (self._length * ratio)))
+        tapered = self._length * ratio**power / (slight * power) * growth
+        beyond = self._column(lambda member: member.segment.mass_per_length) * np.where(ratio == 1.0, left, tapered)
+        force = self._column(lambda member: member.compression) + self._column(lambda m: m.gravity) * beyond
         return np.asarray(force)
 
     def _matrices(self, form: Callable[..., Any]) -> Floats:
@@ -162,9 +168,12 @@ class Elements:
             return self._matrices(lambda u, v, _: bending / h**3 * dd(u)[0, 0] * dd(v)[0, 0])
         stiffness = self._property("shear_stiffness", "shear_power")
 
+        incline = self._incline
+
         def energy(u: Any, theta: Any, v: Any, tau: Any, _: Any) -> Any:
             strain, other = u.grad[0] / h - theta, v.grad[0] / h - tau
-            return bending / h * theta.grad[0] * tau.grad[0] + stiffness * h * strain * other
+            curvature, second = theta.grad[0] / h - incline * strain, tau.grad[0] / h - incline * other
+            return bending * h * curvature * second + stiffness * h * strain * other
 
         return self._matrices(energy)
 

@@ -37,7 +37,10 @@ class Segment:
         Breadth at the far end over that at the near end [1]; 1 is uniform.
     mass_power, bending_power, shear_power : float
         Powers of the breadth [1]: 1 and 3 for a wedge, 2 and 4 for a cone, 0 and 2 for four legs that draw
-        together. The rotary inertia goes with the bending stiffness.
+        together. The rotary inertia goes with the bending stiffness. That of the shear stiffness may be negative.
+    inclined_chords : bool
+        Whether the moment is carried by chords the breadth apart. Where they draw together they carry a part of the
+        shear as well: the shear stiffness S strains under ``V + M b'/b`` with the breadth b.
 
     Raises
     ------
@@ -54,6 +57,7 @@ class Segment:
     mass_power: float = 0.0
     bending_power: float = 2.0
     shear_power: float = 0.0
+    inclined_chords: bool = False
 
     def __post_init__(self) -> None:
         for name in ("length", "mass_per_length", "bending_stiffness", "end_ratio"):
@@ -62,10 +66,12 @@ class Segment:
                 raise ValueError(f"Segment.{name}: wanted a positive finite number, got {value!r}")
         if not self.shear_stiffness > 0.0:
             raise ValueError(f"Segment.shear_stiffness: wanted a positive number, got {self.shear_stiffness!r}")
-        for name in ("rotary_inertia", "mass_power", "bending_power", "shear_power"):
+        for name in ("rotary_inertia", "mass_power", "bending_power"):
             value = getattr(self, name)
             if not 0.0 <= value < inf:
                 raise ValueError(f"Segment.{name}: wanted a finite number, zero or more, got {value!r}")
+        if not -inf < self.shear_power < inf:
+            raise ValueError(f"Segment.shear_power: wanted a finite number, got {self.shear_power!r}")
 
     @property
     def mass(self) -> float:
@@ -80,10 +86,10 @@ class Segment:
         """Mass between the near end and distances from it [kg]."""
         if self.end_ratio == 1.0 or self.mass_power == 0.0:
             return self.mass_per_length * distance
-        slope, power = (self.end_ratio - 1.0) / self.length, self.mass_power + 1.0
-        # By way of logarithms, so that a taper as small as rounding loses nothing.
-        growth = np.expm1(power * np.log1p(slope * distance))
-        return self.mass_per_length * growth / (slope * power)
+        change, power = self.end_ratio - 1.0, self.mass_power + 1.0
+        # By way of logarithms, so that a taper as small as rounding loses nothing; a thin end may round to nothing.
+        part = np.log1p(np.maximum(change * distance / self.length, -1.0 + 1e-16))
+        return self.mass_per_length * self.length * np.expm1(power * part) / (change * power)
 
     def split(self, distance: float) -> tuple[Segment, Segment]:
         """The same piece as two, cut at a distance from its near end [m].
@@ -96,7 +102,7 @@ class Segment:
         if not 0.0 < distance < self.length:
             raise ValueError(f"distance: wanted a cut inside 0 to {self.length!r} m, got {distance!r}")
         breadth = float(self.breadth(np.asarray(distance)))
-        powers = self.mass_power, self.bending_power, self.shear_power
+        powers = self.mass_power, self.bending_power, self.shear_power, self.inclined_chords
         near = Segment(
             distance, self.mass_per_length, self.bending_stiffness, self.shear_stiffness, self.rotary_inertia,
             breadth, *powers,

@@ -9,7 +9,7 @@ import numpy as np
 from modal.structure import HELD
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -39,16 +39,16 @@ class Entries:
         self._rows.append(i[free])
         self._columns.append(j[free])
 
-    def matrix(self, size: int, points: Floats | None = None) -> Any:
-        """Sum of all, with a dense matrix on the first unknowns."""
+    def matrix(self, size: int, points: Mapping[tuple[int, int], float] | None = None) -> Any:
+        """Sum of all, with single entries besides."""
         from scipy.sparse import coo_array, csc_array
 
         values, rows, columns = (np.concatenate(part) for part in (self._values, self._rows, self._columns))
         found = csc_array(coo_array((values, (rows, columns)), shape=(size, size)))
-        if points is None:
+        if not points:
             return found
-        i, j = np.nonzero(points)
-        return found + csc_array(coo_array((points[i, j], (i, j)), shape=(size, size)))
+        i, j = np.array(list(points)).T
+        return found + csc_array(coo_array((np.array(list(points.values())), (i, j)), shape=(size, size)))
 
 
 def factorised(matrix: Any) -> Callable[[Any], Any] | None:

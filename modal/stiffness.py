@@ -1,206 +1,56 @@
-"""Dynamic stiffness of a beam segment between its two ends, exact but for rounding, and its count of fixed-end modes.
+"""Dynamic stiffness of a run of segments between its two ends, and its count of fixed-end modes.
 
-The state (v, theta, V, M), deflection, section rotation, transverse force and moment, obeys with compression P
-
-    v' = a theta + b V,   theta' = M / EI,   V' = -m w^2 v,   M' = -V - P v' - rho I w^2 theta
-
-with a = 1 + P/S, b = 1/S (Haringx) or a = 1/(1 - P/S), b = a/S (Engesser). The segment is cut into pieces so short
-that no piece with its ends held can vibrate or buckle at the frequency asked for, each piece is solved by the Taylor
-series of its state, whatever the change of section and compression along it, and the pieces are joined by condensing
-the node between them. Joining keeps the count of Wittrick and Williams (1971): a negative eigenvalue of the condensed
-node is one more fixed-end mode below the frequency. So neither the count of a closed form with its blind spots at
-simply supported frequencies nor growing exponentials appear anywhere.
+Short pieces, see `modal.piece`, are put together as transfers of their states while no more than a block comes about
+that cannot vibrate or buckle with its ends held: however finely a beam is cut, its stiffness is that of blocks of the
+size of its waves. Blocks are joined by condensing the node between them. Joining keeps the count of Wittrick and
+Williams (1971): a negative eigenvalue of the condensed node is one more fixed-end mode below the frequency. So
+neither the count of a closed form with its blind spots at simply supported frequencies nor growing exponentials
+appear anywhere.
 """
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import Any
 
-import numpy as np
-
 from modal.compiled import kernel
+from modal.piece import (
+    RATIO,
+    SERIES,
+    TERMS,
+    WEIGHT,
+    bounds,
+    cell,
+    cells,
+    piece_of,
+    piece_transfer,
+    pieces_within,
+)
 from modal.traced import traced
 
-(LENGTH, MASS, BENDING, SHEAR_FLEXIBILITY, ROTARY, RATIO, MASS_POWER, BENDING_POWER, SHEAR_POWER,
- COMPRESSION, WEIGHT, ENGESSER, SHORT) = range(13)  # fmt: skip
-"""Properties of a segment, those of the section at its near end. COMPRESSION is that at the near end, of which WEIGHT
-times the mass passed is taken away along the segment; both are multiplied by the load factor. SHORT says that the far
-end's unknowns are its departure from where the near end would move it if the segment were rigid."""
+UNSTABLE = 1 << 30
+"""Count where a segment has no shear stiffness left (Engesser)."""
 
-TERMS = 22
-"""Terms of the Taylor series: with the pieces cut as below, what is left out is rounding, 1e-16 of a stiffness."""
+BLOCK = 0.8
+"""The same as `modal.piece.PIECE` for a block of several pieces."""
 
-REACH = 3.0
-"""Largest square of a piece's length in waves [rad^2]; all bounds of `pieces_within` together then stay below one."""
+SIZES = 8
+"""Numbers that measure a block: its length; ``int dx/EI``, ``int x dx/EI`` and ``int x^2 dx/EI`` with x the distance
+from the far end; ``int dx/S``; what inertia takes under unit circular frequency; the largest force; the least part of
+the shear stiffness that is left, see `modal.piece.bounds`."""
 
-JOINT_REACH = 3.6
-"""The same for the wave number that all effects give together, on which the series' convergence hangs [rad^2]."""
+STIFF = 0.3
+"""Largest part of a motion that the flexibility of a block may add where it counts as stiff beside those before."""
 
-TAPER = 0.1
-"""Change of breadth over one piece, relative; up to one and a half times as much in the last of a segment."""
+SLOT = 7
+"""Rows that keep a block: its relative stiffness (4, 4); what gives the node before it (2, 4), see `join`; its
+length, the pieces to its end, whether what acts on the node before it belongs to it, and whether it is stiff."""
 
-LEAST_SHEAR = 1e-4
-"""Part of the shear stiffness that compression must leave (Engesser); with less a segment counts as unstable: the
-number of pieces grows without bound towards none."""
+STATE, SCALED, PIECE, TRANSFER, KEPT, MEASURE, TOTAL, ROWS = accumulate((SERIES, TERMS + 1, 4, 4, 4, SLOT, 1, 4))
+"""Rows of the scratch array where its parts begin, after a piece's series; the last is their number."""
 
-
-@kernel()
-def mass_passed(segment: Any, distance: float) -> float:
-    """Mass between the near end and a distance from it."""
-    slope = (segment[RATIO] - 1.0) / segment[LENGTH]
-    if slope == 0.0 or segment[MASS_POWER] == 0.0:
-        return float(segment[MASS] * distance)
-    power = segment[MASS_POWER] + 1.0
-    return float(segment[MASS] * ((1.0 + slope * distance) ** power - 1.0) / (slope * power))
-
-
-@kernel()
-def pieces_within(segment: Any, near: float, far: float, omega2: float, load: float) -> int:
-    """Number of equal pieces between two distances, short enough to have no fixed-end mode; 0: unstable in shear.
-
-    With fixed ends, ``int theta^2 <= (h/pi)^2 int theta'^2`` and the same for v; the bounds below then leave the
-    energy of every motion positive, and the Taylor series converge fast.
-    """
-    slope = (segment[RATIO] - 1.0) / segment[LENGTH]
-    low, high = 1.0 + slope * near, 1.0 + slope * far
-    wide, thin = max(low, high), min(low, high)
-    bending = segment[BENDING] * thin ** segment[BENDING_POWER]
-    mass = segment[MASS] * wide ** segment[MASS_POWER]
-    flexibility = segment[SHEAR_FLEXIBILITY] / thin ** segment[SHEAR_POWER]
-    rotary = segment[ROTARY] * wide ** segment[BENDING_POWER]
-    force, least = 0.0, 1.0
-    for i in range(3):
-        z = near + 0.5 * i * (far - near)
-        compression = load * (segment[COMPRESSION] - segment[WEIGHT] * mass_passed(segment, z))
-        force = max(force, abs(compression))
-        left = 1.0 - compression * segment[SHEAR_FLEXIBILITY] / (1.0 + slope * z) ** segment[SHEAR_POWER]
-        least = min(least, left)
-    pieces = 0.0
-    if segment[ENGESSER] != 0.0:
-        if least < LEAST_SHEAR:
-            return 0
-        flexibility /= least
-        # 1 / (1 - P/S) must vary little along a piece as well.
-        change = abs(load) * segment[WEIGHT] * mass * (far - near) * segment[SHEAR_FLEXIBILITY]
-        pieces = change / thin ** segment[SHEAR_POWER] / (least * TAPER)
-    squared = np.sqrt(omega2 * mass / bending)
-    squared = max(squared, (force + 2.0 * force * force * flexibility) / bending)
-    squared = max(squared, 2.0 * omega2 * mass * flexibility)
-    squared = max(squared, omega2 * rotary / bending)
-    # Largest square of a wave number that mass, force, shear and rotary inertia give together.
-    stretch = 1.0 + force * flexibility
-    half = 0.5 * ((force * stretch + omega2 * rotary) / bending + omega2 * mass * flexibility)
-    waves = half + np.sqrt(half * half + omega2 * mass / bending * (stretch + omega2 * rotary * flexibility))
-    squared = max(squared, waves * REACH / JOINT_REACH)
-    return 1 + int(max(pieces, (far - near) * np.sqrt(squared / REACH)))
-
-
-@kernel()
-def cell_end(segment: Any, near: float) -> float:
-    """Far end of the cell that starts at a distance: breadth changes by about `TAPER` in it.
-
-    What is left of a segment is never a sliver, whose stiffness would drown all else in rounding errors.
-    """
-    slope = (segment[RATIO] - 1.0) / segment[LENGTH]
-    if slope == 0.0:
-        return float(segment[LENGTH])
-    far = near + TAPER * (1.0 + slope * near) / abs(slope)
-    return float(segment[LENGTH] if far + 0.5 * (far - near) > segment[LENGTH] else far)
-
-
-@kernel()
-def _power_series(value: float, relative_slope: float, power: float, out: Any, terms: int) -> None:
-    """Coefficients of value (1 + relative_slope s)^power in s."""
-    out[0] = value
-    for i in range(1, terms):
-        out[i] = out[i - 1] * relative_slope * (power - i + 1.0) / i
-
-
-@kernel()
-def coefficients(segment: Any, start: float, length: float, omega2: float, load: float, out: Any) -> int:
-    """Series of m w^2, 1/EI, a, b, P and rho I w^2 along a piece, in the units of the piece; their number of terms.
-
-    Lengths are counted in the piece's length h and forces in EI/h^2 at its start.
-    """
-    slope = (segment[RATIO] - 1.0) / segment[LENGTH]
-    breadth = 1.0 + slope * start
-    bending = segment[BENDING] * breadth ** segment[BENDING_POWER]
-    mass = segment[MASS] * breadth ** segment[MASS_POWER]
-    flexibility = segment[SHEAR_FLEXIBILITY] / breadth ** segment[SHEAR_POWER]
-    rotary = segment[ROTARY] * breadth ** segment[BENDING_POWER]
-    force = load * (segment[COMPRESSION] - segment[WEIGHT] * mass_passed(segment, start)) * length**2 / bending
-    weight = load * segment[WEIGHT] * mass * length**3 / bending
-    flexibility *= bending / length**2
-    change = slope * length / breadth
-
-    terms = TERMS if slope != 0.0 or (segment[ENGESSER] != 0.0 and weight * flexibility != 0.0) else 2
-    for row in range(6):
-        for i in range(terms):
-            out[row, i] = 0.0
-    out[0, 0], out[1, 0], out[3, 0], out[5, 0] = mass, 1.0, flexibility, rotary
-    if slope != 0.0:
-        _power_series(mass, change, segment[MASS_POWER], out[0], terms)
-        _power_series(1.0, change, -segment[BENDING_POWER], out[1], terms)
-        _power_series(flexibility, change, -segment[SHEAR_POWER], out[3], terms)
-        _power_series(rotary, change, segment[BENDING_POWER], out[5], terms)
-    out[4, 0] = force
-    for i in range(1, terms):
-        out[4, i] = -weight * out[0, i - 1] / (mass * i)
-    for i in range(terms):
-        out[0, i] *= omega2 * length**4 / bending
-        out[5, i] *= omega2 * length**2 / bending
-    # P/S first, then a and b from it.
-    for i in range(terms):
-        product = 0.0
-        for j in range(i + 1):
-            product += out[4, j] * out[3, i - j]
-        out[2, i] = product
-    if segment[ENGESSER] == 0.0:
-        out[2, 0] += 1.0
-        return int(terms)
-    first = 1.0 - out[2, 0]
-    for i in range(terms):
-        total = 1.0 if i == 0 else 0.0
-        for j in range(i):
-            total += out[2, i - j] * out[6, j]
-        out[6, i] = total / first
-    for i in range(terms):
-        product = 0.0
-        for j in range(i + 1):
-            product += out[6, j] * out[3, i - j]
-        out[7, i] = product
-    for i in range(terms):
-        out[2, i], out[3, i] = out[6, i], out[7, i]
-    return int(terms)
-
-
-@kernel()
-def state_series(series: Any, terms: int, state: Any) -> None:
-    """Taylor coefficients of (v, theta, V, M) along a piece of unit length; ``state[0]`` holds the start.
-
-    Parameters
-    ----------
-    series : ndarray, shape (8, TERMS)
-        From `coefficients`.
-    terms : int
-        How many of them are not zero.
-    state : ndarray, shape (TERMS + 1, 5)
-        Row k is the coefficient of s^k; the last column is v'.
-    """
-    for k in range(TERMS):
-        last = min(k, terms - 1)
-        dv, dtheta, dforce, dmoment = 0.0, 0.0, 0.0, -state[k, 2]
-        for i in range(last + 1):
-            dv += series[2, i] * state[k - i, 1] + series[3, i] * state[k - i, 2]
-            dtheta += series[1, i] * state[k - i, 3]
-            dforce -= series[0, i] * state[k - i, 0]
-            dmoment -= series[5, i] * state[k - i, 1]
-        state[k, 4] = dv
-        for i in range(last + 1):
-            dmoment -= series[4, i] * state[k - i, 4]
-        state[k + 1, 0], state[k + 1, 1] = dv / (k + 1), dtheta / (k + 1)
-        state[k + 1, 2], state[k + 1, 3] = dforce / (k + 1), dmoment / (k + 1)
-    state[TERMS, 4] = 0.0
+SPRINGS, GEOMETRIC, BODIES = range(3)
+"""What acts on a node: stiffness of springs, geometric stiffness of weights (to be taken away), mass."""
 
 
 @traced
@@ -238,34 +88,21 @@ def _from_transfer(T: Any, unit: float, length: float, out: Any) -> None:
 
 
 @kernel()
-def relative_stiffness(
-    segment: Any, start: float, length: float, omega2: float, load: float, series: Any, state: Any, T: Any, out: Any
-) -> None:
-    """Dynamic stiffness (4, 4) of one piece for (v, theta) at its near end and the far end's departure from it.
+def relative_stiffness(transfer: Any, length: float, T: Any, out: Any) -> None:
+    """Dynamic stiffness (4, 4) for (v, theta) at the near end and the far end's departure from it, from a transfer.
 
-    The far end departs from where it would be if the piece were rigid. Bending then works on the departure alone, and
-    the large stiffness of a short piece takes no digits from the motion of the whole.
-
-    ``series`` (8, TERMS), ``state`` (TERMS + 1, 5) and ``T`` (4, 4) are scratch.
+    The far end departs from where it would be if the block were rigid. Bending then works on the departure alone, and
+    the large stiffness of a short block takes no digits from the motion of the whole. ``T`` (4, 4) is scratch.
     """
-    terms = coefficients(segment, start, length, omega2, load, series)
-    # Columns: what a unit of v, theta, V, M at the near end gives at the far end beyond rigid motion and equilibrium.
-    for column in range(4):
-        for i in range(4):
-            state[0, i] = 1.0 if i == column else 0.0
-        state_series(series, terms, state)
-        if column == 1:
-            state[1, 0] -= 1.0
-        if column == 2:
-            state[1, 3] += 1.0
-        for i in range(4):
-            total = 0.0
-            for k in range(TERMS, 0, -1):
-                total += state[k, i]
-            T[i, column] = total
-    slope = (segment[RATIO] - 1.0) / segment[LENGTH]
-    bending = segment[BENDING] * (1.0 + slope * start) ** segment[BENDING_POWER]
-    _from_transfer(T, bending / length**3, length, out)
+    for i in range(4):
+        for j in range(4):
+            value = transfer[i, j]
+            if i == 0 or i == 3:
+                value /= length
+            if j == 0 or j == 3:
+                value *= length
+            T[i, j] = value
+    _from_transfer(T, 1.0 / length, length, out)
 
 
 @traced
@@ -305,10 +142,16 @@ def _condense(near: Any, piece: Any, recovery: Any, i00: float, i01: float, i11:
 
 
 @kernel()
-def join(near: Any, piece: Any, recovery: Any) -> int:
-    """Append a piece to a segment's stiffness ``near`` (4, 4), in place; negative eigenvalues of the node between.
+def negative(a: float, b: float, c: float) -> int:
+    """Number of negative eigenvalues of [[a, b], [b, c]]."""
+    return 1 if a * c - b * b < 0.0 else (2 if a + c < 0.0 else 0)
 
-    ``recovery`` (2, 4) takes what gives the node's (v, theta) from those at the near and at the piece's far end.
+
+@kernel()
+def join(near: Any, piece: Any, recovery: Any) -> None:
+    """Append a block to a run's stiffness ``near`` (4, 4), in place.
+
+    ``recovery`` (2, 4) takes what gives the node's (v, theta) from those at the near and at the block's far end.
     """
     a = near[2, 2] + piece[0, 0]
     b = near[2, 3] + piece[0, 1]
@@ -318,6 +161,240 @@ def join(near: Any, piece: Any, recovery: Any) -> int:
         # On a fixed-end mode to the last bit: a nearby frequency would do as well.
         a *= 1.0 + 1e-15
         determinant = a * c - b * b
-    negative = 1 if determinant < 0.0 else (2 if a + c < 0.0 else 0)
     _condense(near, piece, recovery, c / determinant, -b / determinant, a / determinant)
-    return negative
+
+
+@kernel()
+def clear(sizes: Any) -> None:
+    """Begin a block."""
+    for i in range(SIZES):
+        sizes[i] = 0.0
+    sizes[SIZES - 1] = 1.0
+
+
+@kernel()
+def _strained(sizes: Any, omega2: float) -> float:
+    """Part of a block's energy that inertia and compression take at most, see `modal.piece.pieces_within`."""
+    return float((omega2 * sizes[5] + sizes[6] * sizes[0] * sizes[1]) / sizes[7])
+
+
+@kernel()
+def grown(sizes: Any, segment: Any, ends: Any, omega2: float, load: float) -> bool:
+    """Add a piece to the measure of a block; False where that needs a block of its own, which then begins with it."""
+    bending, mass, flexibility, rotary, force, shear_left = bounds(segment, ends, load)
+    length, turn, before = ends[2], ends[2] / bending, sizes[0]
+    for attempt in range(2):
+        # Integrals over the piece of the flexibilities of its sections.
+        sway = sizes[3] + length * (sizes[2] + length * sizes[1] / 3.0 + length * turn / 12.0)
+        sway += sizes[4] + 0.5 * length * flexibility
+        sizes[5] += length * (mass * sway + rotary * (sizes[1] + 0.5 * turn))
+        sizes[3] += length * (2.0 * sizes[2] + length * sizes[1] + length * turn / 3.0)
+        sizes[2] += length * (sizes[1] + 0.5 * turn)
+        sizes[1] += turn
+        sizes[0] += length
+        sizes[4] += length * flexibility
+        sizes[6], sizes[7] = max(sizes[6], force), min(sizes[7], shear_left)
+        # A piece alone is short enough by `pieces_within`.
+        if attempt == 1 or before == 0.0 or _strained(sizes, omega2) < BLOCK:
+            return attempt == 0
+        clear(sizes)
+    return False
+
+
+@kernel()
+def laden(sizes: Any, node: Any, omega2: float, load: float) -> bool:
+    """Add what acts on a node to the measure of the block below it; False where that must end there instead."""
+    if sizes[0] == 0.0:
+        return True
+    sway, turn = sizes[3] + sizes[4], sizes[1]
+    arm = abs(node[BODIES, 1])
+    sizes[5] += (node[BODIES, 0] + arm) * sway + (node[BODIES, 2] + arm) * turn
+    arm = abs(node[GEOMETRIC, 1])
+    taken = load * ((abs(node[GEOMETRIC, 0]) + arm) * sway + (abs(node[GEOMETRIC, 2]) + arm) * turn)
+    if _strained(sizes, omega2) + taken < BLOCK:
+        return True
+    clear(sizes)
+    return False
+
+
+@kernel()
+def follow(total: Any, length: float, piece: Any, step: float) -> None:
+    """Append a piece's transfer (4, 4), see `modal.piece.piece_transfer`, to that of a block, in place."""
+    # (R2 + D2) (R1 + D1) - R2 R1 = R2 D1 + D2 R1 + D2 D1
+    for j in range(4):
+        d0, d1, d2, d3 = total[0, j], total[1, j], total[2, j], total[3, j]
+        r0, r1 = (1.0 if j == 0 else (length if j == 1 else 0.0)), (1.0 if j == 1 else 0.0)
+        r2, r3 = (1.0 if j == 2 else 0.0), (1.0 if j == 3 else (-length if j == 2 else 0.0))
+        for i in range(4):
+            moved = piece[i, 0] * (r0 + d0) + piece[i, 1] * (r1 + d1)
+            total[i, j] += moved + piece[i, 2] * (r2 + d2) + piece[i, 3] * (r3 + d3)
+        total[0, j] += step * d1
+        total[3, j] -= step * d2
+
+
+@kernel()
+def node_stiffness(node: Any, omega2: float, load: float) -> Any:
+    """Entries (v, v), (v, theta) and (theta, theta) of the dynamic stiffness of what acts on a node."""
+    return (
+        node[SPRINGS, 0] - load * node[GEOMETRIC, 0] - omega2 * node[BODIES, 0],
+        node[SPRINGS, 1] - load * node[GEOMETRIC, 1] - omega2 * node[BODIES, 1],
+        node[SPRINGS, 2] - load * node[GEOMETRIC, 2] - omega2 * node[BODIES, 2],
+    )
+
+
+@kernel()
+def load_node(total: Any, length: float, node: Any, omega2: float, load: float) -> None:
+    """Let what acts on a node act at the far end of a block's transfer (4, 4), in place."""
+    k0, k1, k2 = node_stiffness(node, omega2, load)
+    for j in range(4):
+        v = total[0, j] + (1.0 if j == 0 else (length if j == 1 else 0.0))
+        theta = total[1, j] + (1.0 if j == 1 else 0.0)
+        total[2, j] += k0 * v + k1 * theta
+        total[3, j] += k1 * v + k2 * theta
+
+
+@kernel()
+def _extended(total: Any, transfer: Any, length: float, recovery: Any, scratch: Any) -> bool:
+    """Append a block that is stiff beside what is before it, in place, see `join`; False where it is not stiff.
+
+    Its large stiffness would drown that of the rest in rounding; its flexibility is a small correction.
+    """
+    # Far motion and forces d' = A d + B p, p' = C d + D p; before it p = K21 d0 + K22 d, so d' = E d + B K21 d0.
+    a, b = scratch[0:2], scratch[2:4]
+    for i in range(2):
+        for j in range(2):
+            a[i, j] = transfer[i, 2] * total[2, 2 + j] + transfer[i, 3] * total[3, 2 + j]
+            b[i, j] = transfer[i, 2] * total[2, j] + transfer[i, 3] * total[3, j]
+    if max(abs(a[0, 0]), abs(a[0, 1]) / length, abs(a[1, 0]) * length, abs(a[1, 1])) > STIFF:
+        return False
+    for i in range(2):
+        for j in range(2):
+            a[i, j] += transfer[i, j] + (1.0 if i == j else 0.0)
+    a[0, 1] += length
+    determinant = a[0, 0] * a[1, 1] - a[0, 1] * a[1, 0]
+    e00, e01 = a[1, 1] / determinant, -a[0, 1] / determinant
+    e10, e11 = -a[1, 0] / determinant, a[0, 0] / determinant
+    for j in range(2):
+        recovery[0, j], recovery[1, j] = -(e00 * b[0, j] + e01 * b[1, j]), -(e10 * b[0, j] + e11 * b[1, j])
+    recovery[0, 2], recovery[0, 3], recovery[1, 2], recovery[1, 3] = e00, e01, e10, e11
+    # C + D K22, D differing from the identity by the lever arm.
+    for j in range(2):
+        v, m = total[2, 2 + j], total[3, 2 + j]
+        a[0, j] = transfer[2, j] + transfer[2, 2] * v + transfer[2, 3] * m + v
+        a[1, j] = transfer[3, j] + transfer[3, 2] * v + transfer[3, 3] * m + m - length * v
+    k00, k11 = a[0, 0] * e00 + a[0, 1] * e10, a[1, 0] * e01 + a[1, 1] * e11
+    k01 = 0.5 * (a[0, 0] * e01 + a[0, 1] * e11 + a[1, 0] * e00 + a[1, 1] * e10)
+    for i in range(2):
+        for j in range(2):
+            total[i, j] += total[i, 2] * recovery[0, j] + total[i, 3] * recovery[1, j]
+    for i in range(2):
+        v, m = total[i, 2], total[i, 3]
+        total[i, 2], total[i, 3] = v * e00 + m * e10, v * e01 + m * e11
+        total[2, i], total[3, i] = total[i, 2], total[i, 3]
+    total[2, 2], total[2, 3], total[3, 2], total[3, 3] = k00, k01, k01, k11
+    return True
+
+
+@kernel()
+def _end_block(work: Any, kept: Any, length: float, pieces: int, single: bool, joined: bool, total: Any) -> int:
+    """Stiffness of the block in scratch onto that of those before; negative eigenvalues of the node between.
+
+    The next block's transfer begins.
+    """
+    transfer, matrix, count = work[TRANSFER:KEPT], work[SCALED:PIECE], 0
+    relative_stiffness(transfer, length, matrix, kept)
+    kept[SLOT - 1, 0], kept[SLOT - 1, 1] = length, pieces
+    for i in range(4):
+        for j in range(4):
+            matrix[i, j] = kept[i, j]
+    if not single:
+        make_absolute(matrix, length)
+    if joined:
+        count = negative(total[2, 2] + matrix[0, 0], total[2, 3] + matrix[0, 1], total[3, 3] + matrix[1, 1])
+        kept[SLOT - 1, 3] = 1.0
+        if not _extended(total, transfer, length, kept[4:], work[STATE:SCALED]):
+            join(total, matrix, kept[4:])
+            kept[SLOT - 1, 3] = 0.0
+    for i in range(4):
+        for j in range(4):
+            transfer[i, j] = 0.0
+            if not joined:
+                total[i, j] = matrix[i, j]
+    return count
+
+
+@kernel()
+def run_stiffness(
+    segments: Any, nodes: Any, first: int, last: int, single: bool, highest: float, omega2: float, load: float,
+    work: Any, kept: Any, total: Any,
+) -> int:  # fmt: skip
+    """Dynamic stiffness (4, 4) of segments one after the other into ``total``; their count of fixed-end modes.
+
+    Parameters
+    ----------
+    segments : ndarray, shape (s, 13)
+    nodes : ndarray, shape (s, 3, 3)
+        What acts on the node before each segment but the first of a run: rows `SPRINGS`, `GEOMETRIC` and `BODIES`,
+        each of entries (v, v), (v, theta) and (theta, theta).
+    first, last : int
+        The run is ``segments[first:last]``.
+    single : bool
+        It is one block, whatever the frequency: the caller sees to that; the far end's unknowns are its departure.
+    highest : float
+        Square of the circular frequency that the pieces are short enough for.
+    work : ndarray, shape (ROWS, TERMS)
+        Scratch.
+    kept : ndarray, shape (b SLOT, ...)
+        Takes the blocks, the last in what is left where they are more.
+    """
+    piece, transfer, sizes = work[PIECE:TRANSFER], work[TRANSFER:KEPT], work[MEASURE, :SIZES]
+    clear(sizes)
+    for i in range(4):
+        for j in range(4):
+            transfer[i, j] = 0.0
+    count, blocks, pieces, length, most = 0, 0, 0, 0.0, kept.shape[0] // SLOT - 1
+    kept[SLOT - 1, 2] = 0.0
+    for s in range(first, last):
+        segment = segments[s]
+        if s > first:
+            if not laden(sizes, nodes[s], omega2, load) and not single:
+                slot = SLOT * min(blocks, most)
+                count += _end_block(work, kept[slot : slot + SLOT], length, pieces, single, blocks > 0, total)
+                blocks, length = blocks + 1, 0.0
+                kept[SLOT * min(blocks, most) + SLOT - 1, 2] = 1.0
+            load_node(transfer, length, nodes[s], omega2, load)
+        uniform = segment[RATIO] == 1.0 and load * segment[WEIGHT] == 0.0
+        number = cells(segment)
+        for k in range(number):
+            ends = cell(segment, k, number)
+            parts = pieces_within(segment, ends, highest, load)
+            if parts == 0:
+                return UNSTABLE
+            for i in range(parts):
+                part = piece_of(ends, i, parts)
+                if i == 0 or not uniform:
+                    piece_transfer(segment, part, omega2, load, work[:STATE], work[STATE:SCALED], piece)
+                if not grown(sizes, segment, part, omega2, load) and not single and length > 0.0:
+                    slot = SLOT * min(blocks, most)
+                    count += _end_block(work, kept[slot : slot + SLOT], length, pieces, single, blocks > 0, total)
+                    blocks, length = blocks + 1, 0.0
+                    kept[SLOT * min(blocks, most) + SLOT - 1, 2] = 0.0
+                follow(transfer, length, piece, part[2])
+                length, pieces = length + part[2], pieces + 1
+    slot = SLOT * min(blocks, most)
+    return int(count + _end_block(work, kept[slot : slot + SLOT], length, pieces, single, blocks > 0, total))
+
+
+@kernel()
+def blocks_of(segment: Any, omega2: float, load: float, sizes: Any) -> int:
+    """Number of blocks that end before the end of a segment which follows what is measured; -1: unstable in shear."""
+    ended, number = 0, cells(segment)
+    for k in range(number):
+        ends = cell(segment, k, number)
+        pieces = pieces_within(segment, ends, omega2, load)
+        if pieces == 0:
+            return -1
+        for i in range(pieces):
+            if not grown(sizes, segment, piece_of(ends, i, pieces), omega2, load):
+                ended += 1
+    return ended

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import dataclass, field, replace
 from math import isinf
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from modal.checks import whole_number
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -16,9 +19,13 @@ if TYPE_CHECKING:
     from modal.segment import Segment
 
     Floats = NDArray[np.float64]
+    Points = defaultdict[tuple[int, int], float]
 
 HELD = -1
 """Unknown of an end that does not move."""
+
+POINTS = "springs", "geometric", "bodies"
+"""What a structure has on its unknowns besides its members."""
 
 
 class Unstable(ValueError):
@@ -37,7 +44,7 @@ class Member:
     factors : tuple of float
         By which to multiply them.
     compression : float
-        Axial force at the near end [N].
+        Axial force at the far end [N].
     gravity : float
         Acceleration of gravity along the segment towards its near end [m/s^2]: its own weight compresses it.
     part : str
@@ -62,13 +69,13 @@ class Member:
             segment=near,
             unknowns=(self.unknowns[0], self.unknowns[1], first, first + 1),
             factors=(self.factors[0], self.factors[1], 1.0, 1.0),
+            compression=self.compression + self.gravity * far.mass,
         )
         upper = replace(
             self,
             segment=far,
             unknowns=(first, first + 1, self.unknowns[2], self.unknowns[3]),
             factors=(1.0, 1.0, self.factors[2], self.factors[3]),
-            compression=self.compression - self.gravity * near.mass,
             position=self.position + near.length,
         )
         return lower, upper
@@ -100,8 +107,9 @@ class Structure:
 
     Attributes
     ----------
-    springs, geometric, bodies : ndarray, shape (n, n)
-        Stiffness of springs [N/m, N, N m], geometric stiffness of bodies' weights, mass matrix of bodies.
+    springs, geometric, bodies : dict of (int, int) to float
+        Entries of symmetric matrices on the unknowns, those that are not zero: stiffness of springs [N/m, N, N m],
+        geometric stiffness of bodies' weights, mass matrix of bodies.
     """
 
     unknowns: tuple[str, ...]
@@ -109,18 +117,19 @@ class Structure:
     shear_theory: ShearTheory = "haringx"
 
     def __post_init__(self) -> None:
-        n = len(self.unknowns)
-        self.springs, self.geometric, self.bodies = np.zeros((n, n)), np.zeros((n, n)), np.zeros((n, n))
+        self.springs: Points = defaultdict(float)
+        self.geometric: Points = defaultdict(float)
+        self.bodies: Points = defaultdict(float)
 
     def add_unknown(self, unit: str, stiffness: float = 0.0) -> int:
         """A further unknown on a spring to the ground; `HELD` where that is infinitely stiff."""
         if isinf(stiffness):
             return HELD
+        number = len(self.unknowns)
         self.unknowns += (unit,)
-        for name in ("springs", "geometric", "bodies"):
-            setattr(self, name, np.pad(getattr(self, name), (0, 1)))
-        self.springs[-1, -1] = stiffness
-        return len(self.unknowns) - 1
+        if stiffness:
+            self.springs[number, number] = stiffness
+        return number
 
     def add_chain(
         self, chain: Chain, foot: tuple[int, int], factors: tuple[float, float] = (1.0, 1.0), part: str = "tower"
@@ -128,9 +137,9 @@ class Structure:
         """Put a chain with its bodies on two unknowns, times factors, that move its foot; its end's unknowns."""
         near, position = foot, 0.0
         nodes = [foot]
-        for segment, (below, _) in zip(chain.segments, chain.end_compressions(), strict=True):
+        for segment, (_, above) in zip(chain.segments, chain.end_compressions(), strict=True):
             far = self.add_unknown("m"), self.add_unknown("rad")
-            member = Member(segment, (*near, *far), (*factors, 1.0, 1.0), below, chain.gravity, part, position)
+            member = Member(segment, (*near, *far), (*factors, 1.0, 1.0), above, chain.gravity, part, position)
             self.members.append(member)
             near, factors, position = far, (1.0, 1.0), position + segment.length
             nodes.append(far)
@@ -148,9 +157,9 @@ class Structure:
             (rotation, rotation): body.rotary_inertia + body.mass * arm**2,
         }
         for (i, j), value in entries.items():
-            if i != HELD and j != HELD:
+            if i != HELD and j != HELD and value:
                 self.bodies[i, j] += value
-        if rotation != HELD:
+        if rotation != HELD and weight * arm:
             self.geometric[rotation, rotation] += weight * arm
 
     def add_pendulum(self, stiffness: float, mass: float, suspension: int, load: int) -> None:
@@ -164,51 +173,53 @@ class Structure:
             self.springs[i, j] += sign * stiffness
         self.bodies[load, load] += mass
 
+    @property
+    def is_loaded(self) -> bool:
+        """Whether there is any weight or axial load that a factor could raise."""
+        return bool(self.geometric) or any(member.compression or member.gravity for member in self.members)
+
     def count_below(self, angular_frequency: float) -> int:
         """Number of natural frequencies below one [rad/s], each with its multiplicity."""
-        from modal.assembly import assembly
+        from modal.assembly import assembly, refined
 
-        return assembly(self, angular_frequency).count(angular_frequency)
+        return assembly(refined(self, angular_frequency), angular_frequency).count(angular_frequency)
 
     def angular_frequencies(self, count: int) -> Floats:
         """Lowest natural angular frequencies [rad/s], ascending, each as often as it is one; shape (count,).
 
-        Against 60-digit arithmetic the relative error is 1e-15 as a rule. A frequency at a relative distance d from a
-        fixed-end one of some part of a member loses more, about 1e-16 / d: the worst of 60 modes of a cantilever has
-        5e-11. So does the slow mode of a structure on springs that are softer than its beams by a factor d, or on a
-        body whose ``mass offset^2`` is 1/d times all other inertia.
+        Against 60-digit arithmetic the relative error is 1e-15 as a rule, however the structure is cut, and however
+        soft its springs are. A frequency at a relative distance d from a fixed-end one of some part of a member loses
+        more, about 1e-16 / d: the worst of 60 modes of a cantilever has 5e-11. So does the slow mode of a structure
+        on a body whose ``mass offset^2`` is 1/d times all other inertia.
 
         Raises
         ------
         ValueError
-            If the count is negative.
+            If the count is no whole number, zero or more, or the structure can move without strain.
         Unstable
             If the structure buckles under its weights and loads.
         """
-        from modal.assembly import assembly
+        from modal.search import lowest_frequencies
 
-        if count < 0:
-            raise ValueError(f"count: wanted zero or more, got {count!r}")
-        ready = assembly(self, 0.0)
-        if ready.count(0.0) > 0:
-            raise Unstable(f"the structure carries only {self.buckling_factor():.4g} times its weights and loads")
-        highest = ready.units[2]
-        while ready.count(highest) < count:
-            highest *= 2.0
-            ready = assembly(self, highest)
-        return ready.angular_frequencies(count)
+        return lowest_frequencies(self, whole_number("count", count))
 
     def buckling_factor(self) -> float:
-        """Factor on all weights and axial loads at which the structure buckles [1]; ``inf``: it never does."""
-        from modal.assembly import assembly
+        """Factor on all weights and axial loads at which the structure buckles [1]; ``inf``: it never does.
 
-        return assembly(self, 0.0).buckling_factor()
+        Raises
+        ------
+        ValueError
+            If the structure can move without strain.
+        """
+        from modal.search import buckling_factor
+
+        return buckling_factor(self)
 
     def stiffness(self) -> Floats:
         """Static stiffness on the unknowns under all weights and loads [N/m, N, N m], shape (n, n)."""
-        from modal.assembly import assembly
+        from modal.assembly import assembly, refined
 
-        return assembly(self, 0.0).stiffness(len(self.unknowns))
+        return assembly(refined(self, 0.0), 0.0, whole=True).stiffness(len(self.unknowns))
 
     def displacements(self, forces: Floats) -> Floats:
         """Static displacements of the unknowns [m, rad] under forces and moments on them [N, N m].
@@ -220,14 +231,16 @@ class Structure:
 
         Raises
         ------
+        ValueError
+            If the structure can move without strain.
         Unstable
             If the structure buckles under its weights and loads.
         """
-        from modal.assembly import assembly
+        from modal.assembly import assembly, refined
+        from modal.search import require_stable
 
-        ready = assembly(self, 0.0)
-        if ready.count(0.0) > 0:
-            raise Unstable(f"the structure carries only {self.buckling_factor():.4g} times its weights and loads")
+        ready = assembly(refined(self, 0.0), 0.0, whole=True)
+        require_stable(self, ready)
         return ready.displacements(forces)
 
 

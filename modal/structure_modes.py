@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache, cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modal.checks import whole_number
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from modal.assembly import Assembly
     from modal.structure import Member, Structure
 
     Floats = NDArray[np.float64]
@@ -154,7 +156,9 @@ class StructureModes:
 
     def mass_matrix(self) -> Floats:
         """Mass of all parts and bodies; the unit matrix but for rounding, shape (n, n)."""
-        total = self.vectors @ self.structure.bodies @ self.vectors.T
+        total = np.zeros((len(self.vectors),) * 2)
+        for (i, j), value in self.structure.bodies.items():
+            total += value * np.outer(self.vectors[:, i], self.vectors[:, j])
         for part in self.parts.values():
             total += part.mass_matrix()
         return total
@@ -181,17 +185,15 @@ def structure_modes(structure: Structure, count: int) -> StructureModes:
     Unstable
         If the structure buckles under its weights and loads.
     """
-    if count < 1:
-        raise ValueError(f"count: wanted one or more, got {count!r}")
-    from modal.assembly import assembly
+    from modal.assembly import refined
 
-    omega = structure.angular_frequencies(count)
-    ready = assembly(structure, float(omega[-1]))
-    vectors = ready.null_vectors(omega, _DOUBLE)
-    names = dict.fromkeys(member.part for member in structure.members)
-    parts = {name: _part_shapes(ready, name, vectors, omega) for name in names}
-    motion = vectors @ ready.composition.T[:, : len(structure.unknowns)]
-    modes = StructureModes(structure, omega, motion, parts)
+    omega = structure.angular_frequencies(whole_number("count", count, 1))
+    fine = refined(structure, float(omega[-1]))
+    shapes, motions = _shapes(fine, omega)
+    parts = {
+        name: _part(fine, name, shapes, float(omega[-1])) for name in dict.fromkeys(m.part for m in fine.members)
+    }
+    modes = StructureModes(structure, omega, motions[:, : len(structure.unknowns)], parts)
     mix = _orthonormal(modes)
     first = structure.members[0].part
     end = max((m for m in structure.members if m.part == first), key=lambda m: m.position).unknowns
@@ -208,48 +210,76 @@ def structure_modes(structure: Structure, count: int) -> StructureModes:
     return StructureModes(structure, omega, mix @ modes.vectors, mixed)
 
 
+def _clusters(omega: Floats) -> list[slice]:
+    """Frequencies that count as equal, side by side."""
+    starts = [k for k in range(omega.size) if k == 0 or omega[k] - omega[k - 1] > _DOUBLE * omega[k]]
+    return [slice(near, far) for near, far in pairwise([*starts, omega.size])]
+
+
 def _orthonormal(modes: StructureModes) -> Floats:
     """What makes the shapes orthonormal: a scale for each, a mixture of those of equal frequency; shape (n, n)."""
-    mass, omega = modes.mass_matrix(), modes.angular_frequencies
+    mass = modes.mass_matrix()
     mix = np.zeros_like(mass)
-    start = 0
-    for k in range(1, omega.size + 1):
-        if k == omega.size or omega[k] - omega[start] > _DOUBLE * omega[k]:
-            mix[start:k, start:k] = np.linalg.inv(np.linalg.cholesky(mass[start:k, start:k]))
-            start = k
+    for of in _clusters(modes.angular_frequencies):
+        mix[of, of] = np.linalg.inv(np.linalg.cholesky(mass[of, of]))
     return mix
 
 
-def _part_shapes(ready: Assembly, part: str, vectors: Floats, omega: Floats) -> PartShapes:
-    """Shapes along one part from the motion of its nodes."""
-    from modal.shape_kernel import segment_shape
+def _shapes(fine: Structure, omega: Floats) -> tuple[list[Floats], Floats]:
+    """Shape along every member (n, p, terms, 5), in SI, and motions of all unknowns (n, u), not yet of unit mass."""
+    from modal.assembly import assembly
+    from modal.piece import TERMS
+    from modal.shape_kernel import run_shape
     from modal.structure_kernel import piece_ends
 
-    length, force, frequency = ready.units
-    squares = (omega / frequency) ** 2
-    along, shapes = [np.zeros(1)], []
+    none = np.empty(1)
+    motions, counts = np.zeros((omega.size, len(fine.unknowns))), np.empty(0, dtype=int)
+    shapes: list[Floats] = []
+    for of in _clusters(omega):
+        # Arrays made for this frequency alone: those for higher ones would cost digits.
+        ready = assembly(fine, float(omega[of][-1]))
+        length, force, frequency = ready.units
+        highest = float((omega[-1] / frequency) ** 2)
+        if not shapes:
+            counts = np.array([piece_ends(row, highest, 1.0, none) for row in ready.segments])
+            shapes = [np.zeros((omega.size, count, TERMS + 1, 5)) for count in counts]
+        for k, vector in zip(range(omega.size)[of], ready.null_vectors(omega[of]), strict=True):
+            motions[k] = ready.composition @ vector
+            for (first, last, single), motion in zip(ready.runs, ready.motions, strict=True):
+                out, along = np.zeros((counts[first:last].sum(), TERMS + 1, 5)), np.zeros((last - first + 1, 2))
+                run_shape(
+                    ready.segments, ready.nodes, first, last, single == 1, highest,
+                    float((omega[k] / frequency) ** 2), 1.0, motion @ vector, out, along,
+                )  # fmt: skip
+                # Deflections come in the unit of length, forces in that of force.
+                out *= np.array([length, 1.0, force, force * length, 1.0])
+                for member, part in zip(
+                    range(first, last), np.split(out, np.cumsum(counts[first:last])[:-1]), strict=True
+                ):
+                    shapes[member][k] = part
+                    if member > first:
+                        motions[k, fine.members[member].unknowns[:2]] = along[member - first] * (length, 1.0)
+    return shapes, motions
+
+
+def _part(fine: Structure, part: str, shapes: list[Floats], highest: float) -> PartShapes:
+    """Shapes along one part from those along its members, whose pieces are those of the highest frequency."""
+    from modal.assembly import row_of, units_of
+    from modal.structure_kernel import piece_ends
+
+    units = units_of(fine)
+    along, found = [np.zeros(1)], []
     properties: list[list[Floats]] = [[], [], [], []]
-    for member, row, motion in zip(ready.structure.members, ready.segments, ready.motions, strict=True):
+    for member, shape in zip(fine.members, shapes, strict=True):
         if member.part != part:
             continue
-        # The same pieces for all modes: those of the highest.
-        ends = np.zeros(1 + piece_ends(row, float(squares[-1]), 1.0, np.empty(1)))
-        piece_ends(row, float(squares[-1]), 1.0, ends)
-        shape = np.zeros((omega.size, ends.size - 1, *_coefficient_shape()))
-        for k, square in enumerate(squares):
-            segment_shape(row, ends, float(square), 1.0, motion @ vectors[k], shape[k])
-        # Deflections come in the unit of length, forces in that of force.
-        shapes.append(shape * np.array([length, 1.0, force, force * length, 1.0]))
-        along.append(member.position + ends[1:] * length)
-        for values, found in zip(properties, _properties(member, ends * length), strict=True):
-            values.append(found)
-    return PartShapes(np.concatenate(along), np.concatenate(shapes, axis=1), *map(np.concatenate, properties))
-
-
-def _coefficient_shape() -> tuple[int, int]:
-    from modal.stiffness import TERMS
-
-    return TERMS + 1, 5
+        ends = np.zeros(1 + shape.shape[1])
+        piece_ends(row_of(member, fine, units), (highest / units[2]) ** 2, 1.0, ends)
+        found.append(shape)
+        along.append(member.position + ends[1:] * units[0])
+        for values, one in zip(properties, _properties(member, ends * units[0]), strict=True):
+            values.append(one)
+    return PartShapes(np.concatenate(along), np.concatenate(found, axis=1), *map(np.concatenate, properties))
 
 
 def _properties(member: Member, ends: Floats) -> tuple[Floats, Floats, Floats, Floats]:

@@ -11,13 +11,17 @@ from determinants import state_matrix
 
 from modal.chain import Chain
 from modal.compiled import kernel
+from modal.piece import SERIES, TERMS, piece_transfer, pieces_within
 from modal.segment import Segment
-from modal.stiffness import TERMS, make_absolute, pieces_within, relative_stiffness
+from modal.stiffness import make_absolute, relative_stiffness
 from modal.structure import HELD, Member, Structure, chain_frequencies, chain_structure
 
 INF = float("inf")
+WHOLE = 1.0, 1.0, 1.0, 1.0
+"""Breadths at the ends of a uniform segment, its length, and what is left of it from its near end."""
 
-exact_piece = kernel(door=True)(relative_stiffness.py_func)
+transfer_of = kernel(door=True)(piece_transfer.py_func)
+stiffness_of = kernel(door=True)(relative_stiffness.py_func)
 
 
 def exact_stiffness(segment, length, compression, omega2, theory):
@@ -48,10 +52,12 @@ def exact_stiffness(segment, length, compression, omega2, theory):
 def test_a_piece_is_exact_where_all_effects_meet_at_the_end_of_its_reach(shear, rotary, compression, theory, omega2):
     segment = Segment(1.0, 1.0, 1.0, shear, rotary)
     engesser = float(theory == "engesser")
-    row = np.array([1.0, 1.0, 1.0, 1.0 / shear, rotary, 1.0, 0.0, 0.0, 0.0, compression, 0.0, engesser])
-    length = 1.0 / pieces_within(row, 0.0, 1.0, omega2, 1.0)
-    got, series, state, transfer = np.zeros((4, 4)), np.zeros((8, TERMS)), np.zeros((TERMS + 1, 5)), np.zeros((4, 4))
-    exact_piece(row, 0.0, length, omega2, 1.0, series, state, transfer, got)
+    row = np.array([1.0, 1.0, 1.0, 1.0 / shear, rotary, 1.0, 0.0, 0.0, 0.0, compression, 0.0, engesser, 0.0])
+    length = 1.0 / pieces_within(row, WHOLE, omega2, 1.0)
+    got, transfer, scratch = np.zeros((4, 4)), np.zeros((4, 4)), np.zeros((4, 4))
+    series, state = np.zeros((SERIES, TERMS)), np.zeros((TERMS + 1, 6))
+    transfer_of(row, (1.0, 1.0, length, 1.0), omega2, 1.0, series, state, transfer)
+    stiffness_of(transfer, length, scratch, got)
     make_absolute.py_func(got, length)
     with mpmath.workdps(50):
         wanted = exact_stiffness(segment, length, compression, omega2, theory)
@@ -116,11 +122,11 @@ def test_no_piece_has_a_fixed_end_mode():
     rng = np.random.default_rng(4)
     for _ in range(300):
         theory = float(rng.random() < 0.5)
-        row = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, theory])
+        row = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, theory, 0.0])
         row[3], row[4] = rng.choice([0.0, 10 ** rng.uniform(-3, 1)]), rng.choice([0.0, 10 ** rng.uniform(-4, 0)])
         row[9] = rng.choice([-1, 1]) * 10 ** rng.uniform(-2, 2)
         omega2 = 10 ** rng.uniform(-1, 5)
-        pieces = pieces_within(row, 0.0, 1.0, omega2, 1.0)
+        pieces = pieces_within(row, WHOLE, omega2, 1.0)
         if pieces == 0 or pieces > 400:
             continue
         segment = Segment(1.0 / pieces, 1.0, 1.0, INF if row[3] == 0.0 else 1.0 / row[3], row[4])

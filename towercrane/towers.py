@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Segment
 
@@ -88,7 +88,9 @@ def _segment(tower: Tower, piece: TowerSegment) -> Segment:
         rotary = piece.rotary_inertia_per_length
         return Segment(piece.length, piece.mass_per_length, stiffness, shear, rotary, *taper)
     laced = laced_column(piece.lattice, modulus).segment(piece.length, piece.mass_per_length, choice)
-    values = dict(zip(("end_ratio", "mass_power", "bending_power", "shear_power"), taper, strict=True))
+    values: dict[str, Any] = dict(
+        zip(("end_ratio", "mass_power", "bending_power", "shear_power"), taper, strict=True)
+    )
     if piece.rotary_inertia_per_length:
         values["rotary_inertia"] = piece.rotary_inertia_per_length
     return replace(laced, **values)
