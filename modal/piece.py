@@ -95,7 +95,8 @@ def bounds(segment: Any, ends: Any, load: float) -> Any:
 
     The force is ``P (1 + 5 P/S)`` with the largest compression P: with shear strain g it takes
     ``P (theta^2 + 2 g theta)`` (Haringx), at most ``P (1 + 5 P/S) theta^2`` and a fifth of the energy in shear. With
-    Engesser it takes ``P (theta + g)^2``, of which the same holds for what shear has left, ``1 - P/S``.
+    Engesser it takes ``P (theta + g)^2``: at most ``2 P / (1 - P/S) theta^2`` and all of that energy but half of the
+    part that the force leaves, ``1 - P/S``, which counts as a softer shear stiffness.
 
     Inclined chords couple bending and shear; their energy is no less than that of a section without the coupling
     whose two stiffnesses are less by ``1 + r + r^2``, r^2 = EI g^2 / S.
@@ -121,13 +122,14 @@ def bounds(segment: Any, ends: Any, load: float) -> Any:
         weaker = 1.0 + coupling + coupling * coupling
         bending /= weaker
         flexibility *= weaker
-    shear_left = least if segment[ENGESSER] != 0.0 else 1.0
     # Tension stiffens but for what it does to shear strain; it only makes the series slower.
     if tension * flexibility < 0.2:
         tension *= SLOWER
     force = max(force, tension)
-    force *= 1.0 + 5.0 * force * flexibility / max(shear_left, LEAST_SHEAR)
-    return bending, mass, flexibility, rotary, force, shear_left
+    if segment[ENGESSER] == 0.0:
+        return bending, mass, flexibility, rotary, force * (1.0 + 5.0 * force * flexibility), 1.0
+    left = max(least, LEAST_SHEAR)
+    return bending, mass, 2.0 * flexibility / left, rotary, 2.0 * force / left, least
 
 
 @kernel()
@@ -140,12 +142,13 @@ def pieces_within(segment: Any, ends: Any, omega2: float, load: float) -> int:
     bending, mass, flexibility, rotary, force, shear_left = bounds(segment, ends, load)
     if shear_left < LEAST_SHEAR:
         return 0
-    length, part = ends[2], PIECE * shear_left
-    # 1 / (1 - P/S) must vary little along a piece as well.
-    pieces = abs(load) * segment[WEIGHT] * mass * length * flexibility / (shear_left * TAPER)
+    length, pieces = ends[2], 0.0
+    if segment[ENGESSER] != 0.0:
+        # 1 / (1 - P/S) must vary little along a piece as well.
+        pieces = 0.5 * abs(load) * segment[WEIGHT] * mass * length * flexibility / TAPER
     quartic = omega2 * mass / (12.0 * bending)
     half = 0.25 * omega2 * (mass * flexibility + rotary / bending) + 0.5 * force / bending
-    squared = (half + np.sqrt(half * half + quartic * part)) / part
+    squared = (half + np.sqrt(half * half + quartic * PIECE)) / PIECE
     return 1 + int(max(pieces, length * np.sqrt(squared)))
 
 

@@ -34,10 +34,10 @@ UNSTABLE = 1 << 30
 BLOCK = 0.8
 """The same as `modal.piece.PIECE` for a block of several pieces."""
 
-SIZES = 8
+SIZES = 7
 """Numbers that measure a block: its length; ``int dx/EI``, ``int x dx/EI`` and ``int x^2 dx/EI`` with x the distance
-from the far end; ``int dx/S``; what inertia takes under unit circular frequency; the largest force; the least part of
-the shear stiffness that is left, see `modal.piece.bounds`."""
+from the far end; ``int dx/S``; what inertia takes under unit circular frequency; the largest force, see
+`modal.piece.bounds`."""
 
 STIFF = 0.3
 """Largest part of a motion that the flexibility of a block may add where it counts as stiff beside those before."""
@@ -169,19 +169,18 @@ def clear(sizes: Any) -> None:
     """Begin a block."""
     for i in range(SIZES):
         sizes[i] = 0.0
-    sizes[SIZES - 1] = 1.0
 
 
 @kernel()
 def _strained(sizes: Any, omega2: float) -> float:
     """Part of a block's energy that inertia and compression take at most, see `modal.piece.pieces_within`."""
-    return float((omega2 * sizes[5] + sizes[6] * sizes[0] * sizes[1]) / sizes[7])
+    return float(omega2 * sizes[5] + sizes[6] * sizes[0] * sizes[1])
 
 
 @kernel()
 def grown(sizes: Any, segment: Any, ends: Any, omega2: float, load: float) -> bool:
     """Add a piece to the measure of a block; False where that needs a block of its own, which then begins with it."""
-    bending, mass, flexibility, rotary, force, shear_left = bounds(segment, ends, load)
+    bending, mass, flexibility, rotary, force, _ = bounds(segment, ends, load)
     length, turn, before = ends[2], ends[2] / bending, sizes[0]
     for attempt in range(2):
         # Integrals over the piece of the flexibilities of its sections.
@@ -193,7 +192,7 @@ def grown(sizes: Any, segment: Any, ends: Any, omega2: float, load: float) -> bo
         sizes[1] += turn
         sizes[0] += length
         sizes[4] += length * flexibility
-        sizes[6], sizes[7] = max(sizes[6], force), min(sizes[7], shear_left)
+        sizes[6] = max(sizes[6], force)
         # A piece alone is short enough by `pieces_within`.
         if attempt == 1 or before == 0.0 or _strained(sizes, omega2) < BLOCK:
             return attempt == 0

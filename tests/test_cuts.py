@@ -102,7 +102,7 @@ def test_a_thin_end_of_any_power_is_exact(name):
 
 
 def test_own_weight_on_a_stiffness_that_fades_to_a_point_is_borne_up_to_the_zero_of_a_bessel_function():
-    """EI = 1 - x and P = q (1 - x): theta'' = -q theta but for the slope of EI, J_0(2 sqrt(q s)) with s from the tip."""
+    """``(EI theta')' = -P theta`` with both in proportion to the distance s from the tip: theta = J_0(sqrt(q) s)."""
     column = chain_structure(Chain((tapered(1e-9, 0.0, 1.0),), gravity=1.0))
     np.testing.assert_allclose(column.buckling_factor(), 2.404825557695773**2, rtol=1e-8)
 
