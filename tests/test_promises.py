@@ -23,7 +23,7 @@ from towercrane.cranes.wind import WindAreas, steady
 from towercrane.indicators import _slip_by_swing, drift, vibration
 from towercrane.ladders import measured_choice
 from towercrane.motion import rest, sequence, smooth_ramps, trapezoid
-from towercrane.nodes import OUTPUTS, RICHEST, nodes_of
+from towercrane.nodes import OUTPUTS, RICHEST, SWING, nodes_of
 from towercrane.payload import Load
 from towercrane.promise import (
     AS_ASKED,
@@ -123,6 +123,10 @@ def test_a_wide_swing_of_a_heavy_load_wants_the_jib_to_bend():
     exact = HEAVY_ON_A_LONG_ROPE.run(replace(CAPPED, cap=20.0))
     reached = gap(HEAVY_ON_A_LONG_ROPE.run(choice.setting), exact, "swing_angle") / peak(exact, "swing_angle")
     assert 0.01 * target < reached < target
+    rigid = Setting(1, 0, rtol=1e-7, atol=1e-10)
+    lost = gap(HEAVY_ON_A_LONG_ROPE.run(rigid), exact, "swing_angle")
+    assert lost > 2.0 * target * peak(exact, "swing_angle")
+    assert Indicators(HEAVY_ON_A_LONG_ROPE).truncation(rigid)[SWING] > lost
 
 
 @pytest.mark.parametrize("jib_modes", [1, 2])
