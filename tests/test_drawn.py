@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 
+from modal import Beam, EndBody, cantilever_modes
 from towercrane.plots import jib, radial, sensitivity, slewing, space, style, sweep
 from towercrane.recording import Quantity, Recording
 from towercrane.sensitivity import Study
@@ -325,3 +326,55 @@ def test_influence_is_drawn_as_bars_and_surfaces():
         assert_allclose(mesh.get_array(), shown)
         assert_allclose(mesh.get_clim(), (-abs(shown).max(), abs(shown).max()))
     assert "second one" in figure.get_suptitle()
+
+
+def test_mode_shapes_stand_and_lie_as_their_beams_do():
+    tower = cantilever_modes(Beam(20.0, 300.0, 2e11, 0.01), 8, EndBody(2e4, 5e6))
+    arm = cantilever_modes(Beam(50.0, 100.0, 2e11, 0.003), 3)
+    left, right = radial.modes(tower, arm, []).axes
+    for axes, shapes, upright, zeros in ((left, tower, True, 1), (right, arm, False, 1)):
+        lines = axes.get_lines()[:-zeros]
+        assert len(lines) == min(len(shapes.frequencies_hz), radial.MOST_SHAPES)
+        for i, line in enumerate(lines):
+            across, along = (line.get_xdata(), line.get_ydata())[:: 1 if upright else -1]
+            assert_allclose(along[[0, -1]], [0.0, shapes.length])
+            whole = shapes(along)[i]
+            assert_allclose(across, whole / abs(whole).max(), atol=1e-12)
+            assert line.get_label() == f"mode {i + 1}: {shapes.frequencies_hz[i]:.4g} Hz"
+
+
+@pytest.mark.parametrize(("kind", "result"), [(slewing, SLEWING), (space, SPACE), (jib, JIB)])
+def test_every_picture_names_its_lines(kind, result):
+    for name, figure in kind.run_pictures(result).items():
+        legends = [axes.get_legend() for axes in figure.axes]
+        shared = name in ("sway.png", "moments.png", "torque.png", "angles.png") and kind is not space
+        for axes, named in zip(figure.axes, legends, strict=True):
+            if named is not None or not shared:
+                labels = [line.get_label() for line in axes.get_lines() if not line.get_label().startswith("_")]
+                assert [text.get_text() for text in named.get_texts()] == labels, name
+        assert legends[0] is not None
+
+
+def test_figures_of_the_source_compare_its_conditions():
+    names = [
+        "trolley_position",
+        "trolley_speed",
+        "rope_length",
+        "swing_angle",
+        "swing_rate",
+        "tower_tip_displacement",
+    ]
+    made_up = {n: made(names, seed=n, case=f"condition-{n}") for n in (1, 2, 3, 4)}
+    pairs = dict.fromkeys(("04", "05", "06", "07", "08"), (1, 2)) | {"09": (3, 4), "10": (3, 4), "11": (2, 3)}
+    shown = {"05": "swing_angle", "07": "tower_tip_displacement", "09": "swing_angle"}
+    shown |= dict.fromkeys(("10", "11"), "tower_tip_displacement")
+    for name, figure in radial.source_figures(made_up).items():
+        number = name.split("-")[1]
+        named = [
+            text.get_text() for axes in figure.axes if (legend := axes.get_legend()) for text in legend.get_texts()
+        ]
+        assert [text.partition(":")[0] for text in named] == [f"condition-{n}" for n in pairs[number]], name
+        if number in shown:
+            factor = DEGREE if "swing" in shown[number] else 1e3
+            for line, n in zip(figure.axes[0].get_lines(), pairs[number], strict=True):
+                assert_allclose(line.get_ydata(), factor * made_up[n][shown[number]].values)
