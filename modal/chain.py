@@ -201,6 +201,13 @@ class Chain:
             positions, lambda one, distance: getattr(one, name) * one.breadth(distance) ** getattr(one, power)
         )
 
+    def incline(self, positions: Floats) -> Floats:
+        """Change of the breadth over the breadth where chords are inclined, else 0, at positions [1/m]."""
+        return self._each(
+            positions,
+            lambda one, distance: one.inclined_chords * (one.end_ratio - 1.0) / (one.length * one.breadth(distance)),
+        )
+
     def _segment_at(self, positions: Floats) -> NDArray[np.intp]:
         inner = np.searchsorted(self.nodes, positions, side="right") - 1
         return np.clip(inner, 0, len(self.segments) - 1)

@@ -98,9 +98,10 @@ def influence(plain: StructureModes, tower: Chain, above: float = 0.0) -> Influe
     Returns
     -------
     Influence
-        Frequency ratios ``(1 + U_x/U)^-1/2`` with ``U = omega^2`` times the modal mass and ``U_x = int V^2/S``
-        (shear), ``omega^2 int rho I v'^2`` (rotary inertia), ``f^T (K - omega^2 M)^-1 f`` with the force and moment
-        ``f = (V(0), M(0))`` on the springs ``K`` under the foot and the inertia ``M`` of a body there (foundation);
+        Frequency ratios ``(1 + U_x/U)^-1/2`` with ``U = omega^2`` times the modal mass and ``U_x = int (V + M b'/b)^2
+        /S`` (shear, the second term where chords are inclined), ``omega^2 int rho I v'^2`` (rotary inertia),
+        ``f^T (K - omega^2 M)^-1 f`` with the force and moment ``f = (V(0), M(0))`` on the springs ``K`` under the
+        foot and the inertia ``M`` of a body there (foundation);
         and ``(1 - U_g/U)^1/2`` with ``U_g = int N v'^2`` and the moment of bodies above their node (weight). Where
         the foot on its springs is slower than a mode, that mode is taken to be lost.
     """
@@ -113,7 +114,9 @@ def influence(plain: StructureModes, tower: Chain, above: float = 0.0) -> Influe
             changes[effect] = np.sqrt(np.maximum(1.0 - taken / squared, 0.0)) - 1.0
             continue
         if effect == "shear":
-            energy = part.energies(1.0 / tower.section(part.points, "shear_stiffness"), FORCE)
+            # Inclined chords carry a part of the shear, M b'/b of the moment.
+            strained = part.at_points(FORCE) + tower.incline(part.points) * part.at_points(MOMENT)
+            energy = np.tensordot(strained**2, part.weights / tower.section(part.points, "shear_stiffness"), 2)
         elif effect == "rotary inertia":
             energy = squared * part.energies(tower.section(part.points, "rotary_inertia"), SLOPE)
         else:

@@ -1,8 +1,8 @@
-"""Three beams in place of a laced column, beside the truss that it is: deflections, frequencies, errors, times."""
+"""Beams in place of laced columns, beside the truss that they are: deflections, frequencies, errors, times."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, get_args
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from modal.beam import EndBody
     from modal.lattice import LacedColumn
     from modal.segment import Segment
+    from modal.truss import ColumnTruss
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,17 +81,26 @@ def compare_lattice_models(
     count: int = 2,
     repeats: int = 5,
 ) -> tuple[LatticeModel, ...]:
-    """The truss of a laced column on a rigid foot and the three beams that stand for it.
+    """The truss of a laced column on a rigid foot and the three beams that stand for it, see `compare_truss`.
+
+    Raises
+    ------
+    ValueError
+        If the truss is a mechanism or the height not a whole number of panels.
+    """
+    from modal.truss import ColumnTruss
+
+    return compare_truss(ColumnTruss(column, height, mass_per_length), body, count=count, repeats=repeats)
+
+
+def compare_truss(truss: ColumnTruss, body: EndBody, *, count: int = 2, repeats: int = 5) -> tuple[LatticeModel, ...]:
+    """A truss on a rigid foot, of one column or of several, and the beams that stand for it.
 
     Parameters
     ----------
-    column : LacedColumn
-    height : float
-        Height [m], a whole number of panels.
+    truss : ColumnTruss
     body : EndBody
         The slewing part on its top.
-    mass_per_length : float, optional
-        Mass per height [kg/m]; without one, the members' own.
     count : int
         Number of frequencies.
     repeats : int
@@ -99,41 +109,44 @@ def compare_lattice_models(
     Returns
     -------
     tuple of LatticeModel
-        The truss first.
-
-    Raises
-    ------
-    ValueError
-        If the truss is a mechanism or the height not a whole number of panels.
+        The truss first. The code's equivalent beam is that of a single column that does not taper.
     """
-    truss, seconds = timed(partial(truss_answers, column, height, body, mass_per_length, count), repeats)
-    models = [LatticeModel("truss", truss, truss.relative_to(truss), seconds)]
+    answers, seconds = timed(partial(truss_answers, truss, body, count), repeats)
+    models = [LatticeModel("truss", answers, answers.relative_to(answers), seconds)]
+    uniform = truss.above is None and truss.top_ratio == 1.0
     for name in get_args(BeamModel):
-        segment = column.segment(height, mass_per_length, name)
-        answers, seconds = timed(partial(beam_answers, segment, body, count), repeats)
-        models.append(LatticeModel(name, answers, answers.relative_to(truss), seconds))
+        if uniform or name != "code-equivalent":
+            found, seconds = timed(partial(beam_answers, beam_segments(truss, name), body, count), repeats)
+            models.append(LatticeModel(name, found, found.relative_to(answers), seconds))
     return tuple(models)
 
 
-def truss_answers(
-    column: LacedColumn, height: float, body: EndBody, mass_per_length: float | None, count: int
-) -> LatticeAnswers:
-    """What the truss of a column says; see `compare_lattice_models`."""
-    from modal.truss import ColumnTruss
+def beam_segments(truss: ColumnTruss, beam: BeamModel) -> tuple[Segment, ...]:
+    """Segments of the beam that stands for a truss, from the foot up."""
+    from modal.lattice_taper import column_segments
 
-    truss = ColumnTruss(column, height, mass_per_length)
-    bare, loaded = (truss.bending_frequencies(count, there) for there in (None, body))
-    return LatticeAnswers(truss.tip(force=1.0)[0], truss.tip(moment=1.0)[0], _hertz(bare), _hertz(loaded))
+    own = column_segments(truss.column, truss.height, truss.top_ratio, truss.mass_per_length, beam)
+    return own if truss.above is None else own + beam_segments(truss.above, beam)
 
 
-def beam_answers(segment: Segment, body: EndBody, count: int) -> LatticeAnswers:
-    """What a clamped beam says: statically in closed form, its frequencies by dynamic stiffness."""
+def truss_answers(truss: ColumnTruss, body: EndBody, count: int) -> LatticeAnswers:
+    """What a truss says, building included; see `compare_truss`."""
+    anew = replace(truss)
+    bare, loaded = (anew.bending_frequencies(count, there) for there in (None, body))
+    return LatticeAnswers(anew.tip(force=1.0)[0], anew.tip(moment=1.0)[0], _hertz(bare), _hertz(loaded))
+
+
+def beam_answers(segments: tuple[Segment, ...], body: EndBody, count: int) -> LatticeAnswers:
+    """What a clamped beam says, by dynamic stiffness."""
     from modal.chain import Chain
-    from modal.structure import chain_frequencies
+    from modal.structure import chain_frequencies, chain_structure
 
-    L, EI, S = segment.length, segment.bending_stiffness, segment.shear_stiffness
-    bare, loaded = (chain_frequencies(Chain((segment,), bodies), count) for bodies in ({}, {1: body}))
-    return LatticeAnswers(L**3 / (3.0 * EI) + L / S, L**2 / (2.0 * EI), _hertz(bare), _hertz(loaded))
+    structure = chain_structure(Chain(segments))
+    loads = np.zeros((len(structure.unknowns), 2))
+    loads[-2:] = np.eye(2)
+    force, moment = structure.displacements(loads)[-2]
+    bare, loaded = (chain_frequencies(Chain(segments, bodies), count) for bodies in ({}, {len(segments): body}))
+    return LatticeAnswers(float(force), float(moment), _hertz(bare), _hertz(loaded))
 
 
 def _hertz(angular: NDArray[np.float64]) -> tuple[float, ...]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from modal.beam import EndBody
+from modal.checks import number_in
 from modal.sparse import factorised, lowest_modes
 
 if TYPE_CHECKING:
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
 
 CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 """Legs of a column in half leg spacings, each a quarter turn from the last."""
+
+
+SAME_SPACING = 0.01
+"""Relative; leg spacings of one column on another that differ by less count as rounded."""
 
 
 class Mechanism(ValueError):
@@ -45,11 +50,16 @@ class ColumnTruss:
     mass_per_length : float, optional
         Mass per height [kg/m], shared alike by the nodes of a panel; without one, the members' own by
         `LacedColumn.density`, half of each at either end.
+    top_ratio : float
+        Leg spacing at the top over that at the foot [1]; the panels keep their height.
+    above : ColumnTruss, optional
+        A column that stands on this one's top, leg on leg; it brings its own mass.
 
     Raises
     ------
     ValueError
-        If the height is not a whole number of panels, or there is neither a mass per length nor a density.
+        If the height is not a whole number of panels, there is neither a mass per length nor a density, or the column
+        above has another leg spacing.
     Mechanism
         If the truss can move without strain, as one of zigzag lacing without horizontals can.
 
@@ -62,8 +72,11 @@ class ColumnTruss:
     column: LacedColumn
     height: float
     mass_per_length: float | None = None
+    top_ratio: float = 1.0
+    above: ColumnTruss | None = None
 
     def __post_init__(self) -> None:
+        number_in("ColumnTruss.top_ratio", self.top_ratio, "a positive finite number", least=0.0)
         panels = self.height / self.column.panel_height
         if not (0.5 < panels < float("inf") and abs(panels - round(panels)) < 1e-6 * panels):
             raise ValueError(
@@ -76,6 +89,10 @@ class ColumnTruss:
             raise ValueError(
                 f"ColumnTruss.mass_per_length: wanted a positive finite number, got {self.mass_per_length!r}"
             )
+        if self.above is not None:
+            own, other = self.column.leg_spacing * self.top_ratio, self.above.column.leg_spacing
+            if abs(own - other) > SAME_SPACING * own:
+                raise ValueError(f"ColumnTruss.above: wanted legs {own:.6g} m apart as below, got {other:.6g} m")
         if factorised(self.stiffness[12:, 12:]) is None:
             lacks = " without horizontals" if self.column.horizontal_area == 0.0 else ""
             raise Mechanism(
@@ -86,20 +103,46 @@ class ColumnTruss:
     @property
     def panels(self) -> int:
         """Number of panels."""
+        return self._own_panels + (self.above.panels if self.above else 0)
+
+    @property
+    def _own_panels(self) -> int:
         return round(self.height / self.column.panel_height)
+
+    @property
+    def top_spacing(self) -> float:
+        """Leg spacing at the top of all [m]."""
+        return self.above.top_spacing if self.above else self.column.leg_spacing * self.top_ratio
 
     @cached_property
     def nodes(self) -> Floats:
         """Positions [m], shape (4 (panels + 1), 3): four a level, from the feet up."""
-        level = np.arange(self.panels + 1)[:, np.newaxis, np.newaxis] * self.column.panel_height
-        plan = np.broadcast_to(0.5 * self.column.leg_spacing * CORNERS, (self.panels + 1, 4, 2))
-        return np.concatenate([plan, np.broadcast_to(level, (self.panels + 1, 4, 1))], axis=2).reshape(-1, 3)
+        part = np.linspace(0.0, 1.0, self._own_panels + 1)[:, np.newaxis, np.newaxis]
+        plan = 0.5 * self.column.leg_spacing * (1.0 + (self.top_ratio - 1.0) * part) * CORNERS
+        level = np.broadcast_to(part * self.height, (self._own_panels + 1, 4, 1))
+        own = np.concatenate([plan, level], axis=2).reshape(-1, 3)
+        if self.above is None:
+            return own
+        return np.concatenate([own, self.above.nodes[4:] + np.array([0.0, 0.0, self.height])])
 
     @cached_property
-    def members(self) -> tuple[NDArray[np.int64], Floats]:
-        """Nodes at both ends, shape (m, 2), and areas of all members [m^2], shape (m,)."""
+    def members(self) -> tuple[NDArray[np.int64], Floats, Floats]:
+        """Nodes at both ends, shape (m, 2), areas [m^2] and moduli [Pa] of all members, shape (m,)."""
+        pairs, areas = self._own_members
+        moduli = np.full(len(areas), self.column.youngs_modulus)
+        if self.above is None:
+            return pairs, areas, moduli
+        further, more, other = self.above.members
+        return (
+            np.concatenate([pairs, further + 4 * self._own_panels]),
+            np.concatenate([areas, more]),
+            np.concatenate([moduli, other]),
+        )
+
+    @cached_property
+    def _own_members(self) -> tuple[NDArray[np.int64], Floats]:
         column = self.column
-        leg, level = np.arange(4), 4 * np.arange(self.panels)[:, np.newaxis]
+        leg, level = np.arange(4), 4 * np.arange(self._own_panels)[:, np.newaxis]
         following = (leg + 1) % 4
         rises = [(leg, following)]
         if column.lacing == "X":
@@ -124,7 +167,7 @@ class ColumnTruss:
         """Stiffness of all nodes, feet included [N/m], sparse, shape (3 n, 3 n)."""
         from scipy.sparse import csr_array, dia_array
 
-        (pairs, areas), nodes = self.members, self.nodes
+        (pairs, areas, moduli), nodes = self.members, self.nodes
         along = nodes[pairs[:, 1]] - nodes[pairs[:, 0]]
         lengths = np.linalg.norm(along, axis=1)
         along /= lengths[:, np.newaxis]
@@ -132,20 +175,26 @@ class ColumnTruss:
         starts = np.arange(0, 6 * len(pairs) + 1, 6)
         # What each member lengthens by.
         stretch = csr_array((np.hstack([-along, along]).ravel(), unknowns.ravel(), starts), (len(pairs), nodes.size))
-        springs = self.column.youngs_modulus * areas / lengths
+        springs = moduli * areas / lengths
         return stretch.T @ dia_array((springs[np.newaxis], [0]), shape=(len(pairs),) * 2) @ stretch
 
     @cached_property
     def node_masses(self) -> Floats:
         """Masses lumped at the nodes, feet included [kg]."""
         if self.mass_per_length is not None:
-            shares = np.ones(self.panels + 1)
+            shares = np.ones(self._own_panels + 1)
             shares[[0, -1]] = 0.5
-            return np.repeat(shares * self.mass_per_length * self.column.panel_height / 4.0, 4)
-        pairs, areas = self.members
-        lengths = np.linalg.norm(self.nodes[pairs[:, 1]] - self.nodes[pairs[:, 0]], axis=1)
-        halves = 0.5 * self.column.density * areas * lengths
-        return np.asarray(np.bincount(pairs.ravel(), np.repeat(halves, 2), len(self.nodes)), dtype=float)
+            own = np.repeat(shares * self.mass_per_length * self.column.panel_height / 4.0, 4)
+        else:
+            pairs, areas = self._own_members
+            lengths = np.linalg.norm(self.nodes[pairs[:, 1]] - self.nodes[pairs[:, 0]], axis=1)
+            halves = 0.5 * self.column.density * areas * lengths
+            count = 4 * self._own_panels + 4
+            own = np.asarray(np.bincount(pairs.ravel(), np.repeat(halves, 2), count), dtype=float)
+        if self.above is None:
+            return own
+        shared = own[-4:] + self.above.node_masses[:4]
+        return np.concatenate([own[:-4], shared, self.above.node_masses[4:]])
 
     def tip(self, force: float = 0.0, moment: float = 0.0) -> tuple[float, float]:
         """Sideways deflection [m] and rotation [rad] of the top under a force [N] and a moment [N m] on it.
@@ -212,7 +261,7 @@ class ColumnTruss:
         level = np.vstack([1j**leg * np.linalg.matrix_power(turned, leg) for leg in range(4)])
         motion = kron(eye_array(self.panels), level)
         if body is not None:
-            x, y = 0.5 * self.column.leg_spacing * CORNERS.T
+            x, y = 0.5 * self.top_spacing * CORNERS.T
             zero, one = np.zeros(4), np.ones(4)
             top = np.array([[one, 1j * one, zero], [zero, zero, -(x + 1j * y)]]).transpose(2, 1, 0).reshape(12, 2)
             motion = block_diag([kron(eye_array(self.panels - 1), level), top])

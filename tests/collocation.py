@@ -62,10 +62,12 @@ class Collocation:
                 b = a * flexibility
             d = slope * 2.0 / segment.length
             zero = np.zeros_like(d)
-            # v' = a theta + b V, theta' = M / EI, V' = -lambda m v, M' + V + P v' = -lambda rho I theta
+            # v' = a theta + b (V + g M), theta' = M / EI + g (v' - theta), V' = -lambda m v,
+            # M' + V + P v' = -lambda rho I theta
+            g = segment.inclined_chords * (segment.end_ratio - 1.0) / (segment.length * breadth)
             left = [
-                [d, -a[:, None] * value, -b[:, None] * value, zero],
-                [zero, d, zero, -value / bending[:, None]],
+                [d, -a[:, None] * value, -b[:, None] * value, -(b * g)[:, None] * value],
+                [-g[:, None] * d, d + g[:, None] * value, zero, -value / bending[:, None]],
                 [zero, zero, d, zero],
                 [compression[:, None] * d, zero, value, d],
             ]

@@ -55,6 +55,22 @@ VARIABLE = {
     "tapers, engesser": Chain(
         TAPER, {2: EndBody(0.5, 0.1, 0.1)}, axial_load=0.1, gravity=0.6, shear_theory="engesser"
     ),
+    "inclined chords": Chain(
+        (
+            Segment(0.6, 1.0, 1.0, 9.0, 0.02, 0.4, 0.5, 2.0, -0.7, inclined_chords=True),
+            Segment(0.4, 0.8, 0.2, 5.0, 0.0, 1.3, 0.0, 2.0, 1.5, inclined_chords=True),
+        ),
+        {2: EndBody(0.5, 0.1, 0.1)},
+        axial_load=0.05,
+        gravity=0.1,
+    ),
+    "inclined chords, engesser": Chain(
+        (Segment(1.0, 1.0, 1.0, 9.0, 0.02, 0.4, 0.5, 2.0, -0.7, inclined_chords=True),),
+        {1: EndBody(0.5, 0.1, 0.1)},
+        axial_load=0.05,
+        gravity=0.1,
+        shear_theory="engesser",
+    ),
     "thin end under weight": Chain(
         (Segment(1.0, 1.0, 1.0, 2.0, end_ratio=0.3, mass_power=2, bending_power=3, shear_power=1),),
         gravity=1.5,

@@ -24,11 +24,12 @@ HEIGHT, MASS = 23.8, 350.0
 SLEWING = EndBody(23972.67, 9.480729e6)
 
 
-def plain_truss(column, panels, shadow=False):
+def plain_truss(column, panels, shadow=False, breadths=None):
     """Node positions and stiffness without the feet, member by member; opposite faces as seen through, or alike."""
     corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-    half, h = column.leg_spacing / 2, column.panel_height
-    nodes = [np.array([x * half, y * half, k * h]) for k in range(panels + 1) for x, y in corners]
+    h = column.panel_height
+    halves = np.full(panels + 1, column.leg_spacing / 2) if breadths is None else breadths / 2
+    nodes = [np.array([x * half, y * half, k * h]) for k, half in enumerate(halves) for x, y in corners]
     stiffness = np.zeros((3 * len(nodes), 3 * len(nodes)))
 
     def add(level, leg, other_level, other_leg, area):

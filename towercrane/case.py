@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from modal.beam import Beam
     from modal.chain import Chain
     from modal.lattice import LacedColumn
+    from modal.truss import ColumnTruss
     from towercrane import schema, schema_cases
     from towercrane.cranes.slewing_parameters import SlewingParameters
     from towercrane.cranes.tower_crane import TowerCrane
@@ -259,6 +260,17 @@ class Case:
         if tower.lattice is None or tower.youngs_modulus is None:
             return None
         return laced_column(tower.lattice, tower.youngs_modulus)
+
+    def truss(self) -> ColumnTruss | None:
+        """The lattices of the tower as a truss; None where a piece of it has none."""
+        from towercrane.towers import tower_truss
+
+        return tower_truss(self._radial.crane)
+
+    def has_lattice(self) -> bool:
+        """Whether the tower, or each of its segments, has its members given."""
+        tower = self._radial.crane.tower
+        return all(piece.lattice is not None for piece in tower.segments or (tower,))
 
     def radial_crane(self) -> TowerCrane:
         """The crane of the radial model."""

@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) -> None:
-    """The tower's lattice as three beams beside its truss: deflections, frequencies, errors and times."""
+    """The tower's lattice as beams beside its truss: deflections, frequencies, errors and times."""
     loaded = load(case, changes)
     if loaded.kind == "space":
         fail(f"{case}: wanted a case of kind 'radial', got 'space'; try: towercrane modes {case}")
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no lattice; try: towercrane linearise {case}")
-    if loaded.lattice() is None:
-        fail(f"{case}: crane.tower.lattice: wanted the members of a uniform tower, got none")
+    if not loaded.has_lattice():
+        fail(f"{case}: crane.tower.lattice: wanted the members of the tower, or of each of its segments, got none")
     announce_compilation("structure")
     try:
         report = lattice_report(loaded)
@@ -42,23 +42,21 @@ def lattice_report(case: Case) -> dict[str, Any]:
     -------
     dict
         ``models``: a list with name, answers, errors relative to the truss, seconds; ``height_m`` of the truss, which
-        has whole panels; ``assumed``.
+        has whole panels and neither the tower's bodies nor its foundation; ``assumed``.
 
     Raises
     ------
     ValueError
-        If the truss is a mechanism or has no whole panel.
+        If the truss is a mechanism, or legs do not stand on those below.
     """
-    from modal.lattice_comparison import compare_lattice_models
+    from modal.lattice_comparison import compare_truss
 
-    column, crane = case.lattice(), case.radial_crane()
-    assert column is not None
-    panels = max(1, round(crane.tower.length / column.panel_height))
-    mass = crane.tower.mass / crane.tower.length
-    models = compare_lattice_models(column, panels * column.panel_height, crane.end_body, mass)
+    truss, crane = case.truss(), case.radial_crane()
+    assert truss is not None
+    models = compare_truss(truss, crane.end_body)
     return {
         "name": crane.name,
-        "height_m": panels * column.panel_height,
+        "height_m": float(truss.nodes[-1, 2]),
         "models": [asdict(model) for model in models],
         "assumed": [
             {"key": a.key, "value": str(a.value), "why": a.why}

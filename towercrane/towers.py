@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Segment
+from modal import Beam, Chain, ColumnTruss, CraneFrame, EndBody, Foundation, LacedColumn, Segment
+from modal.lattice_taper import column_segments
 
 if TYPE_CHECKING:
     from towercrane.case import Case
@@ -15,8 +16,9 @@ if TYPE_CHECKING:
     from towercrane.schema_towers import BeamChoice, Lattice, Section, Tower, TowerSegment
 
 TAPER_POWERS = {"legs": (0.0, 2.0, 0.0), "wedge": (1.0, 3.0, 1.0), "cone": (2.0, 4.0, 2.0)}
-"""Powers of the breadth that mass, bending and shear stiffness go with: four legs that draw together, whose lacing is
-taken to stay as stiff in shear; a plate whose depth tapers; a solid section that tapers both ways."""
+"""Powers of the breadth that mass, bending and shear stiffness go with where these are stated: four legs that draw
+together and so carry a part of the shear, whose lacing is taken to stay as stiff; a plate whose depth tapers; a solid
+section that tapers both ways."""
 
 
 def tower_of(crane: Crane) -> Beam | Chain:
@@ -25,15 +27,9 @@ def tower_of(crane: Crane) -> Beam | Chain:
     A uniform tower on rigid ground without shear strain, rotary inertia and bodies is a `Beam`, which has closed
     forms; any other, and one that is written as segments, is a `Chain`.
     """
-    from towercrane.schema_towers import Section, TowerSegment
-
     tower = crane.tower
-    pieces = tower.segments
-    if not pieces:
-        whole = {name: getattr(tower, name) for name in Section.model_fields}
-        pieces = (TowerSegment.model_construct(length=tower.height, **whole),)
     foundation = Foundation(**dict(crane.foundation))
-    segments = tuple(_segment(tower, piece) for piece in pieces)
+    segments = tuple(segment for piece in _pieces(tower) for segment in _segments(tower, piece))
     chain = Chain(segments, foundation=foundation, shear_theory=tower.shear_theory)
     for body in tower.bodies:
         # The sum of the segments may fall short of the stated height by rounding.
@@ -77,23 +73,56 @@ def laced_column(lattice: Lattice, youngs_modulus: float) -> LacedColumn:
     return LacedColumn(**dict(lattice), youngs_modulus=youngs_modulus)
 
 
-def _segment(tower: Tower, piece: TowerSegment) -> Segment:
-    """A piece of the tower as a segment, its beam stated or that of its lattice."""
+def _segments(tower: Tower, piece: TowerSegment) -> tuple[Segment, ...]:
+    """A piece of the tower as segments, its beam stated or that of its lattice."""
     modulus, choice = piece.youngs_modulus or tower.youngs_modulus, beam_choice(tower, piece)
     assert modulus is not None, "the file is checked to give one"
-    taper = (piece.top_breadth_ratio, *TAPER_POWERS[piece.taper])
     if piece.lattice is None or choice == "stated":
         assert piece.second_moment_of_area is not None, "the file is checked to give one"
         stiffness, shear = modulus * piece.second_moment_of_area, piece.shear_stiffness
+        taper = (piece.top_breadth_ratio, *TAPER_POWERS[piece.taper])
+        leaning = piece.taper == "legs" and piece.top_breadth_ratio != 1.0
         rotary = piece.rotary_inertia_per_length
-        return Segment(piece.length, piece.mass_per_length, stiffness, shear, rotary, *taper)
-    laced = laced_column(piece.lattice, modulus).segment(piece.length, piece.mass_per_length, choice)
-    values: dict[str, Any] = dict(
-        zip(("end_ratio", "mass_power", "bending_power", "shear_power"), taper, strict=True)
-    )
-    if piece.rotary_inertia_per_length:
-        values["rotary_inertia"] = piece.rotary_inertia_per_length
-    return replace(laced, **values)
+        return (Segment(piece.length, piece.mass_per_length, stiffness, shear, rotary, *taper, leaning),)
+    column = laced_column(piece.lattice, modulus)
+    laced = column_segments(column, piece.length, piece.top_breadth_ratio, piece.mass_per_length, choice)
+    if not piece.rotary_inertia_per_length:
+        return laced
+    # Stated at the foot; it goes with the bending stiffness.
+    per_stiffness = piece.rotary_inertia_per_length / laced[0].bending_stiffness
+    return tuple(replace(one, rotary_inertia=per_stiffness * one.bending_stiffness) for one in laced)
+
+
+def tower_truss(crane: Crane) -> ColumnTruss | None:
+    """The lattices of a tower, one on the other, as a truss of whole panels; None where a piece has none.
+
+    Bodies, foundation and the slewing part are left out.
+
+    Raises
+    ------
+    ValueError
+        If a truss is a mechanism, or legs do not stand on those below.
+    """
+    tower = crane.tower
+    found: ColumnTruss | None = None
+    for piece in reversed(_pieces(tower)):
+        modulus = piece.youngs_modulus or tower.youngs_modulus
+        if piece.lattice is None or modulus is None:
+            return None
+        column = laced_column(piece.lattice, modulus)
+        height = max(1, round(piece.length / column.panel_height)) * column.panel_height
+        found = ColumnTruss(column, height, piece.mass_per_length, piece.top_breadth_ratio, found)
+    return found
+
+
+def _pieces(tower: Tower) -> tuple[TowerSegment, ...]:
+    """The segments of a tower; a uniform one has one."""
+    from towercrane.schema_towers import Section, TowerSegment
+
+    if tower.segments:
+        return tower.segments
+    whole = {name: getattr(tower, name) for name in Section.model_fields}
+    return (TowerSegment.model_construct(length=tower.height, **whole),)
 
 
 def crane_frame(case: Case, *, weight: bool = False) -> CraneFrame:

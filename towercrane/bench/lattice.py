@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
-from modal import Chain, StructureElements, chain_structure
+from modal import Chain, ColumnTruss, StructureElements, chain_structure
 from modal.lattice import BeamModel
 from modal.lattice_comparison import LatticeAnswers, beam_answers, truss_answers
 from towercrane.bench.clock import interleaved, short
@@ -55,11 +55,11 @@ def lattice(repeats: int) -> dict[str, Any]:
     height = panels * column.panel_height
     segments = {name: column.segment(height, mass, name) for name in get_args(BeamModel)}
     contestants: dict[str, Callable[[], LatticeAnswers]] = {
-        TRUSS: partial(truss_answers, column, height, body, mass, COUNT)
+        TRUSS: partial(truss_answers, ColumnTruss(column, height, mass), body, COUNT)
     }
     about: dict[str, tuple[str, str, int | None]] = {TRUSS: (TRUSS, TRUSS, None)}
     for name, segment in segments.items():
-        contestants[f"{name}, {EXACT}"] = partial(beam_answers, segment, body, COUNT)
+        contestants[f"{name}, {EXACT}"] = partial(beam_answers, (segment,), body, COUNT)
         about[f"{name}, {EXACT}"] = name, EXACT, None
         for number in ELEMENTS:
             contestants[f"{name}, {number}"] = partial(element_answers, segment, body, number)

@@ -168,8 +168,12 @@ def transfer_matrices(chain: Chain, near: Floats) -> tuple[Floats | None, str]:
         inertia = -(omega**2) * mp.matrix([[body.mass, first], [first, second]])
         return mp.det(inertia * state[:2, :] + state[2:, :])
 
+    def root(x: float) -> float:
+        # From both sides: the secant of a point that is the root but for rounding leads anywhere.
+        return float(mp.findroot(closing, tuple(mp.mpf(x) * (1 + mp.mpf(d)) for d in ("-1e-7", "1e-7"))))
+
     with mp.workdps(50):
-        exact = [float(mp.findroot(closing, (mp.mpf(x), mp.mpf(x) * (1 + mp.mpf("1e-7"))))) for x in near]
+        exact = [root(x) for x in near]
     return np.array(exact), "reference: transfer matrices in 50-digit arithmetic"
 
 
@@ -219,5 +223,7 @@ def _krylov_functions(frame: CraneFrame, position: float, near: Floats) -> Float
         return mp.det(rows)
 
     with mp.workdps(50):
-        exact = [float(mp.findroot(closing, (mp.mpf(x), mp.mpf(x) * (1 + mp.mpf("1e-9"))))) for x in near]
+        exact = [
+            float(mp.findroot(closing, tuple(mp.mpf(x) * (1 + mp.mpf(d)) for d in ("-1e-9", "1e-9")))) for x in near
+        ]
     return np.array(exact)

@@ -129,6 +129,9 @@ def lattice_tables(report: dict[str, Any]) -> None:
         table.add_row(model["name"], *cells, f"{1e3 * model['seconds']:.2f}")
     console.print(table)
     console.print("deflections are those of the top under a force or a moment on it; the body is the slewing part")
+    console.print(
+        "foot clamped, without bodies between foot and top; the truss, all pins, shares nothing with the beams"
+    )
     _assumed(console, report["assumed"])
 
 
