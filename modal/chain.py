@@ -123,7 +123,7 @@ class Chain:
         if not self.segments:
             raise ValueError("Chain.segments: wanted at least one, got none")
         for node, body in self.bodies.items():
-            if not 0 <= node <= len(self.segments):
+            if type(node) is not int or not 0 <= node <= len(self.segments):
                 raise ValueError(f"Chain.bodies: wanted nodes 0 to {len(self.segments)}, got {node!r}")
             if not (body.mass < inf and body.rotary_inertia < inf):
                 raise ValueError(f"Chain.bodies[{node}]: wanted finite mass and inertia, got {body!r}")

@@ -135,5 +135,18 @@ def test_segment_splits_into_itself():
     assert replace(whole, gravity=9.81).compression(x) == pytest.approx(replace(cut, gravity=9.81).compression(x))
 
 
+def test_the_far_end_belongs_to_the_last_segment():
+    end = np.array([GENERAL.length])
+    assert GENERAL.section(end, "bending_stiffness") == 0.6 * EI
+    assert GENERAL.section(end, "mass_per_length") == 300.0
+    assert GENERAL.compression(end)[0] == pytest.approx(9.81 * 800.0, rel=1e-9)
+
+
+def test_bodies_stand_on_whole_nodes():
+    for node in (1.0, "1", True):
+        with pytest.raises(ValueError, match=r"Chain\.bodies: wanted nodes 0 to 1"):
+            Chain(UNIFORM.segments, {node: END_BODY})
+
+
 def test_beam_and_chain_agree_on_what_they_are():
     assert Beam(10.0, 2.0, 3.0, 4.0).mass == Chain((Segment(10.0, 2.0, 12.0),)).mass

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictBool, StrictInt
 
+from modal.elements import MOST_ELEMENTS
 from towercrane.schema import (
     Angle,
     EitherSpeed,
@@ -56,7 +57,7 @@ class ModesRequest(Table):
 
     count: Annotated[StrictInt, Field(ge=1, le=50)] = 4
     trolley_positions: tuple[Position, ...] = ()
-    elements: Annotated[StrictInt, Field(ge=2, le=2000)] = 32
+    elements: Annotated[StrictInt, Field(ge=2, le=MOST_ELEMENTS)] = 32
 
 
 MOST_POSITIONS = 1000
