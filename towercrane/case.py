@@ -165,10 +165,9 @@ class Case:
     @property
     def rests_on(self) -> tuple[Assumption, ...]:
         """Assumptions that enter the equations of motion, without those of a check beside them."""
-        from towercrane.idle import idle_keys
+        from towercrane.assumptions import rests_on
 
-        unused = tuple(idle_keys(self))
-        return tuple(a for a in self.assumed if not a.key.startswith(unused))
+        return rests_on(self)
 
     @property
     def idle(self) -> tuple[str, ...]:

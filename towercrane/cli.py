@@ -288,10 +288,11 @@ def _pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
 
 
 def _mode_picture(case: Case) -> Any:
+    from towercrane.assumptions import as_notes
     from towercrane.plots import radial
 
     crane, count = case.radial_crane(), case.modes.count
-    notes = [(a.key, str(a.value), a.why) for a in case.rests_on if a.key.startswith("crane.")]
+    notes = as_notes(a for a in case.rests_on if a.key.startswith("crane."))
     return radial.modes(crane.tower_modes(count), crane.jib_modes(count), notes)
 
 

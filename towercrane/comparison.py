@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.assumptions import as_entries, rests_on
 from towercrane.integrate import FINISHED, INTERRUPTED
 from towercrane.models import flexible_model
 from towercrane.readings import PLACE, peak
@@ -151,7 +152,7 @@ def compare(
         "kinds_of_modes": list(KINDS[case.kind].values()),
         "rows": rows,
         **_needed(case, rows, chosen, target),
-        "assumed": [{"key": a.key, "value": str(a.value), "why": a.why} for a in case.rests_on],
+        "assumed": as_entries(rests_on(case, all_modes=True)),
     }
     return report, results
 

@@ -21,19 +21,23 @@ def idle_in_file(case: Case) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def idle_keys(case: Case) -> Iterator[str]:
-    """Beginnings of keys of a tower crane that do not enter the equations of motion; none for other cranes."""
+def idle_keys(case: Case, *, exact_crane: bool = False, all_modes: bool = False) -> Iterator[str]:
+    """Beginnings of keys of a tower crane that do not enter its equations of motion; none for other cranes.
+
+    The options are those of :func:`towercrane.assumptions.rests_on`.
+    """
     if case.kind not in ("radial", "space"):
         return
-    yield from ("crane.counter_jib.youngs_modulus", "crane.counter_jib.second_moment_of_area")
+    if not exact_crane:
+        yield from ("crane.counter_jib.youngs_modulus", "crane.counter_jib.second_moment_of_area")
     tower = case.crane.tower
     if not tower.segments:
         stated = beam_choice(tower, tower) == "stated"
         yield "crane.tower.lattice." if stated else "crane.tower.second_moment_of_area"
     space = case.space if case.kind == "space" else None
-    if space is None or not space.model.torsion_modes:
+    if space is None or not (space.model.torsion_modes or all_modes):
         yield "crane.tower.torsional_"
-    if space is None or not space.model.jib_lateral_modes:
+    if space is None or not (space.model.jib_lateral_modes or all_modes):
         yield "crane.jib.lateral_second_moment_of_area"
     if space is None or space.motion.shaft is None:
         yield from ("crane.drive.", "crane.friction.")

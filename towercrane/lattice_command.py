@@ -50,6 +50,7 @@ def lattice_report(case: Case) -> dict[str, Any]:
         If the truss is a mechanism, or legs do not stand on those below.
     """
     from modal.lattice_comparison import compare_truss
+    from towercrane.assumptions import as_entries
 
     truss, crane = case.truss(), case.radial_crane()
     assert truss is not None
@@ -58,9 +59,7 @@ def lattice_report(case: Case) -> dict[str, Any]:
         "name": crane.name,
         "height_m": float(truss.nodes[-1, 2]),
         "models": [asdict(model) for model in models],
-        "assumed": [
-            {"key": a.key, "value": str(a.value), "why": a.why}
-            for a in case.assumed
-            if a.key.startswith(("crane.tower.", "crane.counter_jib.", "crane.jib."))
-        ],
+        "assumed": as_entries(
+            a for a in case.assumed if a.key.startswith(("crane.tower.", "crane.counter_jib.", "crane.jib."))
+        ),
     }

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.assumptions import as_entries
 from towercrane.chart import TURNING
 from towercrane.models import model_of
 
@@ -69,5 +70,5 @@ def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
     for name in "ABCD":
         report[name] = getattr(linear, name.lower()).tolist()
     report["differentiation_error"] = linear.error
-    report["assumed"] = [{"key": a.key, "value": str(a.value), "why": a.why} for a in case.rests_on]
+    report["assumed"] = as_entries(case.rests_on)
     return report

@@ -166,6 +166,7 @@ def _mapped(case: Case, frame: CraneFrame, places: Any, masses: list[float], mod
 def _mode_picture(case: Case, frame: CraneFrame, position: float, count: int) -> dict[str, Any]:
     """Picture of the modes with the case's own payload; none if the tower buckles under it."""
     from modal import Unstable
+    from towercrane.assumptions import as_notes, rests_on
     from towercrane.plane_modes import PlaneCrane
     from towercrane.plots.frequency_map import shapes
 
@@ -177,4 +178,4 @@ def _mode_picture(case: Case, frame: CraneFrame, position: float, count: int) ->
         f"{case.crane.name}: trolley at {position:g} m, load {case.payload.mass:g} kg on {case.rope.length:g} m; "
         "crane to scale, displacements not"
     )
-    return {"shapes.png": shapes(found, title, [(a.key, str(a.value), a.why) for a in case.rests_on])}
+    return {"shapes.png": shapes(found, title, as_notes(rests_on(case, exact_crane=True)))}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.assumptions import as_attribute, rests_on
 from towercrane.frequency_map import FINISHED, doubtful_steps
 from towercrane.plane_modes import LOADS, OUTPUTS
 from towercrane.simulate import versions
@@ -26,7 +27,7 @@ def provenance(case: Case) -> dict[str, Any]:
         "crane": case.crane.name,
         "changes": json.dumps(case.changes),
         "case_text": json.dumps(case.as_written),
-        "assumed": json.dumps([[a.key, str(a.value), a.why] for a in case.rests_on]),
+        "assumed": as_attribute(rests_on(case, exact_crane=True)),
         "versions": json.dumps(versions()),
     }
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from modal.clock import timed
+from towercrane.assumptions import as_entries
 from towercrane.cranes.radial import TOWER_BUCKLED
 from towercrane.models import radial_model
 from towercrane.system import NoEquilibrium
@@ -70,7 +71,7 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
         report["tower"]["published_roots"] = list(case.crane.tower.published_roots)
     if (lattice := case.lattice()) is not None:
         report["lattice"] = _lattice(lattice, crane.tower.length)
-    report["assumed"] = [{"key": a.key, "value": str(a.value), "why": a.why} for a in case.assumed]
+    report["assumed"] = as_entries(case.assumed)
     return report
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.assumptions import as_entries
 from towercrane.cranes.reduce import make_rigid
 from towercrane.integrate import INTERRUPTED
 from towercrane.simulate import simulate
@@ -88,7 +89,7 @@ def report(found: Study, case: Case) -> dict[str, Any]:
         "members": found.members,
         "reduced": found.reduced,
         "ended": found.ended,
-        "assumed": [{"key": a.key, "value": str(a.value), "why": a.why} for a in case.assumed],
+        "assumed": as_entries(case.rests_on),
     }
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from towercrane import __version__, drift
 from towercrane.arguments import check_number, check_positive
+from towercrane.assumptions import as_attribute
 from towercrane.integrate import FINISHED, Trajectory, evaluate, integrate
 from towercrane.kinds import TOWER_CRANES
 from towercrane.models import flexible_model, model_of
@@ -186,7 +187,7 @@ def record_case(case: Case, *, model: Model | None = None, progress: Progress | 
     result.attrs["changes"] = json.dumps(case.changes)
     result.attrs["case_text"] = json.dumps(case.as_written)
     result.attrs["notices"] = json.dumps(case.notices)
-    result.attrs["assumed"] = json.dumps([[a.key, str(a.value), a.why] for a in case.rests_on])
+    result.attrs["assumed"] = as_attribute(case.rests_on)
     return result
 
 

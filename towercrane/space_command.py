@@ -59,13 +59,14 @@ def space_modes(case: Case, name: str, changes: list[str] | None, out: Path | No
 
 def _pictures(case: Case) -> dict[str, Any]:
     """Modes where the drives stand at the start, none for a tower that buckles, and frequencies over the drives."""
+    from towercrane.assumptions import as_notes
     from towercrane.models import space_model
     from towercrane.plots import space_modes as pictured
     from towercrane.space_modes import drawn_sweeps, modes_at, modes_rest_on, place_at
     from towercrane.system import NoEquilibrium
 
     model, place = space_model(case), place_at(case)
-    notes = [(a.key, str(a.value), a.why) for a in modes_rest_on(case)]
+    notes = as_notes(modes_rest_on(case))
     title = f"{case.crane.name}, load {case.payload.mass:g} kg: "
     where = f"trolley {place.trolley_position:g} m, rope {place.rope_length:g} m"
     swept = pictured.frequencies(drawn_sweeps(case), f"{title}natural frequencies about {where}", notes)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.assumptions import as_entries
 from towercrane.cranes.small_motions import natural_modes
 from towercrane.models import space_model
 from towercrane.system import NoEquilibrium
@@ -119,7 +120,7 @@ def space_frequencies(case: Case) -> dict[str, Any]:
         name: [_row(model, replace(start, **{name: value}), value, count) for value in values]
         for name, values in asked_places(case).items()
     }
-    report["assumed"] = [{"key": a.key, "value": str(a.value), "why": a.why} for a in modes_rest_on(case)]
+    report["assumed"] = as_entries(modes_rest_on(case))
     return report
 
 

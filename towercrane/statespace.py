@@ -10,6 +10,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
@@ -140,11 +141,12 @@ class StateSpace:
         """Natural frequencies of all oscillations, ascending [Hz]."""
         return np.array([e.frequency for e in self.eigenvalues() if e.value.imag > 0.0])
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | os.PathLike[str], assumed: Sequence[tuple[str, str, str]] = ()) -> None:
         """Write a file for MATLAB (``.mat``) or NumPy (``.npz``), whole or not at all.
 
         Fields: A, B, C, D; states, inputs, outputs and their units (cell arrays of text in MATLAB); x0, u0, y0,
-        slope and the rope's inclination at the operating point. In MATLAB ``ss(A, B, C, D, 'StateName', states)``, in
+        slope and the rope's inclination at the operating point; assumed: a line for each value that no source gives,
+        from its key, value and reason. In MATLAB ``ss(A, B, C, D, 'StateName', states)``, in
         python-control ``control.ss(m["A"], m["B"], m["C"], m["D"])`` of ``m = scipy.io.loadmat(path)``.
 
         Raises
@@ -161,16 +163,17 @@ class StateSpace:
             if ending == ".mat":
                 from scipy.io import savemat
 
-                savemat(file, self._fields(object))
+                savemat(file, self._fields(object, assumed))
             else:
-                np.savez(file, **self._fields(str))
+                np.savez(file, **self._fields(str, assumed))
 
-    def _fields(self, text: type) -> dict[str, Any]:
+    def _fields(self, text: type, assumed: Sequence[tuple[str, str, str]]) -> dict[str, Any]:
         fields: dict[str, Any] = {"A": self.a, "B": self.b, "C": self.c, "D": self.d}
         for kind in ("states", "inputs", "outputs"):
             signals: tuple[Signal, ...] = getattr(self, kind)
             fields[kind] = np.array([signal.name for signal in signals], dtype=text)
             fields[f"{kind[:-1]}_units"] = np.array([signal.units for signal in signals], dtype=text)
+        fields["assumed"] = np.array([f"{key} = {value}: {why}" for key, value, why in assumed], dtype=text)
         point = self.point
         fields |= {"x0": point.states, "u0": point.inputs, "y0": point.outputs, "slope": point.slope}
         return fields | {"inclination": point.inclination}

@@ -66,7 +66,10 @@ def sensitivity(
         known = ", ".join(parameters_of(parameters))
         fail(f"--vary {' '.join(vary or [])}: wanted patterns that match some of {known}")
     announce_compilation(*loaded.uses, "runs")
+    from towercrane.assumptions import as_attribute
+
     study = _study(loaded, names, step, tolerance)
+    study.data.attrs["assumed"] = as_attribute(loaded.rests_on)
     from towercrane.sensitivity import report
 
     summary = report(study, loaded)
@@ -117,6 +120,7 @@ def linearise(
             fail(f"--out {out}: wanted a file that ends in {' or '.join(FILE_TYPES)}")
         folder_for_results(out.parent)
     announce_compilation(*loaded.uses, "runs")
+    from towercrane.assumptions import as_notes
     from towercrane.linear_report import linear_model, linear_report
     from towercrane.system import NoEquilibrium
 
@@ -126,7 +130,7 @@ def linearise(
         say(f"{failure.outcome}: {failure}")
         raise typer.Exit(ENDED_EARLY) from None
     if out is not None:
-        linear.save(out)
+        linear.save(out, as_notes(loaded.rests_on))
     report = linear_report(loaded, at, linear)
     if as_json:
         tell(json.dumps(report, indent=2, allow_nan=False))
@@ -178,6 +182,7 @@ def shape(
     if not driven(loaded.plans):
         fail(f"{case}: wanted a trolley or a slewing drive that moves, got none")
     announce_compilation(*loaded.uses, "runs")
+    from towercrane.assumptions import as_attribute, as_entries, as_notes
     from towercrane.drive_table import drive_table
     from towercrane.models import flexible_model
     from towercrane.rest_study import report, study
@@ -189,14 +194,13 @@ def shape(
     except NoEquilibrium as failure:
         say(f"{failure.outcome}: {failure}")
         raise typer.Exit(ENDED_EARLY) from None
-    notes = [(a.key, str(a.value), a.why) for a in loaded.rests_on]
-    assumed = [{"key": key, "value": value, "why": why} for key, value, why in notes]
-    summary = {"case": loaded.name, "crane": loaded.crane.name, **report(done), "assumed": assumed}
+    notes, known = as_notes(loaded.rests_on), {"case": loaded.name, "crane": loaded.crane.name}
+    summary = {**known, **report(done), "assumed": as_entries(loaded.rests_on)}
     chosen = done.recommended.candidate
     files: dict[str, Any] = {"shape.json": json.dumps(summary, indent=2, allow_nan=False) + "\n"}
     for channel in driven(loaded.plans):
         unit = "m" if channel == "trolley" else "rad"
-        about = {"crane": loaded.crane.name, "case": loaded.name, "drive": channel, "motion": chosen.title}
+        about = {**known, "drive": channel, "motion": chosen.title, "assumed": as_attribute(loaded.rests_on)}
         files[f"drive-{channel}.csv"] = drive_table(chosen.motions[channel], step, unit, about)
     if pictures:
         from towercrane.plots import shaping as pictured

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.assumptions import as_notes
 from towercrane.drift import notice
 from towercrane.integrate import INTERRUPTED
 from towercrane.kinds import TOWER_CRANES, unit_of
@@ -80,7 +81,7 @@ class Found:
         """Note what a run of this case rests on."""
         solver = case.solver
         self.cranes[case.crane.name] = None
-        self.assumed |= {(a.key, str(a.value), a.why): None for a in case.rests_on}
+        self.assumed |= dict.fromkeys(as_notes(case.rests_on))
         if not (case.kind in TOWER_CRANES and case.accuracy.targets):
             self.solvers[solver.method, solver.rtol, solver.atol] = None
             if said := notice(solver.method, solver.rtol, solver.atol):

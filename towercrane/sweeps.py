@@ -150,15 +150,22 @@ def runs_csv(data: xr.Dataset) -> str:
     import csv
     import io
 
+    from towercrane.summary import assumed
+
     keys = [key.replace(".", "_") for key in json.loads(data.attrs["varied"])]
+    # In the header, and not as lines above it: a row per run is all that readers of tables find.
+    notes = "; ".join(f"{key} = {value}" for key, value, _ in assumed(data))
+    tail = [f"assumed, given by no source: {notes}"] if notes else []
     names = ["run", *keys, *(str(name) for name, variable in data.data_vars.items() if variable.dims == ("run",))]
     units = (data[name].attrs.get("units") for name in names)
+    header = [f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)])
+    writer.writerow([*header, *tail])
     columns = [data[name].values.tolist() for name in names]
     for row in zip(*columns, strict=True):
-        writer.writerow([f"{value:.12g}" if isinstance(value, float) else value for value in row])
+        cells = [f"{value:.12g}" if isinstance(value, float) else value for value in row]
+        writer.writerow([*cells, *("" for _ in tail)])
     return text.getvalue()
 
 

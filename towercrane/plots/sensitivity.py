@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.plots.style import COLOURS, figure_of
+from towercrane.plots.style import COLOURS, figure_of, footnote
+from towercrane.summary import assumed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -38,6 +39,7 @@ def surface(data: xr.Dataset, parameter: str) -> Figure:
         axes.set_ylabel("value [% of nominal]", fontsize=7)
         figure.colorbar(mesh, ax=axes, label=f"{str(name).replace('_', ' ')}\n[{unit}]")
     rows[-1].set_xlabel("time [s]")
+    footnote(figure, assumed(data))
     figure.suptitle(
         f"{parameter.replace('_', ' ')}: change of the outputs since the start\n{data.attrs['crane']}", fontsize=10
     )
@@ -66,4 +68,5 @@ def ranking(study: Study) -> Figure:
     )
     axes.set_ylabel("parameter [varied alone]")
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, fontsize=8, frameon=False)
+    footnote(figure, assumed(study.data))
     return figure
