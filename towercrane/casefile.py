@@ -272,7 +272,8 @@ def _read_crane(text: CaseText) -> None:
     if not is_file(path):
         files = sorted(p.name for p in text.path.parent.glob("*.toml") if p != text.path)
         hint = did_you_mean(name, files, "the path is relative to the case file")
-        text.faults.append(Fault("", "crane", "the name of a crane file", f"{shown(name)}: no such file", hint))
+        got = f"{shown(name)}: {'no regular file' if os.path.lexists(path) else 'no such file'}"
+        text.faults.append(Fault("", "crane", "the name of a crane file", got, hint))
         return
     try:
         crane = read_toml(path)

@@ -11,6 +11,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
+LONGEST_LINE = 1000
+"""Letters of a line of a message; paths may be long, what somebody sets longer."""
+
+
 @dataclass(frozen=True, slots=True)
 class Fault:
     """One fault of an input file.
@@ -38,7 +42,8 @@ class Fault:
         lines += [f"  wanted: {self.wanted}", f"  got:    {self.got}"]
         if self.hint:
             lines.append(f"  hint:   {self.hint}")
-        return "\n".join(map(printable, lines))
+        shown_lines = (printable(line) for line in lines)
+        return "\n".join(f"{line[:LONGEST_LINE]}..." if len(line) > LONGEST_LINE else line for line in shown_lines)
 
 
 class CaseError(ValueError):

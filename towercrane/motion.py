@@ -298,6 +298,8 @@ def distinct(moments: Floats) -> Floats:
     return np.array(kept)
 
 
+# Limits so far from each other that numbers overflow make times that are not finite, which a motion refuses.
+@np.errstate(all="ignore")
 def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: float) -> Motion:
     check_number("start", start)
     check_number("end", end)

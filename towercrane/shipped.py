@@ -36,6 +36,8 @@ def find_case(path: Path) -> Path:
     if os.path.isdir(path):
         inside = ", ".join(sorted(p.name for p in path.glob("*.toml")))
         raise CaseError([Fault(str(path), "", wanted, "a folder", f"it holds {inside}" if inside else "")])
+    if os.path.lexists(path):
+        raise CaseError([Fault(str(path), "", wanted, "no regular file")])
     names = [name for name, _ in list_cases()]
     by_end = {name.rpartition("/")[2]: name for name in names}
     asked = path.as_posix().removesuffix(".toml")
