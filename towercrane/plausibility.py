@@ -16,6 +16,9 @@ from towercrane.units import UnitError, split, to_si
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
+FARTHEST = 1e9
+"""How many times beyond its range a value may lie that the case allows: numbers farther off overflow in products."""
+
 MOST_SAMPLES = 5_000_000
 FASTEST = 10.0
 """Largest plausible speed of trolley and hook [m/s]."""
@@ -65,19 +68,26 @@ class Range:
         own = fnmatchcase(key, self.key) if wild and key.startswith(beginning) else key == self.key
         return own and fnmatchcase(kind, self.kind)
 
-    def fault(self, key: str, value: object) -> Fault | None:
-        """Fault if ``value`` lies outside the range; a value that cannot be read is for others to report."""
+    def fault(self, key: str, value: object, *, allowed: bool = False) -> Fault | None:
+        """Fault if ``value`` lies outside the range, or so far outside that it may not be ``allowed``.
+
+        A value that cannot be read is for others to report.
+        """
         try:
             size = to_si(value, self.unit) * (-1.0 if self.signed and split(value)[0] < 0.0 else 1.0)
             number = abs(split(value)[0])
         except UnitError:
             return None
-        if size <= 0.0 or self.low <= size <= self.high:
+        beyond = FARTHEST if allowed else 1.0
+        low, high = self.low / beyond, self.high * beyond
+        if size <= 0.0 or low <= size <= high:
             return None
+        wanted = f"a value from {low:g} to {high:g} {self.unit}".removesuffix(" 1")
+        if allowed:
+            return Fault("", key, wanted, shown(value), "beyond that an implausible value cannot be computed with")
         allow = f'if it is right, put allow_implausible = ["{key}"] at the top of the case file'
         unit = next((unit for unit in self.likely if self._holds(f"{number!r} {unit}")), None)
         hint = f"{unit} meant? {allow}" if unit else allow
-        wanted = f"a value from {self.low:g} to {self.high:g} {self.unit}".removesuffix(" 1")
         return Fault("", key, wanted, f"{shown(value)}, which is not plausible", hint)
 
     def _holds(self, text: str) -> bool:
@@ -196,12 +206,12 @@ def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> It
     ruled = {}
     for key, value in leaves(tree):
         if knows(kind, plain_key(key)) and (rule := _rule(key, kind)):
-            ruled[key] = rule.fault(key, value)
+            ruled[key] = rule.fault(key, value, allowed=key in allowed)
     for key in allowed:
         if key not in ruled:
             wanted, hint = "keys of this case whose range is checked", did_you_mean(key, ruled)
             yield Fault("", "allow_implausible", wanted, shown(key), hint)
-    yield from (fault for key, fault in ruled.items() if fault and key not in allowed)
+    yield from (fault for fault in ruled.values() if fault)
 
 
 def check_values(tree: dict[str, Any]) -> Iterator[Fault]:
