@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field, replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -40,7 +39,8 @@ REST = 2.0
 """What all modes beyond a rung matter, over what the next one does."""
 
 MODELLED, SOLVED = 0.5, 0.2
-"""Parts of an allowed error for what the model leaves out and for the solver."""
+"""Parts of an allowed error: for what the model leaves out, kind by kind, and for the solver. What kinds matter
+together may take what the solver does not."""
 
 PROBING = {"motions": 0.02, "forces": 2e-4}
 """Rtol of the runs that are compared, over the smallest relative error that is wanted: forces see accelerations."""
@@ -165,15 +165,14 @@ def measured_choice(
             tried += len(ladders.runs)
             ladders = Ladders(scene, ladders.base.tightened(TIGHTER))
     setting = ladders.base.with_counts(counts)
-    setting, result, stepping = _solved(ladders, setting, allowed, stated, progress)
     together = _together(ladders, setting, kinds)
-    while excess <= 1.0 < _excess(together, MODELLED * allowed):
-        higher = [kind for kind in free if getattr(setting, kind) < MOST[kind]]
+    while excess <= 1.0 < _excess(together, (1.0 - SOLVED) * allowed):
+        higher = {k: _lost(ladders, setting, allowed, k) for k in free if getattr(setting, k) < MOST[k]}
         if not higher:
             break
-        setting = _raised(setting, [max(higher, key=partial(_lost, ladders, setting, allowed))])
-        setting, result, stepping = _solved(ladders, setting, allowed, stated, progress)
+        setting = _raised(setting, [kind for kind, lost in higher.items() if lost >= 0.5 * max(higher.values())])
         together = _together(ladders, setting, kinds)
+    setting, result, stepping = _solved(ladders, setting, allowed, stated, progress)
     truncation = np.maximum(truncation, together)
     peaks = np.maximum([peak(result, name) for name in scene.outputs], SMALLEST_PEAK)
     estimate = Estimate(truncation, stepping / peaks)
@@ -181,7 +180,8 @@ def measured_choice(
     excess = _excess(estimate.errors(peaks), limits(scene.outputs, targets, peaks))
     doubts = [f"a model beside it ends early: {outcome}" for outcome in ladders.ended_early()]
     spent = time.process_time() - began - result.attrs["solver_cpu_seconds"]
-    left_out = tuple(_left_out(ladders, kinds, free, setting.counts, np.isfinite(allowed)))
+    final = {kind: getattr(setting, kind) for kind in kinds}
+    left_out = tuple(_left_out(ladders, kinds, free, final, np.isfinite(allowed)))
     choice = Choice(
         setting, estimate, peaks, excess <= 1.0, tuple(doubts), tried, spent, left_out
     )  # fmt: skip
