@@ -40,9 +40,10 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
         without effects roots; outcome and message where it buckles), ``jib`` (roots, frequencies_hz),
         ``finite_elements`` of the tower (frequencies_hz, relative_difference, elements, seconds), ``effects`` of
         shear, weight, rotary inertia and foundation, see `towercrane.effects.effects_report`, ``crane`` (a list with
-        trolley_position_m, frequencies_hz, swing_mode, exact_hz, relative_difference, predicted_difference; outcome
-        and message where the tower buckles), ``buckling_factor`` on all weights, ``lattice`` where the case describes
-        one, ``assumed``.
+        trolley_position_m, frequencies_hz, swing_mode, exact_hz and relative_difference to the exact mode of the same
+        shape, None where there is none, predicted_difference, missing_from_the_model with frequency_hz and member,
+        exact_unlike_the_model_hz, see `towercrane.mode_pairs.ModePairs`; outcome and message where the tower
+        buckles), ``buckling_factor`` on all weights, ``lattice`` where the case describes one, ``assumed``.
     """
     from modal import Beam
     from towercrane.effects import effects_in, effects_report
@@ -118,7 +119,8 @@ def _checked(solve: Callable[[], Any], exact: Any, elements: int) -> dict[str, A
 
 def _coupled(case: Case, model: RadialModel, position: float) -> dict[str, Any]:
     """Frequencies of the coupled crane with the trolley at a position [m], beside the exact ones of the frame."""
-    from modal import crane_structure
+    from towercrane.mode_pairs import paired_modes
+    from towercrane.plane_modes import PlaneCrane
     from towercrane.towers import crane_frame
     from towercrane.truncation import truncation_error
 
@@ -130,11 +132,16 @@ def _coupled(case: Case, model: RadialModel, position: float) -> dict[str, Any]:
     found = found[:FRAME_MODES]
     row |= {"frequencies_hz": (found / (2 * np.pi)).tolist(), "swing_mode": swing + 1}
     if model.tower_modes and model.jib_modes:
-        frame = crane_frame(case, weight=model.weight_softening)
-        exact = crane_structure(frame, position).angular_frequencies(len(found))
-        row["exact_hz"] = (exact / (2 * np.pi)).tolist()
-        row["relative_difference"] = (found / exact - 1.0).tolist()
+        exact = PlaneCrane(crane_frame(case, weight=model.weight_softening))
+        pairs = paired_modes(model, exact, position, len(found))
+        row["exact_hz"] = pairs.exact_hz
+        row["relative_difference"] = [
+            None if other is None else own / other - 1.0
+            for own, other in zip(pairs.frequencies_hz, pairs.exact_hz, strict=True)
+        ]
         row["predicted_difference"] = truncation_error(model, position, case.rope.length)[: len(found)].tolist()
+        row["missing_from_the_model"] = [{"frequency_hz": f, "member": member} for f, member in pairs.missing]
+        row["exact_unlike_the_model_hz"] = pairs.unlike
     return row
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -13,6 +13,8 @@ from modal.structure import HELD, Structure
 from modal.structure_modes import DEFLECTION, MOMENT, ROTATION, SLOPE, structure_modes
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from modal import Chain, CraneFrame
@@ -33,6 +35,13 @@ LOADS = ("vertical", "horizontal")
 OUTPUTS = ("tower_tip", "jib_tip", "base_moment")
 """Tower top outward [m], jib end down [m], bending moment at the tower's foot [N m], positive like the moment of an
 outward force at the top."""
+
+
+class Shapes(Protocol):
+    """Shapes of n modes along one part, such as :class:`modal.structure_modes.PartShapes`."""
+
+    def evaluate(self, position: Floats | float, quantity: int = DEFLECTION) -> Floats:
+        """Deflection or rotation at positions along the part [m], shape (n, *positions)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +83,7 @@ class Points:
             )
         return cls(*np.concatenate(rows, axis=1))
 
-    def motion(self, chain: Chain, shapes: PartShapes) -> Floats:
+    def motion(self, chain: Chain, shapes: Shapes) -> Floats:
         """Deflections and rotations times the roots of their masses, bodies included; shape (n, q)."""
         mass = np.sqrt(self.mass_per_length * self.weights)
         columns = [shapes.evaluate(self.positions, DEFLECTION) * mass]
@@ -135,6 +144,33 @@ class PlaneCrane:
         bodies = sum(body.mass for chain in carried for body in chain.bodies.values())
         return self.frame.trolley_mass + sum(chain.mass for chain in carried) + bodies
 
+    def motion(self, position: float, parts: Mapping[str, Shapes], load: Floats) -> Floats:
+        """Motion of fixed points, times the roots of their masses; rows of unit length, shape (n, p).
+
+        The same columns at every place of the trolley: tower, jibs, their bodies, and as bodies of their own the
+        trolley with the load (vertically) and the load (outward). Products of two rows are the modes' products in
+        the mass of the crane, so they compare the motion of the same bodies wherever the trolley stands.
+
+        Parameters
+        ----------
+        position : float
+            Of the trolley [m].
+        parts : mapping of str to Shapes
+            Of tower, jib and a counter-jib that bends.
+        load : ndarray, shape (n,)
+            Outward motion of the load.
+        """
+        columns = [points.motion(self.chains[name], parts[name]) for name, points in self.points.items()]
+        carried = self.frame.trolley_mass + self.frame.payload_mass
+        bodies = (
+            np.sqrt(self.moving_along) * parts["tower"].evaluate(self.frame.tower.length),
+            np.sqrt(carried) * parts["jib"].evaluate(position),
+            np.sqrt(self.frame.payload_mass) * load,
+        )
+        found = np.concatenate([*columns, np.stack(bodies, axis=1)], axis=1)
+        unit: Floats = found / np.linalg.norm(found, axis=1)[:, None]
+        return unit
+
     def structure(self, position: float) -> Structure:
         """The exact structure with the trolley at a distance from the tower's axis [m]."""
         return crane_structure(self.frame, position)
@@ -191,23 +227,8 @@ class PlaneModes:
 
     @cached_property
     def shapes(self) -> Floats:
-        """Motion of fixed points, times the roots of their masses; rows of unit length, shape (n, p).
-
-        The same columns at every place of the trolley: tower, jibs, their bodies, and as bodies of their own the
-        trolley with the load (vertically) and the load (outward). Products of two rows are the modes' products in
-        the mass of the crane, so they compare the motion of the same bodies wherever the trolley stands.
-        """
-        crane = self.crane
-        columns = [points.motion(crane.chains[name], self.modes.parts[name]) for name, points in crane.points.items()]
-        carried = crane.frame.trolley_mass + crane.frame.payload_mass
-        bodies = (
-            np.sqrt(crane.moving_along) * self._top,
-            np.sqrt(carried) * self._trolley,
-            np.sqrt(crane.frame.payload_mass) * self._load,
-        )
-        found = np.concatenate([*columns, np.stack(bodies, axis=1)], axis=1)
-        unit: Floats = found / np.linalg.norm(found, axis=1)[:, None]
-        return unit
+        """Motion of fixed points, times the roots of their masses, see `PlaneCrane.motion`."""
+        return self.crane.motion(self.position, self.modes.parts, self._load)
 
     @cached_property
     def energy_shares(self) -> Floats:

@@ -41,14 +41,23 @@ def modes_tables(report: dict[str, Any]) -> None:
         cells = [f"{f:.6f}" + ("*" if i == swing else "") for i, f in enumerate(row["frequencies_hz"], start=1)]
         table.add_row(f"{row['trolley_position_m']:g}", *cells)
         if "relative_difference" in row:
-            table.add_row("  less exact", *(f"{d:+.1e}" for d in row["relative_difference"]), style="dim")
+            table.add_row("  less exact", *(_signed(d) for d in row["relative_difference"]), style="dim")
             table.add_row(
                 "  by the jib modes, predicted", *(f"{d:+.1e}" for d in row["predicted_difference"]), style="dim"
             )
     console.print(table)
     for row in report["crane"]:
+        where = f"trolley at {row['trolley_position_m']:g} m"
         if "outcome" in row:
-            console.print(f"trolley at {row['trolley_position_m']:g} m: {row['outcome']}: {row['message']}")
+            console.print(f"{where}: {row['outcome']}: {row['message']}")
+        for mode in row.get("missing_from_the_model", ()):
+            named = f"{mode['member']} mode at {mode['frequency_hz']:.6f} Hz"
+            console.print(f"{where}: the exact crane's {named} is missing from the model")
+        if unlike := row.get("exact_unlike_the_model_hz"):
+            listed = ", ".join(f"{frequency:.6f}" for frequency in unlike)
+            console.print(f"{where}: no mode of the model is like the exact crane's at {listed} Hz")
+    if any(None in row.get("relative_difference", ()) for row in report["crane"]):
+        console.print("- the exact crane has no mode of that shape")
 
     if "lattice" in report:
         table = _table(f"{report['name']}: tower lattice as a beam", "property", "value", "unit", "use", left=1)
@@ -211,6 +220,10 @@ def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
     sizes = ", ".join(f"{len(report[kind])} {kind}" for kind in ("states", "inputs", "outputs"))
     console.print(f"{sizes}; inputs: {', '.join(signal['name'] for signal in report['inputs'])}")
     _assumed(console, report["assumed"])
+
+
+def _signed(difference: float | None) -> str:
+    return "-" if difference is None else f"{difference:+.1e}"
 
 
 def _rounded(value: float, digits: int) -> float:
