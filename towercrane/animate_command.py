@@ -94,7 +94,7 @@ def animate(
     if (over := float(result["time"][-1])) <= playback.start:
         _nothing(loaded, result)
     playback = replace(playback, end=min(playback.end, over))
-    _film(loaded, result, playback, magnify, out)
+    _film(case, loaded, result, playback, magnify, out)
     suggest(*(("run", case, *options_of(changes)) if finished is None else _slower(case, playback)))
     _exit(loaded, result)
 
@@ -178,8 +178,8 @@ def _run(case: Case) -> xr.Dataset:
     return result.dataset()
 
 
-def _film(case: Case, result: xr.Dataset, playback: Playback, magnify: float | None, out: Path) -> None:
-    """Draw and write the film."""
+def _film(source: str, case: Case, result: xr.Dataset, playback: Playback, magnify: float | None, out: Path) -> None:
+    """Draw and write the film; messages name its source."""
     with held_interrupts() as ask:
         from towercrane.plots.film import Film
         from towercrane.poses import poses_of
@@ -190,9 +190,9 @@ def _film(case: Case, result: xr.Dataset, playback: Playback, magnify: float | N
             magnification = poses.fitting_magnification() if magnify is None else magnify
             film = Film(result, poses, playback, magnification)
         except ValueError as error:
-            fail(f"{case.name}: {error}")
+            fail(f"{source}: {error}")
         except KeyError as error:
-            fail(f"{case.name}: {INCOMPLETE}: {error.args[0]}")
+            fail(f"{source}: {INCOMPLETE}: {error.args[0]}")
         _save(film, out, playback, ask)
     drawn = f", deformation {magnification:g} times as large" if poses.deformation else ""
     span = f"{playback.start:g} to {playback.end:.6g} s at {playback.speed:g} times real time"

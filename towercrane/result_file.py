@@ -69,10 +69,22 @@ def check_structure(path: Path) -> None:
                 raise ValueError(f"{name}: wanted data, got a {type(found).__name__.lower()}")
             if found.external or found.is_virtual:
                 raise ValueError(f"{name}: wanted data, got some of another file")
+            _check_dimensions(name, found)
             asked += _bytes(name, found.id, size) + _attributes(found, size)
         asked += _attributes(file, size)
     if asked > allowed:
         raise ValueError(f"wanted at most {allowed:.3g} bytes of data in a file of {size}, got {asked:.3g}")
+
+
+def _check_dimensions(name: str, found: Any) -> None:
+    """Refuse a variable that is not as long as its dimensions, or has one of them twice."""
+    sized = zip(found.dims, found.shape, strict=True)
+    scales = [(dimension[0], length) for dimension, length in sized if len(dimension)]
+    if len({scale.name for scale, _ in scales}) < len(scales):
+        raise ValueError(f"{name}: wanted a dimension once, got it twice")
+    for scale, length in scales:
+        if scale.shape != (length,):
+            raise ValueError(f"{name}: wanted {scale.shape} values along {scale.name}, got {length}")
 
 
 def _attributes(owner: Any, size: int) -> int:
@@ -112,6 +124,7 @@ def check_run(result: xr.Dataset) -> None:
     for name in ("rope_length", "payload_position"):
         if name not in result:
             raise ValueError(f"wanted a result with all that `towercrane run` writes, got one without: {name}")
+        entries(result, name)
     times = numbers(result, "time")
     if not (len(times) and (np.diff(times) > 0.0).all()):
         raise ValueError("wanted times that increase from row to row, got others")
