@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
+
+from modal.checks import check_fields, number_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,10 +35,7 @@ class Beam:
     second_moment_of_area: float
 
     def __post_init__(self) -> None:
-        for name in self.__slots__:
-            value = getattr(self, name)
-            if not 0.0 < value < float("inf"):
-                raise ValueError(f"Beam.{name}: wanted a positive finite number, got {value!r}")
+        check_fields(self, positive=self.__slots__)
 
     @property
     def mass(self) -> float:
@@ -73,7 +73,5 @@ class EndBody:
 
     def __post_init__(self) -> None:
         for name in ("mass", "rotary_inertia"):
-            if not getattr(self, name) >= 0.0:
-                raise ValueError(f"EndBody.{name}: wanted zero or more, got {getattr(self, name)!r}")
-        if not abs(self.offset) < float("inf"):
-            raise ValueError(f"EndBody.offset: wanted a finite number, got {self.offset!r}")
+            number_in(f"EndBody.{name}", getattr(self, name), "zero or more", least=0.0, most=inf)
+        number_in("EndBody.offset", self.offset, "a finite number")

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
+from modal.checks import SMALLEST, check_fields, is_whole, number_in
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -43,8 +45,7 @@ class Foundation:
 
     def __post_init__(self) -> None:
         for name in self.__slots__:
-            if not getattr(self, name) > 0.0:
-                raise ValueError(f"Foundation.{name}: wanted a positive number, got {getattr(self, name)!r}")
+            number_in(f"Foundation.{name}", getattr(self, name), "a positive number", least=SMALLEST, most=inf)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,10 +72,7 @@ class Pendulum:
     gravity: float = 9.81
 
     def __post_init__(self) -> None:
-        for name in self.__slots__:
-            value = getattr(self, name)
-            if not 0.0 < value < inf:
-                raise ValueError(f"Pendulum.{name}: wanted a positive finite number, got {value!r}")
+        check_fields(self, positive=self.__slots__)
 
     @property
     def stiffness(self) -> float:
@@ -123,14 +121,12 @@ class Chain:
         if not self.segments:
             raise ValueError("Chain.segments: wanted at least one, got none")
         for node, body in self.bodies.items():
-            if type(node) is not int or not 0 <= node <= len(self.segments):
+            if not is_whole(node) or not 0 <= node <= len(self.segments):
                 raise ValueError(f"Chain.bodies: wanted nodes 0 to {len(self.segments)}, got {node!r}")
             if not (body.mass < inf and body.rotary_inertia < inf):
                 raise ValueError(f"Chain.bodies[{node}]: wanted finite mass and inertia, got {body!r}")
-        if not abs(self.axial_load) < inf:
-            raise ValueError(f"Chain.axial_load: wanted a finite number, got {self.axial_load!r}")
-        if not 0.0 <= self.gravity < inf:
-            raise ValueError(f"Chain.gravity: wanted a finite number, zero or more, got {self.gravity!r}")
+        number_in("Chain.axial_load", self.axial_load, "a finite number")
+        check_fields(self, not_negative=("gravity",))
         if self.shear_theory not in get_args(ShearTheory):
             raise ValueError(f"Chain.shear_theory: wanted one of {get_args(ShearTheory)}, got {self.shear_theory!r}")
 
@@ -161,8 +157,7 @@ class Chain:
             If the position is off the chain.
         """
         nodes = self.nodes
-        if not 0.0 <= position <= nodes[-1]:
-            raise ValueError(f"position: wanted 0 to {nodes[-1]!r} m, got {position!r}")
+        number_in("position", position, f"0 to {nodes[-1]!r} m", least=0.0, most=nodes[-1])
         nearest = min(range(len(nodes)), key=lambda node: abs(nodes[node] - position))
         # A piece far shorter than all else would only cost digits.
         if abs(nodes[nearest] - position) < 1e-9 * nodes[-1]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.beam import EndBody
+from modal.checks import whole_number
 from modal.structure import chain_structure
 from modal.structure_modes import DEFLECTION, ROTATION, PartShapes, structure_modes
 
@@ -155,6 +156,7 @@ def chain_modes(chain: Chain, count: int, end_body: EndBody = EndBody()) -> Chai
     """
     if not np.isfinite([end_body.mass, end_body.rotary_inertia]).all():
         raise ValueError(f"end_body: wanted finite mass and inertia, got {end_body!r}")
+    count = whole_number("count", count)
     weight = chain.gravity * end_body.mass
     loaded = replace(chain, axial_load=chain.axial_load + weight, pendulum=None)
     structure = chain_structure(loaded)

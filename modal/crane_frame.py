@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from modal.beam import EndBody
 from modal.chain import Foundation
+from modal.checks import check_fields, number_in
 from modal.structure import HELD, Structure
 
 if TYPE_CHECKING:
@@ -49,14 +50,7 @@ class CraneFrame:
     gravity: float = 9.81
 
     def __post_init__(self) -> None:
-        for name in ("trolley_mass", "payload_mass"):
-            if not 0.0 <= getattr(self, name) < float("inf"):
-                raise ValueError(
-                    f"CraneFrame.{name}: wanted a finite number, zero or more, got {getattr(self, name)!r}"
-                )
-        for name in ("rope_length", "gravity"):
-            if not 0.0 < getattr(self, name) < float("inf"):
-                raise ValueError(f"CraneFrame.{name}: wanted a positive finite number, got {getattr(self, name)!r}")
+        check_fields(self, positive=("rope_length", "gravity"), not_negative=("trolley_mass", "payload_mass"))
         for name in ("jib", "counter_jib"):
             chain = getattr(self, name)
             if chain is not None and (
@@ -98,12 +92,11 @@ def crane_structure(crane: CraneFrame, trolley_position: float) -> Structure:
     # What moves along with the top but is weighed elsewhere.
     structure.bodies[u, u] += along
     if crane.jib is None:
-        if not trolley_position >= 0.0:
-            raise ValueError(f"trolley_position: wanted zero or more, got {trolley_position!r}")
+        number_in("trolley_position", trolley_position, "zero or more", least=0.0)
         structure.bodies[gamma, gamma] += carried * trolley_position**2
     else:
-        if not 0.0 <= trolley_position <= crane.jib.length:
-            raise ValueError(f"trolley_position: wanted 0 to {crane.jib.length!r} m, got {trolley_position!r}")
+        reach = crane.jib.length
+        number_in("trolley_position", trolley_position, f"0 to {reach!r} m", least=0.0, most=reach)
         jib, node = crane.jib.with_node(trolley_position)
         if node > 0 and carried > 0.0:
             there = jib.bodies.get(node, EndBody())

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modal.checks import whole_number
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
@@ -55,8 +57,7 @@ def require_elements(name: str, elements: int, allow_round_off: bool = False) ->
     ValueError
         With the argument's name, the limit and the floor.
     """
-    if elements < 1:
-        raise ValueError(f"{name}: wanted one or more, got {elements!r}")
+    whole_number(name, elements, 1)
     if elements > MOST_ELEMENTS and not allow_round_off:
         raise ValueError(
             f"{name}: wanted at most {MOST_ELEMENTS}, got {elements!r}: rounding alone would put a relative "

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import hypot, sqrt
 from typing import Literal, get_args
 
+from modal.checks import check_fields, check_positive
 from modal.segment import Segment
 
 Lacing = Literal["zigzag", "X", "N"]
@@ -84,12 +85,11 @@ class LacedColumn:
     density: float = 7850.0
 
     def __post_init__(self) -> None:
-        for name in ("leg_area", "leg_spacing", "panel_height", "diagonal_area", "youngs_modulus"):
-            _require_positive(f"LacedColumn.{name}", getattr(self, name))
-        for name in ("horizontal_area", "leg_second_moment_of_area", "plan_bracing_area", "density"):
-            value = getattr(self, name)
-            if not 0.0 <= value < float("inf"):
-                raise ValueError(f"LacedColumn.{name}: wanted a finite number, zero or more, got {value!r}")
+        check_fields(
+            self,
+            positive=("leg_area", "leg_spacing", "panel_height", "diagonal_area", "youngs_modulus"),
+            not_negative=("horizontal_area", "leg_second_moment_of_area", "plan_bracing_area", "density"),
+        )
         if self.lacing not in get_args(Lacing):
             raise ValueError(f"LacedColumn.lacing: wanted one of {get_args(Lacing)}, got {self.lacing!r}")
         if self.lacing == "N" and self.horizontal_area == 0.0:
@@ -192,7 +192,7 @@ class LacedColumn:
         ValueError
             If the height is not a positive finite number.
         """
-        _require_positive("height", height)
+        check_positive("height", height)
         A = self.total_leg_area
         chords = (2.0 * height) ** 2 * A / self.chord_second_moment_of_area.value
         return SectionProperty(
@@ -259,7 +259,8 @@ class LacedColumn:
         """
         if beam not in get_args(BeamModel):
             raise ValueError(f"beam: wanted one of {get_args(BeamModel)}, got {beam!r}")
-        mass = self.mass_per_length if mass_per_length is None else mass_per_length
+        check_positive("height", height)
+        mass = self.mass_per_length if mass_per_length is None else check_positive("mass_per_length", mass_per_length)
         if beam == "code-equivalent":
             inertia = self.equivalent_second_moment_of_area(height).value
             return Segment(height, mass, self.youngs_modulus * inertia)
@@ -267,8 +268,3 @@ class LacedColumn:
             return Segment(height, mass, self.bending_stiffness.value)
         rotary = mass * (0.5 * self.leg_spacing) ** 2
         return Segment(height, mass, self.bending_stiffness.value, self.shear_stiffness.value, rotary)
-
-
-def _require_positive(name: str, value: float) -> None:
-    if not 0.0 < value < float("inf"):
-        raise ValueError(f"{name}: wanted a positive finite number, got {value!r}")

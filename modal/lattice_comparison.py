@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 
+from modal.checks import whole_number
 from modal.clock import timed
 from modal.lattice import BeamModel
 
@@ -111,6 +112,8 @@ def compare_truss(truss: ColumnTruss, body: EndBody, *, count: int = 2, repeats:
     tuple of LatticeModel
         The truss first. The code's equivalent beam is that of a single column that does not taper.
     """
+    whole_number("count", count, 1)
+    whole_number("repeats", repeats, 1)
     answers, seconds = timed(partial(truss_answers, truss, body, count), repeats)
     models = [LatticeModel("truss", answers, answers.relative_to(answers), seconds)]
     uniform = truss.above is None and truss.top_ratio == 1.0

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import ceil, log
 from typing import TYPE_CHECKING
 
-from modal.checks import number_in
+from modal.checks import check_positive
 
 if TYPE_CHECKING:
     from modal.lattice import BeamModel, LacedColumn
@@ -50,7 +50,8 @@ def column_segments(
     ValueError
         If a length, the ratio or a mass is not a positive finite number, or the beam is unknown, or of one breadth.
     """
-    number_in("top_ratio", top_ratio, "a positive finite number", least=0.0)
+    check_positive("top_ratio", top_ratio)
+    check_positive("height", height)
     if top_ratio == 1.0:
         return (column.segment(height, mass_per_length, beam),)
     if beam == "code-equivalent":

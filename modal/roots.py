@@ -17,12 +17,14 @@ isolates a root, the sign of F then refines it.
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numba import types
 
 from modal.basis import shares
+from modal.checks import check_not_negative, number_in, whole_number
 from modal.compiled import kernel
 
 if TYPE_CHECKING:
@@ -63,10 +65,8 @@ def characteristic_roots(
     -----
     Relative error below 2e-15, for pairs of roots that a heavy body brings next to each other too.
     """
-    if count < 1:
-        raise ValueError(f"count: wanted one or more, got {count!r}")
+    roots = np.empty(whole_number("count", count, 1))
     _check_ratios(mass_ratio, inertia_ratio, offset_ratio)
-    roots = np.empty(int(count))
     _find(*shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio), roots)
     return roots
 
@@ -91,20 +91,17 @@ def count_roots_below(x: float, mass_ratio: float, inertia_ratio: float, *, offs
     ValueError
         If x is negative or not finite, or a ratio is out of range.
     """
-    if not 0.0 <= x < float("inf"):
-        raise ValueError(f"x: wanted a finite number, zero or more, got {x!r}")
+    check_not_negative("x", x)
     _check_ratios(mass_ratio, inertia_ratio, offset_ratio)
     return int(_count(float(x), *shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio)))
 
 
 def _check_ratios(mass_ratio: float, inertia_ratio: float, offset_ratio: float) -> None:
     for name, value in (("mass_ratio", mass_ratio), ("inertia_ratio", inertia_ratio)):
-        if not value >= 0.0:
-            raise ValueError(f"{name}: wanted zero or more, got {value!r}")
-        if LARGEST_RATIO < value < float("inf"):
+        number_in(name, value, "zero or more", least=0.0, most=inf)
+        if LARGEST_RATIO < value < inf:
             raise ValueError(f"{name}: wanted at most {LARGEST_RATIO:g}, or inf for a fixed end, got {value!r}")
-    if not abs(offset_ratio) < float("inf"):
-        raise ValueError(f"offset_ratio: wanted a finite number, got {offset_ratio!r}")
+    number_in("offset_ratio", offset_ratio, "a finite number")
 
 
 @kernel()

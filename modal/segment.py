@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modal.checks import SMALLEST, check_fields, number_in
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -60,18 +62,13 @@ class Segment:
     inclined_chords: bool = False
 
     def __post_init__(self) -> None:
-        for name in ("length", "mass_per_length", "bending_stiffness", "end_ratio"):
-            value = getattr(self, name)
-            if not 0.0 < value < inf:
-                raise ValueError(f"Segment.{name}: wanted a positive finite number, got {value!r}")
-        if not self.shear_stiffness > 0.0:
-            raise ValueError(f"Segment.shear_stiffness: wanted a positive number, got {self.shear_stiffness!r}")
-        for name in ("rotary_inertia", "mass_power", "bending_power"):
-            value = getattr(self, name)
-            if not 0.0 <= value < inf:
-                raise ValueError(f"Segment.{name}: wanted a finite number, zero or more, got {value!r}")
-        if not -inf < self.shear_power < inf:
-            raise ValueError(f"Segment.shear_power: wanted a finite number, got {self.shear_power!r}")
+        check_fields(
+            self,
+            positive=("length", "mass_per_length", "bending_stiffness", "end_ratio"),
+            not_negative=("rotary_inertia", "mass_power", "bending_power"),
+        )
+        number_in("Segment.shear_stiffness", self.shear_stiffness, "a positive number", least=SMALLEST, most=inf)
+        number_in("Segment.shear_power", self.shear_power, "a finite number")
 
     @property
     def mass(self) -> float:

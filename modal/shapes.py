@@ -10,6 +10,7 @@ import numpy as np
 
 from modal.basis import clamped_pair, evaluate, shares
 from modal.beam import Beam, EndBody
+from modal.checks import whole_number
 from modal.integrals import product_integrals, shape_integrals
 
 if TYPE_CHECKING:
@@ -170,9 +171,7 @@ def cantilever_modes(beam: Beam, count: int, end_body: EndBody = EndBody()) -> M
     """
     from modal.roots import characteristic_roots
 
-    if count < 0:
-        raise ValueError(f"count: wanted zero or more, got {count!r}")
-    if count == 0:
+    if whole_number("count", count) == 0:
         return Modes(beam, end_body, _read_only(np.empty(0)), _read_only(np.empty((0, 4))))
     a = end_body.mass / beam.mass
     j = end_body.rotary_inertia / (beam.mass * beam.length**2)

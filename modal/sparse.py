@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modal.checks import whole_number
 from modal.structure import HELD
 
 if TYPE_CHECKING:
@@ -96,8 +97,7 @@ def lowest_modes(
     from scipy.sparse.linalg import LinearOperator, eigsh
 
     moved = int(np.count_nonzero(mass.diagonal()))
-    if count < 0:
-        raise ValueError(f"count: wanted zero or more, got {count!r}")
+    whole_number("count", count)
     if count >= max(moved, 1):
         raise ValueError(f"count: wanted less than the {moved} unknowns of the mesh that have mass, got {count!r}")
     if count == 0:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass, field, replace
-from math import isinf
+from math import inf, isinf
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.checks import whole_number
+from modal.checks import check_not_negative, check_positive, number_in, whole_number
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -123,7 +123,7 @@ class Structure:
 
     def add_unknown(self, unit: str, stiffness: float = 0.0) -> int:
         """A further unknown on a spring to the ground; `HELD` where that is infinitely stiff."""
-        if isinf(stiffness):
+        if isinf(number_in("stiffness", stiffness, "zero or more", least=0.0, most=inf)):
             return HELD
         number = len(self.unknowns)
         self.unknowns += (unit,)
@@ -164,6 +164,8 @@ class Structure:
 
     def add_pendulum(self, stiffness: float, mass: float, suspension: int, load: int) -> None:
         """Hang a load, which is an unknown of its own, from an unknown."""
+        check_positive("stiffness", stiffness)
+        check_positive("mass", mass)
         for i, j, sign in (
             (suspension, suspension, 1),
             (load, load, 1),
@@ -182,6 +184,7 @@ class Structure:
         """Number of natural frequencies below one [rad/s], each with its multiplicity."""
         from modal.assembly import assembly, refined
 
+        check_not_negative("angular_frequency", angular_frequency)
         return assembly(refined(self, angular_frequency), angular_frequency).count(angular_frequency)
 
     def angular_frequencies(self, count: int) -> Floats:

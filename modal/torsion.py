@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modal.checks import check_fields, check_not_negative, whole_number
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -38,10 +40,7 @@ class Shaft:
     torsional_stiffness: float
 
     def __post_init__(self) -> None:
-        for name in self.__slots__:
-            value = getattr(self, name)
-            if not 0.0 < value < float("inf"):
-                raise ValueError(f"Shaft.{name}: wanted a positive finite number, got {value!r}")
+        check_fields(self, positive=self.__slots__)
 
     @property
     def inertia(self) -> float:
@@ -119,10 +118,8 @@ def torsion_modes(shaft: Shaft, count: int, end_inertia: float = 0.0) -> Torsion
     -----
     With a = end_inertia / (shaft's inertia) the roots solve cos y = a y sin y, one from each i pi to (i + 1/2) pi.
     """
-    if count < 0:
-        raise ValueError(f"count: wanted zero or more, got {count!r}")
-    if not 0.0 <= end_inertia < float("inf"):
-        raise ValueError(f"end_inertia: wanted zero or more, got {end_inertia!r}")
+    whole_number("count", count)
+    check_not_negative("end_inertia", end_inertia)
     ratio = end_inertia / shaft.inertia
 
     roots = np.array([_root(i, ratio) for i in range(count)])

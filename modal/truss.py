@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from modal.beam import EndBody
-from modal.checks import number_in
+from modal.checks import check_fields, whole_number
 from modal.sparse import factorised, lowest_modes
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class ColumnTruss:
     above: ColumnTruss | None = None
 
     def __post_init__(self) -> None:
-        number_in("ColumnTruss.top_ratio", self.top_ratio, "a positive finite number", least=0.0)
+        check_fields(self, positive=("height", "top_ratio"))
         panels = self.height / self.column.panel_height
         if not (0.5 < panels < float("inf") and abs(panels - round(panels)) < 1e-6 * panels):
             raise ValueError(
@@ -85,10 +85,8 @@ class ColumnTruss:
             )
         if self.mass_per_length is None and self.column.density == 0.0:
             raise ValueError("ColumnTruss.mass_per_length: wanted a number, as the column has no density, got None")
-        if self.mass_per_length is not None and not 0.0 < self.mass_per_length < float("inf"):
-            raise ValueError(
-                f"ColumnTruss.mass_per_length: wanted a positive finite number, got {self.mass_per_length!r}"
-            )
+        if self.mass_per_length is not None:
+            check_fields(self, positive=("mass_per_length",))
         if self.above is not None:
             own, other = self.column.leg_spacing * self.top_ratio, self.above.column.leg_spacing
             if abs(own - other) > SAME_SPACING * own:
@@ -229,9 +227,7 @@ class ColumnTruss:
         """
         if body is not None and not (body.mass < float("inf") and body.rotary_inertia < float("inf")):
             raise ValueError(f"body: wanted finite mass and inertia, got {body!r}")
-        if count < 0:
-            raise ValueError(f"count: wanted zero or more, got {count!r}")
-        if count == 0:
+        if whole_number("count", count) == 0:
             return np.empty(0)
         stiffness, mass = self._bending(body)
         solve, size = self._solver(stiffness), stiffness.shape[0]
