@@ -69,7 +69,7 @@ def test_missing_and_unreadable_files(write, tmp_path):
     assert "UTF-8" in only_fault(path).got
     assert "crane file" in only_fault(tmp_path / "crane.toml").got
     assert only_fault(write(('"crane.toml"', "3"))).key == "crane"
-    assert "no such file" in only_fault(write(('"crane.toml"', '"."'))).got
+    assert "no regular file" in only_fault(write(('"crane.toml"', '"."'))).got
     assert "no such file" in only_fault("a" * 5000).got
 
 

@@ -202,8 +202,8 @@ def test_slewing_cranes_have_neither(name):
         ("accuracy.frequency=0.11", "accuracy.frequency", ["from 1e-09 to 0.1", "0.11"]),
         ("accuracy.frequency=1 Hz", "accuracy.frequency", ["a plain number"]),
         ("accuracy.freqency=1e-3", "accuracy.freqency", ["unknown key", '"frequency"']),
-        ("map.position_count=1", "map.position_count", ["from 2 to 2000"]),
-        ("map.position_count=2001", "map.position_count", ["from 2 to 2000"]),
+        ("map.position_count=1", "map.position_count", ["from 2 to 1000"]),
+        ("map.position_count=1001", "map.position_count", ["from 2 to 1000"]),
         ("map.trolley_positions=[5, 41]", "map.trolley_positions.1", ["40 m", "41", "leaves the jib"]),
         ("map.payload_masses=[0]", "map.payload_masses.0", ["a mass", "above 0"]),
         ("map.payload_masses=[0.8]", "map.payload_masses.0", ["1 to 1e+06 kg", "t meant?"]),
@@ -217,7 +217,7 @@ def test_faults_of_accuracy_and_map(write, override, key, words):
 
 
 @pytest.mark.parametrize("override", [
-    "accuracy.frequency=1e-9", "accuracy.frequency=0.1", "map.position_count=2", "map.position_count=2000",
+    "accuracy.frequency=1e-9", "accuracy.frequency=0.1", "map.position_count=2", "map.position_count=1000",
     "map.trolley_positions=[0, 40]", "map.payload_masses=[1]",
 ])  # fmt: skip
 def test_limits_of_accuracy_and_map_may_be_reached(write, override):
