@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.checks import check_fields, check_not_negative, whole_number
+from modal.checks import check_fields, number_in, whole_number
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -119,7 +119,7 @@ def torsion_modes(shaft: Shaft, count: int, end_inertia: float = 0.0) -> Torsion
     With a = end_inertia / (shaft's inertia) the roots solve cos y = a y sin y, one from each i pi to (i + 1/2) pi.
     """
     whole_number("count", count)
-    check_not_negative("end_inertia", end_inertia)
+    number_in("end_inertia", end_inertia, "zero or more", least=0.0)
     ratio = end_inertia / shaft.inertia
 
     roots = np.array([_root(i, ratio) for i in range(count)])
