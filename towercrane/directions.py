@@ -52,9 +52,13 @@ def restore_rows(states: Any, directions: Any) -> float:
     """The same for states alone, the last axis of an array, in place; the largest error of a length before."""
     error = 0.0
     for first, rate, components in directions:
-        n, p = states[..., first : first + components], states[..., rate : rate + components]
-        norm = np.sqrt(np.sum(n * n, axis=-1, keepdims=True))
+        # Column by column: sums over so short an axis take NumPy five times as long.
+        n, p = ([states[..., begin + i] for i in range(components)] for begin in (first, rate))
+        norm = np.sqrt(sum(part * part for part in n))
         error = max(error, float(abs(norm - 1.0).max(initial=0.0)))
-        n /= norm
-        p -= np.sum(n * p, axis=-1, keepdims=True) * n
+        for part in n:
+            part /= norm
+        along = sum(part * turn for part, turn in zip(n, p, strict=True))
+        for part, turn in zip(n, p, strict=True):
+            turn -= along * part
     return error

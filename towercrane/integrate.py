@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.arguments import check_times, check_tolerances
 from towercrane.directions import restore_rows
 from towercrane.motion import SAME_INSTANT
 from towercrane.tableaus import TABLEAUS, Tableau
@@ -110,7 +111,7 @@ def integrate(
     method : str
         One of METHODS.
     rtol, atol : float
-        Tolerances per step; atol is multiplied by ``system.scale``.
+        Tolerances per step, from 1e-13 and 1e-20 to 1; atol is multiplied by ``system.scale``.
     split : bool
         Restart the step control at switch points. Without it (SciPy's methods only) the error is erratic; it
         is offered to show that.
@@ -120,12 +121,14 @@ def integrate(
     Raises
     ------
     ValueError
-        If the method is unknown or the combination is not offered: SciPy's methods know no switch.
+        If an argument is out of its range, or the combination is not offered: SciPy's methods know no switch.
     """
     if method not in METHODS:
         raise ValueError(f"method: wanted one of {', '.join(METHODS)}, got {method!r}")
-    if len(start) != system.size:
-        raise ValueError(f"start: wanted {system.size} states, got {len(start)}")
+    check_tolerances(rtol, atol)
+    check_times(sample_times)
+    if np.shape(start) != (system.size,):
+        raise ValueError(f"start: wanted {system.size} states in one row, got the shape {np.shape(start)}")
     if method not in TABLEAUS and system.switch is not None and system.switch.changes_equations:
         # They would take a sign for a smooth function and creep to a halt at the first reversal.
         raise ValueError(

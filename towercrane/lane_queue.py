@@ -26,8 +26,9 @@ fraction, its time and the bracket of a guard's fall."""
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN = range(4)
 """Columns of a run's counts."""
 
-WAITING, NO_START, FINISHED, COLLAPSED, NOT_FINITE, FIRST_GUARD = range(6)
-"""Codes of outcomes; NO_START is for runs that never came to a lane, those from FIRST_GUARD on are the guards'."""
+WAITING, NO_START, FINISHED, COLLAPSED, NOT_FINITE, OFF_BALANCE, FIRST_GUARD = range(7)
+"""Codes of outcomes; NO_START is for runs that never came to a lane, OFF_BALANCE is found
+afterwards, those from FIRST_GUARD on are the guards'."""
 
 LARGEST, LARGEST_TIME, SMALLEST, SMALLEST_TIME = range(4)
 """Columns of an output's extremes."""

@@ -14,18 +14,29 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.arguments import check_times, check_tolerances
 from towercrane.cranes.flexible_layout import TENSION as TENSION_GUARD
 from towercrane.cranes.radial import TOWER_BUCKLED
 from towercrane.cranes.radial_lane_rhs import rhs
 from towercrane.cranes.radial_lanes import OUTPUTS, advance
 from towercrane.directions import restore_rows
-from towercrane.integrate import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, evaluate, phase_of
+from towercrane.energy_balance import NOT_CONSERVED
+from towercrane.integrate import (
+    COLLAPSED,
+    FINISHED,
+    INTERRUPTED,
+    NOT_FINITE,
+    evaluate,
+    phase_of,
+)
+from towercrane.lane_energy import off_balance
 from towercrane.lane_queue import (
     ACCEPTED,
     EVALUATIONS,
     FIRST_GUARD,
     LARGEST,
     NO_START,
+    OFF_BALANCE,
     REJECTED,
     SMALLEST,
     WAITING,
@@ -88,7 +99,7 @@ class LaneAnswers:
     Parameters
     ----------
     outcomes : list of str
-        As a single run names them.
+        As a single run names them; "energy not conserved" where the balance is off at the end.
     end_times, smallest_steps : ndarray, shape (runs,)
         [s]
     end_states : ndarray, shape (runs, size)
@@ -148,6 +159,8 @@ def integrate_many(
     """
     if method not in TABLEAUS:
         raise ValueError(f"method: wanted one of {', '.join(TABLEAUS)}, got {method!r}")
+    check_tolerances(rtol, atol)
+    check_times(sample_times)
     if threads is not None and threads < 1:
         raise ValueError(f"threads: wanted one or more, got {threads!r}")
     if not runs:
@@ -171,6 +184,7 @@ def integrate_many(
                 rhs, queue, mine, lanes, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
                 tableau.error_order, rtol, STEPS_PER_CALL,
             )  # fmt: skip
+        mine.outcomes[(mine.outcomes > NO_START) & off_balance(runs[task], queue, mine, rtol, atol)] = OFF_BALANCE
 
     with ThreadPoolExecutor(workers) as pool:
         futures = [pool.submit(work, first) for first in range(0, len(runs), share)]
@@ -271,7 +285,7 @@ def _told(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats) -> La
     # A crane without a stable equilibrium has buckled under its weights.
     names = {
         WAITING: INTERRUPTED, NO_START: TOWER_BUCKLED, FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED,
-        NOT_FINITE_CODE: NOT_FINITE,
+        NOT_FINITE_CODE: NOT_FINITE, OFF_BALANCE: NOT_CONSERVED,
     }  # fmt: skip
     outcomes = []
     for number, (run, code) in enumerate(zip(runs, answers.outcomes.tolist(), strict=True)):

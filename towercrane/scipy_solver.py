@@ -21,6 +21,7 @@ from towercrane.integrate import (
     WRITTEN,
     phase_of,
 )
+from towercrane.stepper import SHORTEST
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
 
 PROGRESS = 100
 """Steps between two reports of progress."""
+
+FRESH_STEPS = 20
+"""Least steps of a solver before another is begun: one that begins anew begins with short steps."""
 
 
 def solve(
@@ -110,7 +114,8 @@ def _leg(
     progress: Progress | None,
 ) -> str:
     """Carry a run through one phase with solvers begun where it stands; what ended it there, empty if nothing did."""
-    done, system, solver = 0, run.system, begun(run.time, run.state)
+    done, system, solver, steps = 0, run.system, begun(run.time, run.state), 0
+    shortest = SHORTEST * (solver.t_bound - run.time)
     while solver.status == "running":
         before = solver.nfev
         solver.step()
@@ -119,6 +124,8 @@ def _leg(
             return COLLAPSED
         if not np.all(np.isfinite(solver.y)):
             return NOT_FINITE  # LSODA calls that a success.
+        if solver.t - solver.t_old < shortest and solver.status == "running":
+            return COLLAPSED  # LSODA would go on for ever.
         time, state, dense = solver.t, solver.y, solver.dense_output()
         fallen = first_fall(solver.t_old, solver.t, dense, margins) if len(watched) else None
         if fallen is not None:
@@ -135,9 +142,10 @@ def _leg(
         off = restore_rows(run.state, system.directions)
         if fallen is not None:
             return system.guards[int(watched[fallen[1]])]
-        if off > run.rtol and solver.status == "running":
+        steps += 1
+        if off > run.rtol and steps >= FRESH_STEPS and solver.status == "running":
             # Its own copy of the state, and its memory of it, cannot be put back.
-            solver = begun(run.time, run.state)
+            solver, steps = begun(run.time, run.state), 0
         if progress is not None and run.counts[ACCEPTED] % PROGRESS == 0:
             progress(run.time)
     return ""

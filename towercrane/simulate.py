@@ -7,15 +7,16 @@ import json
 import platform
 import time
 import warnings
+from dataclasses import replace
 from functools import wraps
 from typing import TYPE_CHECKING, Any, ParamSpec
 
 import numpy as np
 
-from towercrane import __version__, drift
-from towercrane.arguments import check_number, check_positive
+from towercrane import __version__, drift, energy_balance
+from towercrane.arguments import check_number, check_positive, check_tolerances
 from towercrane.assumptions import as_attribute
-from towercrane.integrate import FINISHED, Trajectory, evaluate, integrate
+from towercrane.integrate import FINISHED, INTERRUPTED, Trajectory, evaluate, integrate
 from towercrane.kinds import TOWER_CRANES
 from towercrane.models import flexible_model, model_of
 from towercrane.motion import Motion, phases
@@ -79,7 +80,8 @@ def record(
     -------
     Recording, xarray.Dataset
         Variables over ``time`` with units; the attribute ``outcome`` is "finished" or names what ended the run,
-        with ``end_time`` [s].
+        with ``end_time`` [s]. Rows of an outcome "energy not conserved" end where the balance is off, see
+        :mod:`towercrane.energy_balance`.
 
     Raises
     ------
@@ -95,13 +97,14 @@ def record(
     check_positive("duration", duration)
     if output_step > duration:
         raise ValueError(f"output_step, duration: wanted 0 < step <= duration, got {output_step}, {duration}")
+    check_tolerances(rtol, atol)
+    check_number("swing_angle", swing_angle)
     if method in drift.ENERGY_DRIFT:
         if reason := drift.refusal(method, rtol, atol):
             raise ValueError(f"rtol, atol: {reason}, got {rtol:g}, {atol:g}")
         if said := drift.notice(method, rtol, atol):
             warnings.warn(said, drift.EnergyDriftWarning, stacklevel=3)
     began = time.perf_counter()
-    check_number("swing_angle", swing_angle)
     cut = phases(tuple(_motion(motions, channel) for channel in model.channels), duration)
     if "rope" in model.channels and (shortest := float(cut.inputs[:, model.channels.index("rope"), 0].min())) <= 0.0:
         raise ValueError(f"motions: wanted a rope longer than 0 m, got {shortest:g} m")
@@ -122,13 +125,24 @@ def record(
         # What ended the run shows in its last row.
         times, states = np.append(times, run.end_time), np.vstack([states, run.end_state])
     _, guards = evaluate(model.system, cut, times, states)
-    quantities = model.observe(motions, times, states, guards)
+    quantities, about = model.observe(motions, times, states, guards), model.provenance()
+    outcome, end_time, end_state = run.outcome, run.end_time, run.end_state
+    if outcome != INTERRUPTED:
+        values = {name: quantity.values for name, quantity in quantities.items()}
+        weight = about["payload_mass"] * about["gravity"]
+        row, off = energy_balance.first_off(values, weight, run.accepted, rtol, atol)
+        if off:
+            # Whatever a guard says of such a state is no news of the crane.
+            outcome, message = energy_balance.NOT_CONSERVED, off
+            end_time, end_state = float(times[row]), states[row]
+            times = times[: row + 1]
+            quantities = {name: replace(q, values=q.values[: row + 1]) for name, q in quantities.items()}
     provenance = {
-        **model.provenance(),
-        "outcome": run.outcome,
+        **about,
+        "outcome": outcome,
         "message": message,
-        "end_time": run.end_time,
-        "end_state": run.end_state,
+        "end_time": end_time,
+        "end_state": end_state,
         "output_step": output_step,
         "method": method,
         "rtol": rtol,
