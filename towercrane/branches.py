@@ -7,7 +7,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -144,6 +143,8 @@ def follow(
 
 def _matched(here: _Here[S], there: S) -> tuple[_Here[S], Floats]:
     """The modes of another place in the order of the branches, and the assurance criterion of every pair."""
+    from scipy.optimize import linear_sum_assignment
+
     shapes = _untangled(here.shapes, there)
     criteria = (here.shapes @ shapes.T) ** 2
     _, ranks = linear_sum_assignment(-criteria)

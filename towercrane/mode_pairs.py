@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from modal.structure_modes import DEFLECTION
 from towercrane.branches import CLEAR
@@ -88,10 +87,10 @@ def paired_modes(model: RadialModel, crane: PlaneCrane, trolley_position: float,
     criteria = (shapes @ theirs.shapes.T * (theirs.frequencies / frequencies[:, None])) ** 2
     exact: list[float | None] = [None] * count
     taken = set()
-    for a, b in zip(*linear_sum_assignment(-criteria[:count]), strict=True):
-        if criteria[a, b] >= CLEAR:
-            exact[a] = float(theirs.frequencies[b])
-            taken.add(b)
+    # Shapes of either crane are orthogonal, so a criterion above one half is had with one mode at the most.
+    for a, b in np.argwhere(criteria[:count] >= CLEAR):
+        exact[a] = float(theirs.frequencies[b])
+        taken.add(b)
     missing, unlike = [], []
     for b in np.flatnonzero(theirs.frequencies <= highest):
         frequency = float(theirs.frequencies[b])
