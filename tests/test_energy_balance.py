@@ -76,6 +76,10 @@ def test_wide_swings_finish_with_their_energy():
         assert result.attrs["outcome"] == "finished"
         gap = np.ptp(result["total_energy"].values - result["input_work"].values)
         assert gap < 100.0 * case.solver.rtol * result.attrs["payload_mass"] * 9.81 * 5.0
+        # Nothing is put in, yet the load's height gives and takes all that the swing has.
+        summary = summarise(case, result)
+        assert summary["energy_balance"]["relative_gap"] < 100.0 * case.solver.rtol
+        assert not [notice for notice in summary["notices"] if "balance" in notice]
 
 
 def test_the_command_ends_with_code_3_and_names_what_to_change(tmp_path, monkeypatch):
