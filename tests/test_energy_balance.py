@@ -84,6 +84,7 @@ def test_wide_swings_finish_with_their_energy():
 
 def test_the_command_ends_with_code_3_and_names_what_to_change(tmp_path, monkeypatch):
     monkeypatch.setattr(energy_balance, "SHARE", 0.0)
+    monkeypatch.setattr(energy_balance, "UNSTEERED", 0.0)
     monkeypatch.setattr(energy_balance, "ROUNDING", 0.0)
     short = ["--set", "run.duration=5 s", "--no-pictures"]
     done = CliRunner().invoke(app, ["run", "qtz5613/condition-3", *short, "--out", str(tmp_path)])
@@ -113,7 +114,7 @@ def test_a_balance_that_the_tolerance_spoils_says_which_tolerance_would_do():
 def test_the_first_row_that_is_off_is_found():
     rows = {"rope_length": np.full(5, 2.0), "input_work": np.zeros(5)}
     most = explained(90, 1e-6, 1e-8, 10.0 * 2.0)
-    assert most == pytest.approx(0.1 * 100 * 1e-6 * 20.0)
+    assert most == pytest.approx((0.5 * 100 * 1e-6 + 1e-3 * (10 / 90) ** 5) * 20.0)
     energy = np.array([7.0, 7.0, 7.0 - 0.9 * most, 7.0 + 1.1 * most, 7.0])
     assert first_off({**rows, "total_energy": energy}, 10.0, 90, 1e-6, 1e-8)[0] == 3
     assert first_off({**rows, "total_energy": energy}, 10.0, 120, 1e-6, 1e-8) == (-1, "")

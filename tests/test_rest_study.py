@@ -150,9 +150,9 @@ def test_pictures_have_units_names_and_what_was_assumed(monkeypatch):
     ]
     assert [axes.get_ylabel().replace("\n", " ") for axes in moved.axes] == [
         "trolley speed [m/s]",
-        "trolley acceleration [m/s$^2$]",
+        "trolley acceleration [m/s²]",
         "slewing speed [deg/s]",
-        "slewing acceleration [deg/s$^2$]",
+        "slewing acceleration [deg/s²]",
     ]
     assert any("(recommended)" in text.get_text() for text in left.axes[0].get_legend().get_texts())
 
