@@ -22,7 +22,8 @@ SHARE = 0.5
 """Part of what its steps may do to the energy that a run is given.
 
 All shipped cases with all methods stay below a hundredth at tolerances from 1e-10 to 1e-2, LSODA in a wide swing
-below a twentieth, dopri5 with a stiff drive below a third. A vibration that a method feeds until it slackens the rope comes to 0.8.
+below a twentieth, dopri5 with a stiff drive below a third. A vibration that a method feeds until it slackens the rope
+comes to 0.8.
 """
 
 FEW = 10
