@@ -195,7 +195,8 @@ def test_ever_narrower_friction_approaches_the_one_that_sticks(sticking):
             crane(friction_rate=width), motions(), 25.0, method="scipy-lsoda", rtol=1e-7, step=0.5
         )
         assert trajectory.outcome == "finished"
-        assert trajectory.evaluations < 100_000
+        # LSODA begins anew where the rope has left its length, with small steps.
+        assert trajectory.evaluations < 150_000
         gaps.append(abs(end(outputs) - limit))
     assert np.all(gaps[-1] < [2.5e-4, 2.5e-6])
     assert_allclose(gaps[0] / gaps[1], 10.0, rtol=0.15)
