@@ -94,9 +94,9 @@ def test_frequencies_of_shapers_are_positive_numbers(shaper):
         ({"motions": {**motions(), "rope": rest(0.0)}}, "motions: wanted a rope longer than 0 m, got 0 m"),
         ({"motions": {"trolley": rest(20.0)}}, "motions: wanted a Motion for 'rope', got None"),
         ({"motions": {**motions(), "rope": 18.0}}, "motions: wanted a Motion for 'rope', got 18.0"),
-        ({"duration": nan}, "duration: wanted a positive number, got nan"),
-        ({"duration": "10"}, "duration: wanted a positive number, got '10'"),
-        ({"output_step": -1.0}, "output_step: wanted a positive number, got -1.0"),
+        ({"duration": nan}, "duration: wanted a positive finite number, got nan"),
+        ({"duration": "10"}, "duration: wanted a positive finite number, got '10'"),
+        ({"output_step": -1.0}, "output_step: wanted a positive finite number, got -1.0"),
         ({"swing_angle": nan}, "swing_angle: wanted a finite number, got nan"),
     ],
 )
@@ -106,7 +106,7 @@ def test_arguments_of_a_simulation_are_judged_before_it(changed, wanted):
 
 
 def test_duration_of_phases_is_positive():
-    with pytest.raises(ValueError, match="duration: wanted a positive number, got -1"):
+    with pytest.raises(ValueError, match="duration: wanted a positive finite number, got -1"):
         phases((rest(1.0),), -1.0)
 
 

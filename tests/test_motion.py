@@ -287,13 +287,13 @@ def test_phases_stop_at_the_duration():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: trapezoid(0, 1, 0.0, 1.0), "speed: wanted a positive number, got 0.0"),
-        (lambda: s_curve(0, 1, 1.0, 1.0, -2.0), "jerk: wanted a positive number"),
+        (lambda: trapezoid(0, 1, 0.0, 1.0), "speed: wanted a positive finite number, got 0.0"),
+        (lambda: s_curve(0, 1, 1.0, 1.0, -2.0), "jerk: wanted a positive finite number"),
         (lambda: sequence(rest(1.0, 1.0), rest(2.0)), "motion 2 begins at 2, the one before ends at 1"),
         (lambda: sequence(), "at least one motion"),
         (lambda: table([0, 2, 1], [0, 1, 2]), "start at 0 and increase"),
         (lambda: table([0.0], [1.0]), "two or more"),
-        (lambda: rest(0.0, -1.0), "duration: wanted zero or more"),
+        (lambda: rest(0.0, -1.0), "duration: wanted a finite number, zero or more"),
         (lambda: Motion(np.array([0.0, 1.0]), np.array([[np.nan]])), "finite numbers"),
     ],
 )

@@ -196,7 +196,7 @@ def test_bad_shapers_are_refused():
         ei([0.1], tolerated=1.0)
     with pytest.raises(ValueError, match="wanted a shaper for each of 2 ramps, got 1"):
         shape_ramps(RUN, [zv([0.1])])
-    with pytest.raises(ValueError, match="minimum_jerk: duration: wanted a positive number, got 0"):
+    with pytest.raises(ValueError, match="minimum_jerk: duration: wanted a positive finite number, got 0"):
         minimum_jerk(0.0, 1.0, 0)
     for delays, amplitudes, widths in (((1.0,), (1.0,), ()), ((0.0, 2.0), (0.5, 0.6), ()), ((0.0,), (1.0,), (0.0,))):
         with pytest.raises(ValueError, match=r"Shaper\."):

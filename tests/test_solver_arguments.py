@@ -30,10 +30,10 @@ def test_a_tolerance_out_of_range_is_named(name, value):
 @pytest.mark.parametrize(
     ("options", "wanted"),
     [
-        ({"duration": 0.0}, "^duration: wanted a positive number, got 0.0"),
+        ({"duration": 0.0}, "^duration: wanted a positive finite number, got 0.0"),
         ({"duration": np.nan}, "^duration: .*got nan"),
         ({"duration": "1 s"}, "^duration: .*got '1 s'"),
-        ({"output_step": 0.0}, "^output_step: wanted a positive number, got 0.0"),
+        ({"output_step": 0.0}, "^output_step: wanted a positive finite number, got 0.0"),
         ({"output_step": -0.1}, "^output_step: .*got -0.1"),
         ({"output_step": 2.0}, "^output_step, duration: .*got 2.0"),
         ({"output_step": np.nan}, "^output_step: .*got nan"),

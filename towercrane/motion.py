@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.arguments import check_not_negative, check_number, check_positive
+from modal.checks import check_not_negative, check_positive, number_in
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -115,7 +115,7 @@ class Motion:
 
 def rest(value: float, duration: float = 0.0) -> Motion:
     """Motion that stays at ``value`` for ``duration`` [s] (and after)."""
-    check_number("rest: value", value)
+    number_in("rest: value", value, "a finite number")
     check_not_negative("rest: duration", duration)
     return Motion(np.array([0.0, duration]), np.array([[float(value)]]))
 
@@ -301,8 +301,8 @@ def distinct(moments: Floats) -> Floats:
 # Limits so far from each other that numbers overflow make times that are not finite, which a motion refuses.
 @np.errstate(all="ignore")
 def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: float) -> Motion:
-    check_number("start", start)
-    check_number("end", end)
+    number_in("start", start, "a finite number")
+    number_in("end", end, "a finite number")
     check_positive("speed", speed)
     check_positive("acceleration", acceleration)
     way = abs(end - start)
@@ -334,8 +334,8 @@ def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: f
 
 def _speed_ramps(start: float, speed: float, ramp: float, hold: float, rise: tuple[float, ...]) -> Motion:
     """Ramps whose way, as a fraction of speed times ramp, is the polynomial ``rise`` of x, with rise(1) = 1/2."""
-    check_number("start", start)
-    check_number("speed", speed)
+    number_in("start", start, "a finite number")
+    number_in("speed", speed, "a finite number")
     check_positive("ramp", ramp)
     check_not_negative("hold", hold)
     way = speed * ramp

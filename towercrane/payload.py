@@ -17,9 +17,9 @@ from typing import Any
 
 import numpy as np
 
+from modal.checks import check_fields
 from modal.compiled import kernel
 from modal.traced import traced
-from towercrane.arguments import check_fields
 
 AIR_DENSITY = 1.225
 """Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""

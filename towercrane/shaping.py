@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.arguments import check_number, check_positive
+from modal.checks import check_positive, number_in
 from towercrane.motion import SAME_INSTANT, Motion, rest
 from towercrane.superposition import integral, total
 
@@ -207,8 +207,8 @@ def minimum_jerk(start: float, end: float, duration: float) -> Motion:
     duration : float
         Positive [s].
     """
-    check_number("minimum_jerk: start", start)
-    check_number("minimum_jerk: end", end)
+    number_in("minimum_jerk: start", start, "a finite number")
+    number_in("minimum_jerk: end", end, "a finite number")
     check_positive("minimum_jerk: duration", duration)
     if start == end:
         return rest(start, duration)

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any, ParamSpec
 
 import numpy as np
 
+from modal.checks import check_positive, number_in
 from towercrane import __version__, drift, energy_balance
-from towercrane.arguments import check_number, check_positive, check_tolerances
+from towercrane.arguments import check_tolerances
 from towercrane.assumptions import as_attribute
 from towercrane.integrate import FINISHED, INTERRUPTED, Trajectory, evaluate, integrate
 from towercrane.kinds import TOWER_CRANES
@@ -98,7 +99,7 @@ def record(
     if output_step > duration:
         raise ValueError(f"output_step, duration: wanted 0 < step <= duration, got {output_step}, {duration}")
     check_tolerances(rtol, atol)
-    check_number("swing_angle", swing_angle)
+    number_in("swing_angle", swing_angle, "a finite number")
     if method in drift.ENERGY_DRIFT:
         if reason := drift.refusal(method, rtol, atol):
             raise ValueError(f"rtol, atol: {reason}, got {rtol:g}, {atol:g}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from towercrane.arguments import check_fields
+from modal.checks import check_fields
 
 
 @dataclass(frozen=True, slots=True)

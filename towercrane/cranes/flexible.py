@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from towercrane.arguments import check_fields
+from modal.checks import check_fields
 from towercrane.cranes import drive_kernel, flexible_kernel
 from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.corner import Corner

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from modal.checks import whole_number
 from modal.shapes import cantilever_modes
 from modal.torsion import torsion_modes
-from towercrane.arguments import check_count
 from towercrane.cranes import wind
 from towercrane.cranes.mass_sums import Basis, MassSums, rigid_sums, uniform_sums
 
@@ -69,7 +69,7 @@ class ModeCounts:
 
     def __post_init__(self) -> None:
         for name in self.__slots__:
-            check_count(f"ModeCounts.{name}", getattr(self, name))
+            whole_number(f"ModeCounts.{name}", getattr(self, name))
 
 
 @dataclass(frozen=True, eq=False)

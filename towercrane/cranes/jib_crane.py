@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.arguments import check_fields
+from modal.checks import check_fields
 from towercrane.cranes import jib_crane_kernel as kernel
 from towercrane.payload import SLACK
 from towercrane.system import System

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.arguments import check_fields
+from modal.checks import check_fields
 from towercrane.cranes import jib_crane_kernel as kernel
 from towercrane.cranes.jib_crane import DRIVEN_ROPE, SLACK_ROPE, JibModel, driven_start, hanging
 

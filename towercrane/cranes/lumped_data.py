@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from towercrane.arguments import check_fields
+from modal.checks import check_fields
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from towercrane.arguments import check_count, check_fields
+from modal.checks import check_fields, whole_number
 from towercrane.cranes import flexible_layout as layout
 from towercrane.cranes.damping import ModalDamping
 from towercrane.cranes.flexible import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB, FlexibleModel
@@ -75,7 +75,7 @@ class RadialModel:
 
     def __post_init__(self) -> None:
         for name in ("tower_modes", "jib_modes"):
-            check_count(f"RadialModel.{name}", getattr(self, name))
+            whole_number(f"RadialModel.{name}", getattr(self, name))
         check_fields(self, not_negative=("tower_damping_ratio", "jib_damping_ratio"))
 
     @cached_property

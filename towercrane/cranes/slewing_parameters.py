@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Literal
 
-from towercrane.arguments import check_fields
+from modal.checks import check_fields
 
 FrictionLaw = Literal["tanh", "stick-slip", "none"]
 

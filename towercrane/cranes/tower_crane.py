@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from modal.beam import Beam, EndBody
-from towercrane.arguments import check_fields
+from modal.checks import check_fields
 
 if TYPE_CHECKING:
     from modal.chain import Chain

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.arguments import check_fields
+from modal.checks import check_fields
 from towercrane.motion import Motion, rest
 from towercrane.payload import AIR_DENSITY
 
