@@ -6,22 +6,22 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from modal.beam import Beam, EndBody
-    from modal.chain import Chain, Foundation, Pendulum
-    from modal.crane_frame import CraneFrame, crane_structure
-    from modal.lattice import LacedColumn
-    from modal.lattice_comparison import LatticeAnswers, LatticeModel, compare_lattice_models
-    from modal.roots import characteristic_roots
-    from modal.segment import Segment
-    from modal.shapes import Modes, cantilever_modes
-    from modal.structure import Structure, Unstable, chain_frequencies, chain_structure
-    from modal.structure_elements import (
+    from modal.beams.beam import Beam, EndBody
+    from modal.beams.chain import Chain, Foundation, Pendulum
+    from modal.beams.roots import characteristic_roots
+    from modal.beams.segment import Segment
+    from modal.beams.shapes import Modes, cantilever_modes
+    from modal.beams.torsion import Shaft, TorsionModes, torsion_modes
+    from modal.elements.structure_elements import (
         StructureElements,
         finite_element_frequencies,
         finite_element_structure_frequencies,
     )
-    from modal.torsion import Shaft, TorsionModes, torsion_modes
-    from modal.truss import ColumnTruss, Mechanism
+    from modal.lattices.lattice import LacedColumn
+    from modal.lattices.lattice_comparison import LatticeAnswers, LatticeModel, compare_lattice_models
+    from modal.lattices.truss import ColumnTruss, Mechanism
+    from modal.structures.crane_frame import CraneFrame, crane_structure
+    from modal.structures.structure import Structure, Unstable, chain_frequencies, chain_structure
 
 __all__ = [
     "Beam",
@@ -54,33 +54,33 @@ __all__ = [
 ]
 
 _HOME = {
-    "Beam": "beam",
-    "Chain": "chain",
-    "ColumnTruss": "truss",
-    "CraneFrame": "crane_frame",
-    "EndBody": "beam",
-    "Foundation": "chain",
-    "LacedColumn": "lattice",
-    "LatticeAnswers": "lattice_comparison",
-    "LatticeModel": "lattice_comparison",
-    "Mechanism": "truss",
-    "Modes": "shapes",
-    "Pendulum": "chain",
-    "Segment": "segment",
-    "Structure": "structure",
-    "StructureElements": "structure_elements",
-    "Unstable": "structure",
-    "cantilever_modes": "shapes",
-    "chain_frequencies": "structure",
-    "chain_structure": "structure",
-    "characteristic_roots": "roots",
-    "compare_lattice_models": "lattice_comparison",
-    "crane_structure": "crane_frame",
-    "finite_element_frequencies": "structure_elements",
-    "finite_element_structure_frequencies": "structure_elements",
-    "Shaft": "torsion",
-    "TorsionModes": "torsion",
-    "torsion_modes": "torsion",
+    "Beam": "beams.beam",
+    "Chain": "beams.chain",
+    "ColumnTruss": "lattices.truss",
+    "CraneFrame": "structures.crane_frame",
+    "EndBody": "beams.beam",
+    "Foundation": "beams.chain",
+    "LacedColumn": "lattices.lattice",
+    "LatticeAnswers": "lattices.lattice_comparison",
+    "LatticeModel": "lattices.lattice_comparison",
+    "Mechanism": "lattices.truss",
+    "Modes": "beams.shapes",
+    "Pendulum": "beams.chain",
+    "Segment": "beams.segment",
+    "Structure": "structures.structure",
+    "StructureElements": "elements.structure_elements",
+    "Unstable": "structures.structure",
+    "cantilever_modes": "beams.shapes",
+    "chain_frequencies": "structures.structure",
+    "chain_structure": "structures.structure",
+    "characteristic_roots": "beams.roots",
+    "compare_lattice_models": "lattices.lattice_comparison",
+    "crane_structure": "structures.crane_frame",
+    "finite_element_frequencies": "elements.structure_elements",
+    "finite_element_structure_frequencies": "elements.structure_elements",
+    "Shaft": "beams.torsion",
+    "TorsionModes": "beams.torsion",
+    "torsion_modes": "beams.torsion",
 }
 
 

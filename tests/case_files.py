@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from towercrane.case import CaseError, Fault, case_folder, load_case
+from towercrane.cases.case import CaseError, Fault, case_folder, load_case
 
 MULTI, BASIC, ENHANCED = (f"slewing/{kind}/example-1" for kind in ("multi-mass", "basic", "enhanced"))
 PLAN, HEAVY, COMBINED = (f"jib-crane/{name}" for name in ("plan", "heavy", "combined"))

@@ -125,7 +125,7 @@ def node_conditions(problem, v, theta, force, moment, *, body=None, gravity=0.0,
 
 
 def collocated_chain(chain, count, degree=40):
-    """Lowest circular frequencies of a `modal.chain.Chain`."""
+    """Lowest circular frequencies of a `modal.beams.chain.Chain`."""
     problem = Collocation(degree)
     g, above = chain.gravity, chain.axial_load
     if chain.pendulum is not None:
@@ -171,7 +171,8 @@ def collocated_chain(chain, count, degree=40):
 
 
 def collocated_crane(crane, trolley_position, count, degree=40):
-    """Lowest circular frequencies of a `modal.crane_frame.CraneFrame` of one uniform tower and one uniform jib."""
+    """Lowest circular frequencies of a `modal.structures.crane_frame.CraneFrame` of one uniform tower and one uniform
+    jib."""
     problem = Collocation(degree)
     (tower,), (whole,) = crane.tower.segments, crane.jib.segments
     carried = crane.trolley_mass + crane.payload_mass

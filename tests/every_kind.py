@@ -8,16 +8,16 @@ import numpy as np
 import qtz5613
 import space_crane
 
-from towercrane.cranes.damping import ModalDamping
-from towercrane.cranes.jib_crane import TORQUES, DrivenJibCrane
-from towercrane.cranes.jib_crane_linear import static_torques
-from towercrane.cranes.jib_crane_tracking import TrackingJibCrane
-from towercrane.cranes.lumped_data import Drive
-from towercrane.cranes.wind import WindAreas
-from towercrane.integrate import Trajectory, evaluate, integrate
-from towercrane.motion import Motion, phases, rest, sequence, trapezoid
-from towercrane.payload import Load
-from towercrane.system import Model
+from towercrane.cranes.jib.linear import static_torques
+from towercrane.cranes.jib.model import TORQUES, DrivenJibCrane
+from towercrane.cranes.jib.tracking import TrackingJibCrane
+from towercrane.cranes.parts.wind import WindAreas
+from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import Motion, phases, rest, sequence, trapezoid
+from towercrane.simulation.integrate import Trajectory, evaluate, integrate
+from towercrane.simulation.system import Model
 
 COUPLING = Drive("slewing", 2e6, 8e6, 0.004, 2e4, "tanh", 3e3, 0.01)
 LOAD = Load(1500.0, rope_damping=300.0, drag_area=2.0)

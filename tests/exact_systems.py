@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.compiled import kernel
-from towercrane.motion import Motion, rest, trapezoid
-from towercrane.system import System, plain_system, rhs_signature
+from modal.compiler.compiled import kernel
+from towercrane.motions.motion import Motion, rest, trapezoid
+from towercrane.simulation.system import System, plain_system, rhs_signature
 
 if TYPE_CHECKING:
     from collections.abc import Callable

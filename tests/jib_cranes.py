@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from towercrane.cranes.jib_crane import JibCrane, PlannedJibCrane
-from towercrane.motion import rest, sequence, smooth_ramps, trapezoid
-from towercrane.payload import Load
+from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest, sequence, smooth_ramps, trapezoid
 
 PRINTED = JibCrane(
     name="Al-Ajmi et al., Table 1",

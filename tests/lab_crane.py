@@ -5,12 +5,12 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from towercrane.cranes import slewing
-from towercrane.cranes.lumped import LumpedModel
-from towercrane.integrate import evaluate, integrate
-from towercrane.motion import phases, rest, trapezoid
-from towercrane.payload import AIR_DENSITY, Load
-from towercrane.system import Switch
+from towercrane.cranes.slewing import models as slewing
+from towercrane.cranes.slewing.model import LumpedModel
+from towercrane.kernels.payload import AIR_DENSITY, Load
+from towercrane.motions.motion import phases, rest, trapezoid
+from towercrane.simulation.integrate import evaluate, integrate
+from towercrane.simulation.system import Switch
 
 MULTI_MASS = SimpleNamespace(
     name="laboratory crane",

@@ -1,10 +1,10 @@
 """The crane of the tests, without a case file: QTZ5613 of Gao et al. (2023), Table 2."""
 
-from modal.beam import Beam
-from towercrane.cranes.radial import RadialModel
-from towercrane.cranes.tower_crane import TowerCrane
-from towercrane.motion import rest, trapezoid
-from towercrane.payload import Load
+from modal.beams.beam import Beam
+from towercrane.cranes.tower.parameters import TowerCrane
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest, trapezoid
 
 CRANE = TowerCrane(
     name="QTZ5613",

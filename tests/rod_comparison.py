@@ -11,10 +11,10 @@ import numpy as np
 import space_crane as space
 from numpy.polynomial.legendre import leggauss
 
-from towercrane.cranes.flexible_motion import FlexibleMotion
-from towercrane.cranes.mass_sums import rigid_sums
-from towercrane.integrate import integrate
-from towercrane.motion import phases, speed_trapezoid, table, trapezoid
+from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.cranes.tower.mass_sums import rigid_sums
+from towercrane.motions.motion import phases, speed_trapezoid, table, trapezoid
+from towercrane.simulation.integrate import integrate
 
 LOAD = 1500.0
 ROLL = 620.0

@@ -10,7 +10,7 @@ Forces and moments are the derivatives of the strain energy, so energy and momen
 
 import numpy as np
 
-from modal.compiled import kernel
+from modal.compiler.compiled import kernel
 
 PLACE, TURN, SPEED, SPIN = 0, 3, 7, 10
 """Where a node's place, quaternion, velocity and angular velocity (in its own axes) begin in its row of the state."""

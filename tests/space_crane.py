@@ -5,12 +5,12 @@ import dataclasses
 import numpy as np
 import qtz5613
 
-from modal.beam import Beam
-from modal.torsion import Shaft
-from towercrane.cranes.flexible import FlexibleModel
-from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
-from towercrane.motion import rest, sequence, speed_trapezoid, trapezoid
-from towercrane.payload import Load
+from modal.beams.beam import Beam
+from modal.beams.torsion import Shaft
+from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
+from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest, sequence, speed_trapezoid, trapezoid
 
 CRANE = dataclasses.replace(
     qtz5613.CRANE,
@@ -40,6 +40,6 @@ def standing(trolley: float, rope: float, heading: float = 0.0) -> dict:
 
 
 def start(scene: FlexibleModel, motions: dict, **options) -> np.ndarray:
-    from towercrane.motion import phases
+    from towercrane.motions.motion import phases
 
     return scene.start(phases(tuple(motions[c] for c in scene.channels), 1.0).inputs[0], **options)

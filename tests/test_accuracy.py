@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from qtz5613 import CRANE, motions, standing
 
-from towercrane.accuracy import Indicators, choose
-from towercrane.indicators import drift, vibration
-from towercrane.motion import s_curve, smooth_ramps
-from towercrane.nodes import OUTPUTS, RICHEST, nodes_of
-from towercrane.payload import Load
-from towercrane.readings import Tolerance
-from towercrane.scene import RadialScene, Setting
+from towercrane.accuracy.choice import Indicators, choose
+from towercrane.accuracy.indicators import drift, vibration
+from towercrane.accuracy.instants import OUTPUTS, RICHEST, nodes_of
+from towercrane.accuracy.scene import RadialScene, Setting
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import s_curve, smooth_ramps
+from towercrane.results.measures import Tolerance
 
 POSITIONS = OUTPUTS[:3]
 SCENE = RadialScene(CRANE, Load(800.0), motions(), 80.0)

@@ -9,14 +9,14 @@ import pytest
 from typer.testing import CliRunner
 
 from towercrane import load_case
+from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, stated, verification
+from towercrane.accuracy.scene import Setting
 from towercrane.cli import app
-from towercrane.faults import CaseError
-from towercrane.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, stated, verification
-from towercrane.readings import Tolerance
-from towercrane.scene import Setting
-from towercrane.simulate import run_case
-from towercrane.summary import summarise
-from towercrane.tables.runs import run_tables, verification_tables
+from towercrane.report.tables.runs import run_tables, verification_tables
+from towercrane.results.measures import Tolerance
+from towercrane.runs.summary import summarise
+from towercrane.schema.faults import CaseError
+from towercrane.simulation.simulate import run_case
 
 OPEN, STATED = "qtz5613/within-1e-3", "qtz5613/condition-3"
 SHORT = ["run.duration=60 s"]
@@ -168,7 +168,7 @@ def test_interrupted_verification_keeps_the_run(tmp_path, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("towercrane.promise.verification", interrupted)
+    monkeypatch.setattr("towercrane.accuracy.promise.verification", interrupted)
     done = CliRunner().invoke(app, ["run", OPEN, "--verify", "--out", str(tmp_path), "--set", "run.duration=5 s"])
     assert done.exit_code == 130
     assert "the run is kept, its verification is not" in done.stderr

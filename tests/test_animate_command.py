@@ -7,11 +7,12 @@ import pytest
 from PIL import Image
 from typer.testing import CliRunner
 
-from towercrane import results, simulate
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
 from towercrane.cli import app
-from towercrane.plots import film_file
-from towercrane.simulate import record_case, run_case
+from towercrane.report.plots import film_file
+from towercrane.results import files as results
+from towercrane.simulation import simulate
+from towercrane.simulation.simulate import record_case, run_case
 
 CASE = "qtz5613/condition-3"
 SHORT = ("--set", "run.duration=3 s")

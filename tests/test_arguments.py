@@ -9,15 +9,15 @@ from qtz5613 import model, motions
 
 from modal import Beam
 from towercrane import Load, ModeCounts, TowerCrane, sweep
-from towercrane.case import case_folder, load_case
-from towercrane.cranes.damping import ModalDamping
-from towercrane.cranes.jib_crane import JibCrane
-from towercrane.cranes.lumped_data import Drive, Spring
-from towercrane.cranes.radial import RadialModel
-from towercrane.cranes.wind import WindAreas
-from towercrane.motion import phases, rest, s_curve, smooth_ramps, speed_trapezoid, trapezoid
-from towercrane.shaping import boxes, ei, minimum_jerk, zv, zvd
-from towercrane.simulate import simulate
+from towercrane.cases.case import case_folder, load_case
+from towercrane.cranes.jib.model import JibCrane
+from towercrane.cranes.parts.wind import WindAreas
+from towercrane.cranes.slewing.description import Drive, Spring
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.motions.motion import phases, rest, s_curve, smooth_ramps, speed_trapezoid, trapezoid
+from towercrane.motions.shaping import boxes, ei, minimum_jerk, zv, zvd
+from towercrane.simulation.simulate import simulate
 
 CRANE = TowerCrane("A", Beam(30.0, 300.0, 2e11, 0.01), Beam(40.0, 100.0, 2e11, 0.003), 10.0, 150.0, 1e4, 300.0)
 OBJECTS = {

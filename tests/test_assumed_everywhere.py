@@ -8,9 +8,9 @@ import pytest
 from scipy.io import loadmat
 from typer.testing import CliRunner
 
-from towercrane import results
 from towercrane.cli import app
-from towercrane.plots import style
+from towercrane.report.plots import style
+from towercrane.results import files as results
 
 RADIAL = "qtz5613/condition-3"
 BENDS = 'crane.counter_jib.second_moment_of_area={value="0.0021 m^4", assumed="test"}'

@@ -7,9 +7,9 @@ from modal import chain_frequencies, crane_structure
 from towercrane.bench import structure
 from towercrane.bench.lattice import lattice
 from towercrane.bench.roots import roots
-from towercrane.case import load_case
-from towercrane.plots.bench import pictures
-from towercrane.towers import crane_frame
+from towercrane.cases.case import load_case
+from towercrane.cranes.tower.file.build import crane_frame
+from towercrane.report.plots.bench import pictures
 
 mp = pytest.importorskip("mpmath")
 

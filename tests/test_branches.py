@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from towercrane.branches import CLEAR, FINEST, follow
+from towercrane.studies.branches import CLEAR, FINEST, follow
 
 
 @dataclass(frozen=True)

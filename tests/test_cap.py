@@ -9,13 +9,13 @@ import pytest
 from qtz5613 import model, motions
 
 from towercrane import load_case
-from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes.frequency_cap import added_mass
-from towercrane.cranes.radial import RadialModel
-from towercrane.linearise import linearise
-from towercrane.motion import rest
-from towercrane.simulate import simulate
-from towercrane.towers import as_chain
+from towercrane.cranes.tower.file.build import as_chain
+from towercrane.cranes.tower.frequency_cap import added_mass
+from towercrane.cranes.tower.kernels import layout
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.linear.linearise import linearise
+from towercrane.motions.motion import rest
+from towercrane.simulation.simulate import simulate
 
 CAP = 8.0
 

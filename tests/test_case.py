@@ -12,13 +12,13 @@ from case_files import CASE, CRANE, only_fault, write_case
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modal.beam import Beam
-from towercrane import shipped
-from towercrane.case import Assumption, CaseError, Fault, case_folder, list_cases, load_case
-from towercrane.casefile import leaves, split_provenance
-from towercrane.explain import known_keys
-from towercrane.faults import closest, did_you_mean, shown
-from towercrane.units import to_si
+from modal.beams.beam import Beam
+from towercrane.cases import shipped
+from towercrane.cases.case import Assumption, CaseError, Fault, case_folder, list_cases, load_case
+from towercrane.cases.explain import known_keys
+from towercrane.schema.faults import closest, did_you_mean, shown
+from towercrane.schema.text import leaves, split_provenance
+from towercrane.schema.units import to_si
 
 
 @pytest.fixture
@@ -225,7 +225,7 @@ def test_a_name_like_no_case_lists_them():
 
 
 def test_importing_the_door_loads_neither_units_nor_schema():
-    code = "import sys, towercrane.case; print({'pint', 'pydantic', 'numpy'} & set(sys.modules))"
+    code = "import sys, towercrane.cases.case; print({'pint', 'pydantic', 'numpy'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
 
@@ -233,7 +233,7 @@ def test_importing_the_door_loads_neither_units_nor_schema():
 def test_installed_cases_come_first(tmp_path, monkeypatch):
     package = tmp_path / "towercrane"
     (package / "_cases").mkdir(parents=True)
-    monkeypatch.setattr(shipped, "__file__", str(package / "shipped.py"))
+    monkeypatch.setattr(shipped, "__file__", str(package / "cases" / "shipped.py"))
     assert case_folder() == package / "_cases"
     (package / "_cases").rmdir()
     assert case_folder() == tmp_path / "cases"

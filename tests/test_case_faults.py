@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from case_files import SEQUENCE, faults_of, only_fault, with_motion, write_case
 
-from towercrane.case import CaseError, load_case
-from towercrane.explain import known_keys
-from towercrane.faults import shown
-from towercrane.plausibility import RANGES
-from towercrane.units import to_si
+from towercrane.cases.case import CaseError, load_case
+from towercrane.cases.explain import known_keys
+from towercrane.cases.plausibility import RANGES
+from towercrane.schema.faults import shown
+from towercrane.schema.units import to_si
 
 
 @pytest.fixture

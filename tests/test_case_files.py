@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from case_files import CASE, CRANE, SEQUENCE, faults_of, only_fault, with_motion, write_case
 
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
 
 
 @pytest.fixture

@@ -9,9 +9,9 @@ from case_files import BASIC, COMBINED, ENHANCED, HEAVY, MULTI, PLAN, RADIAL, co
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from towercrane.case import CaseError, Fault, load_case
-from towercrane.kinds import known_keys, known_to
-from towercrane.schema_cases import KINDS
+from towercrane.cases.case import CaseError, Fault, load_case
+from towercrane.cases.kinds import known_keys, known_to
+from towercrane.cranes.registry import KINDS
 
 
 @pytest.fixture

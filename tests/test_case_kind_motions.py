@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from case_files import MULTI, PLAN, RADIAL, copy_case, only_fault
 
-from towercrane.case import load_case
-from towercrane.motion import phases, smooth_ramps, speed_trapezoid, trapezoid
+from towercrane.cases.case import load_case
+from towercrane.motions.motion import phases, smooth_ramps, speed_trapezoid, trapezoid
 
 
 @pytest.fixture

@@ -8,9 +8,9 @@ from functools import partial
 import pytest
 from case_files import BASIC, COMBINED, ENHANCED, HEAVY, MULTI, PLAN, RADIAL, copy_case, only_fault
 
-from towercrane.case import CaseError, case_folder, list_cases, load_case
-from towercrane.casefile import split_provenance
-from towercrane.cranes.slewing_parameters import BasicParameters, EnhancedParameters, MultiMassParameters
+from towercrane.cases.case import CaseError, case_folder, list_cases, load_case
+from towercrane.cranes.slewing.parameters import BasicParameters, EnhancedParameters, MultiMassParameters
+from towercrane.schema.text import split_provenance
 
 RAMPS = {
     "multi-mass": [(0.71, 8), (1.42, 8), (2.13, 6), (2.84, 6), (3.55, 6), (4.26, 6)],

@@ -5,8 +5,8 @@ from functools import partial
 import pytest
 from case_files import faults_of, only_fault, with_motion, write_case
 
-from towercrane.case import CaseError, load_case
-from towercrane.profiles import read_points
+from towercrane.cases.case import CaseError, load_case
+from towercrane.cases.profiles import read_points
 
 
 @pytest.fixture

@@ -10,10 +10,10 @@ from case_files import faults_of
 from tower_files import CASE, LACED, MEMBERS, ONE_SEGMENT, SEGMENTS, UNIFORM, write_case
 
 from modal import Beam, Chain, EndBody, Foundation, LacedColumn, Segment
-from towercrane.case import CaseError, load_case
-from towercrane.schema_towers import Foundation as FoundationTable
-from towercrane.schema_towers import Tower, TowerBody, TowerSegment
-from towercrane.towers import beam_choice
+from towercrane.cases.case import CaseError, load_case
+from towercrane.cranes.tower.file.build import beam_choice
+from towercrane.cranes.tower.file.tower_tables import Foundation as FoundationTable
+from towercrane.cranes.tower.file.tower_tables import Tower, TowerBody, TowerSegment
 
 E = 210e9
 COLUMN = LacedColumn(50e-4, 1.7, 1.4, 8e-4, E, "X", 6e-4)

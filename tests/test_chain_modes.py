@@ -9,8 +9,8 @@ import pytest
 from qtz5613 import CRANE
 
 from modal import Beam, Chain, CraneFrame, EndBody, Foundation, Segment, cantilever_modes, crane_structure
-from modal.chain_modes import chain_modes
-from modal.structure_modes import FORCE, MOMENT, ROTATION, SLOPE, structure_modes
+from modal.structures.chain_modes import chain_modes
+from modal.structures.structure_modes import FORCE, MOMENT, ROTATION, SLOPE, structure_modes
 
 TOWER, END_BODY = CRANE.tower, CRANE.end_body
 EI = TOWER.bending_stiffness

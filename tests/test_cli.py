@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from towercrane import results
+from towercrane.results import files as results
 
 
 def towercrane(*arguments: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:

@@ -7,12 +7,12 @@ import pytest
 from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
 from towercrane.cli import app
-from towercrane.comparison import ONE_OF_EACH, OWN, RICHEST, compare, gaps, slowest, variants
-from towercrane.plots.comparison import paths
-from towercrane.readings import departures
-from towercrane.simulate import record_case, run_case
+from towercrane.report.plots.comparison import paths
+from towercrane.results.measures import departures
+from towercrane.simulation.simulate import record_case, run_case
+from towercrane.studies.comparison import ONE_OF_EACH, OWN, RICHEST, compare, gaps, slowest, variants
 
 NAME, RADIAL = "qtz5613/manoeuvre", "qtz5613/condition-3"
 SHORT = ["run.duration=12 s", "run.output_step=0.1 s", "motion.trolley.start=30 m"]
@@ -71,7 +71,7 @@ def test_departure_counts_from_where_the_load_would_hang_on_a_rigid_crane():
         "qtz5613/slewing", ["motion.slewing.end=0.001 deg", "run.duration=5 s", "motion.slewing.delay=4 s"]
     )
     counts = dict.fromkeys(("tower_modes", "torsion_modes", "jib_lateral_modes", "jib_vertical_modes"), 0)
-    from towercrane.models import space_model
+    from towercrane.cases.models import space_model
 
     rigid = run_case(still, model=space_model(still, **counts))
     assert np.linalg.norm(departures(rigid)[:70], axis=1).max() < 1e-9

@@ -10,31 +10,31 @@ import pytest
 from numba import types
 
 import modal
-import towercrane
-from modal import compiled
-from towercrane.case import load_case
-from towercrane.compilation import KERNELS, compile_kernels, missing_kernels
+from modal.compiler import compiled
+from towercrane.cases.case import load_case
+from towercrane.kernels.compilation import KERNELS, compile_kernels, missing_kernels
 
-PACKAGES = [Path(module.__file__).parent for module in (modal, towercrane)]
+TOP = Path(modal.__file__).parents[1]
+PACKAGES = [TOP / "modal", TOP / "towercrane"]
 
 
-def test_kernels_are_in_the_folders_whose_sources_name_the_cache():
-    covered = {PACKAGES[0], PACKAGES[1], PACKAGES[1] / "cranes"}
-    makers = {
-        source.parent
+def test_kernels_are_in_the_rooms_whose_sources_name_the_cache():
+    makers = [
+        source.relative_to(TOP).as_posix()
         for package in PACKAGES
         for source in package.rglob("*.py")
         if "compiled import kernel" in source.read_text() or "import traced" in source.read_text()
-    }
-    assert makers == covered
+    ]
+    assert all(maker.startswith(compiled.ROOMS) for maker in makers)
+    assert all(any(maker.startswith(room) for maker in makers) for room in compiled.ROOMS)
 
 
 def test_a_change_of_a_source_names_another_cache(tmp_path, monkeypatch):
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    for folder in ("modal", "towercrane/cranes"):
+    for folder in ("modal/compiler", "towercrane/cranes/tower/kernels"):
         (tmp_path / folder).mkdir(parents=True)
-    kernel, layout = tmp_path / "modal/roots.py", tmp_path / "towercrane/cranes/layout.py"
-    monkeypatch.setattr(compiled, "__file__", str(tmp_path / "modal" / "compiled.py"))
+    kernel, layout = tmp_path / "modal/roots.py", tmp_path / "towercrane/cranes/tower/kernels/layout.py"
+    monkeypatch.setattr(compiled, "__file__", str(tmp_path / "modal/compiler/compiled.py"))
     found = []
     for changed in (kernel, layout, kernel):
         changed.write_text(f"x = {len(found)}\n")
@@ -67,7 +67,7 @@ def test_what_is_compiled_here_or_beside_is_missing_no_more(tmp_path, monkeypatc
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     # This process has compiled its own kernels elsewhere: a fresh one finds them missing, and makes them.
     code = (
-        "from towercrane.compilation import compile_kernels as c, missing_kernels as m\n"
+        "from towercrane.kernels.compilation import compile_kernels as c, missing_kernels as m\n"
         "before = m('jib', 'runs'); c(*before); print(len(before), len(m('jib', 'runs')))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -77,20 +77,22 @@ def test_what_is_compiled_here_or_beside_is_missing_no_more(tmp_path, monkeypatc
 @pytest.mark.parametrize(
     ("uses", "here", "beside"),
     [
-        (("radial", "runs"), ["towercrane.cranes.flexible_rhs"], ["towercrane.stepper"]),
+        (("radial", "runs"), ["towercrane.cranes.tower.kernels.rhs"], ["towercrane.simulation.stepper"]),
         (
             ("radial", "chain", "runs"),
-            ["modal.structure_kernel", "modal.shape_kernel"],
-            ["towercrane.cranes.flexible_rhs", "towercrane.stepper"],
+            ["modal.structures.structure_kernel", "modal.structures.shape_kernel"],
+            ["towercrane.cranes.tower.kernels.rhs", "towercrane.simulation.stepper"],
         ),
-        (("basic",), ["towercrane.cranes.lumped_kernel"], None),
+        (("basic",), ["towercrane.cranes.slewing.kernel"], None),
     ],
 )
 def test_exact_structures_share_a_process(uses, here, beside, monkeypatch):
     imported, started = [], []
-    monkeypatch.setattr("towercrane.compilation.is_compiled", lambda module: module == "modal.roots")
-    monkeypatch.setattr("towercrane.compilation.import_module", imported.append)
-    monkeypatch.setattr("towercrane.compilation._started", lambda modules: started.append(modules) or Thread())
+    monkeypatch.setattr("towercrane.kernels.compilation.is_compiled", lambda module: module == "modal.beams.roots")
+    monkeypatch.setattr("towercrane.kernels.compilation.import_module", imported.append)
+    monkeypatch.setattr(
+        "towercrane.kernels.compilation._started", lambda modules: started.append(modules) or Thread()
+    )
     monkeypatch.setattr(Thread, "join", lambda self: None)
     compile_kernels(*missing_kernels(*uses))
     assert imported == here
@@ -116,4 +118,4 @@ def test_what_kernels_call_is_python_to_python_until_it_has_a_door():
 
 def test_nothing_beside_starts_no_process(monkeypatch):
     monkeypatch.setattr("multiprocessing.get_context", None)
-    compile_kernels("towercrane.polynomial")
+    compile_kernels("towercrane.kernels.polynomial")

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from collocation import collocated_crane
 
-from modal.beam import EndBody
-from modal.chain import Chain, Pendulum
-from modal.crane_frame import CraneFrame, crane_structure
-from modal.segment import Segment
-from modal.structure_modes import structure_modes
+from modal.beams.beam import EndBody
+from modal.beams.chain import Chain, Pendulum
+from modal.beams.segment import Segment
+from modal.structures.crane_frame import CraneFrame, crane_structure
+from modal.structures.structure_modes import structure_modes
 
 MODULUS = 206e9
 COUNTER_JIB = 12.3 * 159.3

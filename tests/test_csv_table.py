@@ -9,13 +9,13 @@ from case_files import RADIAL, only_fault
 from numpy.testing import assert_allclose
 from scipy.signal import savgol_filter
 
-from towercrane.case import CaseError, load_case
-from towercrane.csv_table import MOST_BYTES, MOST_ROWS, TIME, Column, read_table
-from towercrane.motion import table, trapezoid
-from towercrane.simulate import run_case
-from towercrane.summary import summarise
-from towercrane.table_notices import scatter
-from towercrane.wind_file import read_gusts
+from towercrane.cases.case import CaseError, load_case
+from towercrane.cases.table_notices import scatter
+from towercrane.cases.wind_file import read_gusts
+from towercrane.motions.motion import table, trapezoid
+from towercrane.runs.summary import summarise
+from towercrane.schema.csv_table import MOST_BYTES, MOST_ROWS, TIME, Column, read_table
+from towercrane.simulation.simulate import run_case
 
 ANGLE, PARKED, SLEWING = (TIME, Column("value", "rad")), "qtz5613/gusts-parked", "qtz5613/slewing"
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from modal import Beam, Chain, EndBody, Foundation, Segment, cantilever_modes, chain_frequencies, chain_structure
-from modal.chain_modes import chain_modes
-from modal.roots import characteristic_roots
-from modal.structure import Structure
-from modal.structure_modes import structure_modes
+from modal.beams.roots import characteristic_roots
+from modal.structures.chain_modes import chain_modes
+from modal.structures.structure import Structure
+from modal.structures.structure_modes import structure_modes
 
 BODY = EndBody(1.0, 0.5)
 

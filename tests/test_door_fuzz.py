@@ -5,12 +5,12 @@ import time
 import pytest
 from typer.testing import CliRunner
 
-from towercrane.case import CaseError, load_case
+from towercrane.cases.case import CaseError, load_case
+from towercrane.cases.kinds import known_keys
+from towercrane.cases.plausibility import FARTHEST, _rule
 from towercrane.cli import app
-from towercrane.kinds import known_keys
-from towercrane.plausibility import FARTHEST, _rule
-from towercrane.schema_cases import KINDS
-from towercrane.simulate import record_case
+from towercrane.cranes.registry import KINDS
+from towercrane.simulation.simulate import record_case
 
 CASES = {
     "radial": "towers/stepped",

@@ -8,10 +8,10 @@ import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 
 from modal import Beam, EndBody, cantilever_modes
-from towercrane.plots import jib, radial, sensitivity, slewing, space, style, sweep
-from towercrane.recording import Quantity, Recording
-from towercrane.sensitivity import Study
-from towercrane.spectrum import amplitude_spectrum
+from towercrane.report.plots import jib, radial, sensitivity, slewing, space, style, sweep
+from towercrane.results.recording import Quantity, Recording
+from towercrane.results.spectrum import amplitude_spectrum
+from towercrane.studies.sensitivity import Study
 
 ROWS = 90
 TIMES = np.cumsum(np.random.default_rng(3).uniform(0.05, 0.15, ROWS))

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from qtz5613 import model, motions
 
-from towercrane import drift
 from towercrane.bench.free_vibration import FreeVibration
 from towercrane.bench.stability import agrees
-from towercrane.case import CaseError, load_case
-from towercrane.integrate import METHODS
-from towercrane.simulate import run_case, simulate
-from towercrane.summary import summarise
+from towercrane.cases.case import CaseError, load_case
+from towercrane.runs.summary import summarise
+from towercrane.simulation import drift
+from towercrane.simulation.integrate import METHODS
+from towercrane.simulation.simulate import run_case, simulate
 
 CASE = "qtz5613/condition-3"
 

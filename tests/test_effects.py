@@ -9,9 +9,9 @@ import pytest
 
 from modal import Beam, Chain
 from towercrane import load_case
-from towercrane.effects import effects_in, effects_report
-from towercrane.models import radial_model
-from towercrane.natural import natural_frequencies
+from towercrane.cases.models import radial_model
+from towercrane.cranes.tower.file.effects import effects_in, effects_report
+from towercrane.studies.natural import natural_frequencies
 
 CASE = "qtz5613/condition-3"
 SOFT = (

@@ -9,15 +9,15 @@ from test_cli import towercrane
 from tower_files import REST
 
 from modal import Chain, EndBody, Foundation, Segment, chain_frequencies, chain_structure
-from modal.influence import effects_of, influence, keeping
-from modal.structure_modes import structure_modes
+from modal.structures.influence import effects_of, influence, keeping
+from modal.structures.structure_modes import structure_modes
 from towercrane import load_case
-from towercrane.effects import effects_in, effects_report
-from towercrane.models import radial_model
-from towercrane.natural import natural_frequencies
-from towercrane.promise import stated
-from towercrane.scene import setting_of
-from towercrane.towers import as_chain, joined
+from towercrane.accuracy.promise import stated
+from towercrane.accuracy.scene import setting_of
+from towercrane.cases.models import radial_model
+from towercrane.cranes.tower.file.build import as_chain, joined
+from towercrane.cranes.tower.file.effects import effects_in, effects_report
+from towercrane.studies.natural import natural_frequencies
 
 BLOCK = (
     'crane.foundation={rotation_stiffness="100 GN m/rad", translation_stiffness="8 GN/m"}',

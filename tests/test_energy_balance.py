@@ -8,16 +8,16 @@ import pytest
 import qtz5613
 from typer.testing import CliRunner
 
-from towercrane import energy_balance
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
 from towercrane.cli import app
-from towercrane.cranes import flexible_layout as layout
-from towercrane.energy_balance import NOT_CONSERVED, explained, first_off
-from towercrane.lanes import LaneRun, integrate_many
-from towercrane.motion import phases
-from towercrane.simulate import record, record_case, rows_of
-from towercrane.summary import expected, summarise
-from towercrane.variations import sweep
+from towercrane.cranes.tower.kernels import layout
+from towercrane.motions.motion import phases
+from towercrane.runs.summary import expected, summarise
+from towercrane.runs.sweep import sweep
+from towercrane.simulation import energy_balance
+from towercrane.simulation.energy_balance import NOT_CONSERVED, explained, first_off
+from towercrane.simulation.lanes.many import LaneRun, integrate_many
+from towercrane.simulation.simulate import record, record_case, rows_of
 
 
 def heavier(factor):

@@ -3,7 +3,7 @@
 import lab_crane
 import pytest
 
-from towercrane.motion import phases, rest
+from towercrane.motions.motion import phases, rest
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from towercrane.bench import drawn_events, events
-from towercrane.motion import rest
+from towercrane.motions.motion import rest
 
 
 @pytest.fixture(scope="module")

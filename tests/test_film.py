@@ -8,12 +8,12 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from towercrane.case import load_case
-from towercrane.playback import Playback
-from towercrane.plots import film_file
-from towercrane.plots.film import Film
-from towercrane.poses import poses_of
-from towercrane.simulate import run_case
+from towercrane.cases.case import load_case
+from towercrane.cases.poses import poses_of
+from towercrane.report.playback import Playback
+from towercrane.report.plots import film_file
+from towercrane.report.plots.film import Film
+from towercrane.simulation.simulate import run_case
 
 BASELINE_VERSION = "3.11."
 

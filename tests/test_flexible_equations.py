@@ -9,13 +9,13 @@ import space_crane as space
 from jets import Jet
 from space_points import CraneCloud
 
-from towercrane.cranes import flexible_layout as layout
-from towercrane.cranes.damping import ModalDamping
-from towercrane.cranes.flexible_layout import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
-from towercrane.cranes.lumped_data import Drive
-from towercrane.cranes.wind import WindAreas, steady
-from towercrane.motion import Motion
-from towercrane.payload import Load
+from towercrane.cranes.parts.wind import WindAreas, steady
+from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.kernels import layout
+from towercrane.cranes.tower.kernels.layout import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import Motion
 
 AREAS = WindAreas(tower=3.0, jib=1.2, counter_jib=1.5, counterweight=8.0)
 DRIVE = Drive("slewing", 4e6, 3e7, 0.02, 2e5, "tanh", 3e4, 0.01)

@@ -7,16 +7,16 @@ import lab_crane
 import numpy as np
 import pytest
 
-from towercrane.cranes.damping import ModalDamping
-from towercrane.cranes.flexible import FlexibleModel
-from towercrane.cranes.flexible_crane import FlexibleCrane
-from towercrane.cranes.flexible_motion import FlexibleMotion
-from towercrane.cranes.mass_sums import point_sums, rigid_sums
-from towercrane.cranes.reduce import make_rigid
-from towercrane.cranes.small_motions import natural_modes
-from towercrane.linearise import linearise
-from towercrane.motion import rest
-from towercrane.simulate import simulate
+from towercrane.cranes.slewing.reduce import make_rigid
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.cranes.tower.mass_sums import point_sums, rigid_sums
+from towercrane.cranes.tower.modal_crane import FlexibleCrane
+from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.linear.linearise import linearise
+from towercrane.motions.motion import rest
+from towercrane.simulation.simulate import simulate
 
 P = lab_crane.MULTI_MASS
 HEIGHT, REACH = P.geometry_tower_height, P.geometry_jib_radius

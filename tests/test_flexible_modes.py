@@ -8,11 +8,11 @@ import space_crane as space
 import space_frame
 from numpy.testing import assert_allclose
 
-from towercrane.cranes.small_motions import KINDS, linear_matrices, natural_modes
-from towercrane.linearise import linearise
-from towercrane.motion import rest
-from towercrane.payload import JACOBIAN, MASS
-from towercrane.system import NoEquilibrium
+from towercrane.cranes.tower.small_motions import KINDS, linear_matrices, natural_modes
+from towercrane.kernels.payload import JACOBIAN, MASS
+from towercrane.linear.linearise import linearise
+from towercrane.motions.motion import rest
+from towercrane.simulation.system import NoEquilibrium
 
 STATES = [(0.0, 10.0, 20.0), (0.7, 25.0, 15.0), (1.3, 40.0, 12.0), (-2.0, 40.0, 20.0), (2.6, 50.0, 15.0)]
 """Heading [rad], trolley and rope [m]."""

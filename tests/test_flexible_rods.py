@@ -7,7 +7,7 @@ import space_crane as space
 from rod_comparison import BRISK, Comparison, stiffer
 from space_crane import standing
 
-from towercrane.cranes.small_motions import natural_modes
+from towercrane.cranes.tower.small_motions import natural_modes
 
 TOP, TROLLEY, LOAD = range(3)
 RADIAL, LATERAL, VERTICAL = range(3)

@@ -10,16 +10,16 @@ from numpy.polynomial.legendre import leggauss
 from numpy.testing import assert_allclose
 from space_crane import manoeuvre, standing
 
-from modal.beam import Beam
-from towercrane.cranes.damping import ModalDamping
-from towercrane.cranes.flexible_motion import FlexibleMotion
-from towercrane.cranes.lumped_data import Drive
-from towercrane.cranes.radial import RadialModel
-from towercrane.cranes.wind import WindAreas, gusts, steady
-from towercrane.integrate import evaluate, integrate
-from towercrane.motion import phases, rest, sequence, trapezoid
-from towercrane.payload import Load
-from towercrane.simulate import simulate
+from modal.beams.beam import Beam
+from towercrane.cranes.parts.wind import WindAreas, gusts, steady
+from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import phases, rest, sequence, trapezoid
+from towercrane.simulation.integrate import evaluate, integrate
+from towercrane.simulation.simulate import simulate
 
 TIGHT = {"rtol": 1e-12, "atol": 1e-14}
 RINGING = {"tower": 1, "torsion": 1, "lateral": 2, "vertical": 2}

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from test_plane_modes import FRAME, HEIGHT, REACH, TOWER
 
 from modal import Chain, EndBody, Segment, crane_structure
-from towercrane.frequency_map import branch_names, buckling_factor, doubtful_steps, frequency_map
+from towercrane.studies.frequency_map import branch_names, buckling_factor, doubtful_steps, frequency_map
 
 POSITIONS = np.linspace(0.0, REACH, 9)
 PAYLOADS = (200.0, 800.0, 3200.0)

@@ -7,9 +7,9 @@ import sys
 import pytest
 
 from towercrane.bench import hard
-from towercrane.case import CaseError, list_cases, load_case
-from towercrane.simulate import run_case
-from towercrane.summary import expected, summarise
+from towercrane.cases.case import CaseError, list_cases, load_case
+from towercrane.runs.summary import expected, summarise
+from towercrane.simulation.simulate import run_case
 
 NAMES = [name for name, _ in list_cases() if name.startswith(hard.FOLDER)]
 LONG = {

@@ -9,12 +9,12 @@ import pytest
 from qtz5613 import CRANE
 
 from modal import Chain, EndBody, Foundation, Segment, chain_frequencies, chain_structure, crane_structure
-from modal.influence import EFFECTS, Influence, effects_of, influence, keeping
-from modal.structure_modes import structure_modes
+from modal.structures.influence import EFFECTS, Influence, effects_of, influence, keeping
+from modal.structures.structure_modes import structure_modes
 from towercrane import load_case
-from towercrane.models import radial_model
-from towercrane.towers import crane_frame
-from towercrane.truncation import TRUSTED, truncation_error
+from towercrane.cases.models import radial_model
+from towercrane.cranes.tower.file.build import crane_frame
+from towercrane.cranes.tower.truncation import TRUSTED, truncation_error
 
 TOWER, END_BODY = CRANE.tower, CRANE.end_body
 ROTARY = TOWER.mass_per_length * 0.84**2

@@ -7,12 +7,12 @@ import pytest
 from exact_systems import ALL, Exact, driven, growth_and_decay, kepler, oscillator
 from numpy.testing import assert_allclose
 
-from modal.compiled import kernel
-from towercrane import integrate as module
-from towercrane.integrate import METHODS, integrate
-from towercrane.motion import phases, rest
-from towercrane.system import rhs_signature
-from towercrane.tableaus import TABLEAUS, Tableau
+from modal.compiler.compiled import kernel
+from towercrane.motions.motion import phases, rest
+from towercrane.simulation import integrate as module
+from towercrane.simulation.integrate import METHODS, integrate
+from towercrane.simulation.system import rhs_signature
+from towercrane.simulation.tableaus import TABLEAUS, Tableau
 
 
 def solve(exact: Exact, times=None, **options):

@@ -7,14 +7,14 @@ from jib_cranes import HEAVY, LOAD, PRINTED, peak, planned, printed_plan, smooth
 from numpy.testing import assert_allclose
 from scipy.optimize import least_squares
 
-from towercrane.cranes.jib_crane import TORQUES, DrivenJibCrane
-from towercrane.cranes.jib_crane_linear import growth_rates, static_matrices, static_torques
-from towercrane.cranes.jib_crane_tracking import TrackingJibCrane
-from towercrane.directions import restore_rows
-from towercrane.integrate import integrate
-from towercrane.motion import Motion, phases, rest, trapezoid
-from towercrane.payload import Load
-from towercrane.simulate import simulate
+from towercrane.cranes.jib.linear import growth_rates, static_matrices, static_torques
+from towercrane.cranes.jib.model import TORQUES, DrivenJibCrane
+from towercrane.cranes.jib.tracking import TrackingJibCrane
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import Motion, phases, rest, trapezoid
+from towercrane.simulation.directions import restore_rows
+from towercrane.simulation.integrate import integrate
+from towercrane.simulation.simulate import simulate
 
 TIGHT = {"rtol": 1e-11, "atol": 1e-13}
 G = 9.81

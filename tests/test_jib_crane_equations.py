@@ -12,12 +12,12 @@ import pytest
 from jib_cranes import HEAVY, LOAD, PRINTED, planned, smooth_plan, trapezoid_plan
 from scipy.integrate import solve_ivp
 
-from towercrane.cranes import jib_crane_kernel as kernel
-from towercrane.cranes.jib_crane import DrivenJibCrane, PlannedJibCrane
-from towercrane.cranes.jib_crane_tracking import TrackingJibCrane
-from towercrane.motion import Motion
-from towercrane.payload import AIR_DENSITY, MASS, Load
-from towercrane.simulate import simulate
+from towercrane.cranes.jib import kernel
+from towercrane.cranes.jib.model import DrivenJibCrane, PlannedJibCrane
+from towercrane.cranes.jib.tracking import TrackingJibCrane
+from towercrane.kernels.payload import AIR_DENSITY, MASS, Load
+from towercrane.motions.motion import Motion
+from towercrane.simulation.simulate import simulate
 
 LOSSY = Load(5000.0, rope_damping=2e4, drag_area=30.0)
 

@@ -9,12 +9,12 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import ellipj, ellipk, jv, yv
 
-from towercrane.cranes.jib_crane import JibCrane, PlannedJibCrane
-from towercrane.cranes.jib_crane_linear import LinearSway, static_torques
-from towercrane.cranes.jib_crane_tracking import TrackingJibCrane
-from towercrane.integrate import integrate
-from towercrane.motion import Motion, phases, smooth_ramps, trapezoid
-from towercrane.simulate import simulate
+from towercrane.cranes.jib.linear import LinearSway, static_torques
+from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
+from towercrane.cranes.jib.tracking import TrackingJibCrane
+from towercrane.motions.motion import Motion, phases, smooth_ramps, trapezoid
+from towercrane.simulation.integrate import integrate
+from towercrane.simulation.simulate import simulate
 
 TIGHT = {"rtol": 1e-11, "atol": 1e-13}
 G = 9.81

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from numba import types
 
-from modal import compiled, kernel_cache
-from modal.compiled import CacheWarning
+from modal.compiler import compiled, kernel_cache
+from modal.compiler.compiled import CacheWarning
 
 
 def doubled(x):
@@ -84,7 +84,10 @@ def test_full_disk_is_said_and_the_kernel_works(folder, monkeypatch):
 
 
 def test_switched_off_compiler_is_named():
-    code = "from modal.compiled import kernel, NoCompiler\ntry:\n    kernel()\nexcept NoCompiler as e:\n    print(e)"
+    code = (
+        "from modal.compiler.compiled import kernel, NoCompiler\n"
+        "try:\n    kernel()\nexcept NoCompiler as e:\n    print(e)"
+    )
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, env={**os.environ, "NUMBA_DISABLE_JIT": "1"}
     )

@@ -11,19 +11,19 @@ from space_crane import CRANE, manoeuvre, standing
 from typer.testing import CliRunner
 
 from towercrane import load_case
+from towercrane.accuracy.mode_convergence import Ladders, measured_choice
+from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer_in_space, verification
+from towercrane.accuracy.space_scene import SpaceScene, SpaceSetting
 from towercrane.cli import app
-from towercrane.cranes.damping import ModalDamping
-from towercrane.cranes.wind import WindAreas, gusts
-from towercrane.faults import CaseError
-from towercrane.ladders import Ladders, measured_choice
-from towercrane.motion import rest, trapezoid
-from towercrane.payload import Load
-from towercrane.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer_in_space, verification
-from towercrane.readings import MOTIONS, Tolerance, departures, gap, peak
-from towercrane.simulate import run_case
-from towercrane.space_scene import SpaceScene, SpaceSetting
-from towercrane.summary import summarise
-from towercrane.tables.runs import run_tables, verification_tables
+from towercrane.cranes.parts.wind import WindAreas, gusts
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest, trapezoid
+from towercrane.report.tables.runs import run_tables, verification_tables
+from towercrane.results.measures import MOTIONS, Tolerance, departures, gap, peak
+from towercrane.runs.summary import summarise
+from towercrane.schema.faults import CaseError
+from towercrane.simulation.simulate import run_case
 
 NAME = "qtz5613/manoeuvre-within-2e-2"
 SHORT = ["run.duration=25 s", "run.output_step=0.1 s"]

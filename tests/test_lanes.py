@@ -8,13 +8,13 @@ from numpy.testing import assert_allclose
 from qtz5613 import CRANE, model, motions
 
 from modal import Chain, Foundation, Segment
-from towercrane.cranes.radial import RadialModel
-from towercrane.cranes.radial_lanes import OUTPUTS
-from towercrane.lane_vector import LANES
-from towercrane.lanes import LaneRun, integrate_many
-from towercrane.motion import phases, rest, s_curve, sequence, trapezoid
-from towercrane.payload import Load
-from towercrane.simulate import rows_of, simulate
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.kernels.payload import Load
+from towercrane.kernels.vector import LANES
+from towercrane.motions.motion import phases, rest, s_curve, sequence, trapezoid
+from towercrane.simulation.lanes.advance import OUTPUTS
+from towercrane.simulation.lanes.many import LaneRun, integrate_many
+from towercrane.simulation.simulate import rows_of, simulate
 
 DURATION = 12.0
 ROWS = rows_of(DURATION, 0.05)

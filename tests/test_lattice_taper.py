@@ -9,17 +9,17 @@ import pytest
 from test_truss import plain_truss
 
 from modal import Chain, ColumnTruss, EndBody, LacedColumn, StructureElements, chain_frequencies, chain_structure
-from modal.influence import influence, keeping
-from modal.lattice_comparison import compare_truss
-from modal.lattice_taper import column_segments
-from modal.structure_modes import structure_modes
+from modal.lattices.lattice_comparison import compare_truss
+from modal.lattices.lattice_taper import column_segments
+from modal.structures.influence import influence, keeping
+from modal.structures.structure_modes import structure_modes
 
 BASE = LacedColumn(60e-4, 8.0, 2.0, 6e-4, 210e9, "X", 6e-4)
 HEIGHT, MASS = 40.0, 300.0
 SLEWING = EndBody(18e3, 5e6)
 
 WORST = {"X": 0.8, "zigzag": 2.2, "N": 2.1}
-"""Per cent by lacing over `GRID`, as the docstring of `modal.lattice_taper.column_segments` states them."""
+"""Per cent by lacing over `GRID`, as the docstring of `modal.lattices.lattice_taper.column_segments` states them."""
 
 GRID = [
     (8.0, 1.0, 2.0), (8.0, 1.0, 1.0), (8.0, 2.0, 2.0), (8.0, 4.0, 2.0), (4.0, 1.0, 2.0), (3.8, 1.6, 2.0),

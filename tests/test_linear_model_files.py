@@ -12,11 +12,11 @@ from qtz5613 import model, standing
 from scipy.io import loadmat
 
 from towercrane import load_case
-from towercrane.differences import jacobian
-from towercrane.linear_report import linear_model
-from towercrane.linearise import linearise
-from towercrane.motion import rest
-from towercrane.statespace import OperatingPoint, Signal, StateSpace
+from towercrane.linear.linearise import linearise
+from towercrane.linear.statespace import OperatingPoint, Signal, StateSpace
+from towercrane.motions.motion import rest
+from towercrane.simulation.differences import jacobian
+from towercrane.studies.linear_report import linear_model
 
 # --- differences ---------------------------------------------------------------------------------------
 

@@ -8,11 +8,11 @@ from numpy.testing import assert_allclose
 from qtz5613 import CRANE, model, standing
 from scipy.linalg import expm
 
-from towercrane.cranes.radial import RadialModel
-from towercrane.linearise import linearise
-from towercrane.motion import rest, trapezoid
-from towercrane.payload import Load
-from towercrane.simulate import simulate
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.kernels.payload import Load
+from towercrane.linear.linearise import linearise
+from towercrane.motions.motion import rest, trapezoid
+from towercrane.simulation.simulate import simulate
 
 G = 9.81
 TIGHT = {"rtol": 1e-13, "atol": 1e-16}

@@ -5,12 +5,12 @@ import pytest
 from lab_crane import PARAMETERS, crane
 from numpy.testing import assert_allclose
 
-from towercrane.case import load_case
-from towercrane.linearise import linearise
-from towercrane.models import model_of
-from towercrane.motion import rest, speed_trapezoid
-from towercrane.simulate import run_case, simulate
-from towercrane.summary import summarise
+from towercrane.cases.case import load_case
+from towercrane.cases.models import model_of
+from towercrane.linear.linearise import linearise
+from towercrane.motions.motion import rest, speed_trapezoid
+from towercrane.runs.summary import summarise
+from towercrane.simulation.simulate import run_case, simulate
 
 STILL = {"shaft": rest(0.0), "rope": rest(2.0)}
 

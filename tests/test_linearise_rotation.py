@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from towercrane.linearise import linearise
-from towercrane.recording import Quantity
-from towercrane.system import plain_system
+from towercrane.linear.linearise import linearise
+from towercrane.results.recording import Quantity
+from towercrane.simulation.system import plain_system
 
 G = 9.81
 

@@ -11,14 +11,14 @@ import space_crane
 from scipy.linalg import eigh
 
 from modal import Chain, EndBody, Foundation, Segment
-from towercrane.cranes.lumped_data import Drive
-from towercrane.cranes.radial import RadialModel
-from towercrane.cranes.small_motions import fastest_vibration, linear_matrices
-from towercrane.linearise import linearise
-from towercrane.motion import rest, smooth_ramps, trapezoid
-from towercrane.payload import Load
-from towercrane.simulate import simulate
-from towercrane.tableaus import DOP853, DOPRI5, REACH_USED
+from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.cranes.tower.small_motions import fastest_vibration, linear_matrices
+from towercrane.kernels.payload import Load
+from towercrane.linear.linearise import linearise
+from towercrane.motions.motion import rest, smooth_ramps, trapezoid
+from towercrane.simulation.simulate import simulate
+from towercrane.simulation.tableaus import DOP853, DOPRI5, REACH_USED
 
 
 def growth(tableau, z):

@@ -5,7 +5,7 @@ import json
 import pytest
 from test_cli import towercrane
 
-from towercrane import results
+from towercrane.results import files as results
 
 SMALL = ("--positions", "4", "--modes", "3", "--payload", "400 kg, 1.6 t")
 
@@ -120,9 +120,9 @@ def test_crane_without_beams_is_sent_elsewhere():
 def test_pictures_name_units_branches_and_loads():
     from test_plane_modes import FRAME
 
-    from towercrane.frequency_map import frequency_map
-    from towercrane.plane_modes import PlaneCrane
-    from towercrane.plots import frequency_map as pictured
+    from towercrane.report.plots import frequency_map as pictured
+    from towercrane.studies.frequency_map import frequency_map
+    from towercrane.studies.plane_modes import PlaneCrane
 
     data = frequency_map(FRAME, [0.0, 25.0, 50.0], [400.0, 800.0], modes=2)
     data.attrs |= {"crane": "crane", "assumed": json.dumps([["crane.jib.length", "50 m", "no source"]])}

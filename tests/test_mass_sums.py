@@ -6,10 +6,10 @@ import space_crane as space
 from numpy.polynomial.legendre import leggauss
 from numpy.testing import assert_allclose
 
-from modal.shapes import cantilever_modes
-from modal.torsion import Shaft, torsion_modes
-from towercrane.cranes.mass_sums import point_sums, rigid_sums, uniform_sums
-from towercrane.cranes.shape_table import shape_table
+from modal.beams.shapes import cantilever_modes
+from modal.beams.torsion import Shaft, torsion_modes
+from towercrane.cranes.tower.mass_sums import point_sums, rigid_sums, uniform_sums
+from towercrane.cranes.tower.shape_table import shape_table
 
 FIELDS = ("mass", "moment", "pitch", "yaw", "first", "second", "products")
 JIB = space.CRANE.jib

@@ -30,8 +30,8 @@ from modal import (
     finite_element_structure_frequencies,
     torsion_modes,
 )
-from modal.chain_modes import chain_modes
-from modal.lattice_taper import column_segments
+from modal.lattices.lattice_taper import column_segments
+from modal.structures.chain_modes import chain_modes
 
 BEAM = Beam(30.0, 300.0, 2e11, 0.01)
 CHAIN = Chain((Segment(30.0, 300.0, 2e9),), {1: EndBody(1e4, 1e5)})

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modal import Beam, EndBody, cantilever_modes, finite_element_frequencies
-from modal.elements import round_off_floor
+from modal.elements.beam_elements import round_off_floor
 
 INF = float("inf")
 BEAM = Beam(23.8, 350.0, 206e9, 0.014)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from modal.lattice import LacedColumn
+from modal.lattices.lattice import LacedColumn
 
 QTZ5613 = LacedColumn(
     leg_area=198.8e-4 / 4,

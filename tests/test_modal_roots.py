@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modal.roots import characteristic_roots, count_roots_below
+from modal.beams.roots import characteristic_roots, count_roots_below
 
 INF = float("inf")
 EPS = float(np.finfo(float).eps)

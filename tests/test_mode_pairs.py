@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from towercrane.case import load_case
-from towercrane.natural import natural_frequencies
-from towercrane.plane_modes import MEMBERS, PlaneCrane
-from towercrane.tables.modes import modes_tables
-from towercrane.towers import crane_frame
+from towercrane.cases.case import load_case
+from towercrane.cranes.tower.file.build import crane_frame
+from towercrane.report.tables.modes import modes_tables
+from towercrane.studies.natural import natural_frequencies
+from towercrane.studies.plane_modes import MEMBERS, PlaneCrane
 
 TAPERED = "towers/tapered"
 
@@ -76,7 +76,7 @@ def test_a_rich_model_has_every_mode_of_the_exact_crane():
 
 
 def test_table_names_the_modes_without_a_partner(tapered, capsys, monkeypatch):
-    monkeypatch.setattr("towercrane.tables.layout.WIDTH_OF_A_PIPE", 400)
+    monkeypatch.setattr("towercrane.report.tables.layout.WIDTH_OF_A_PIPE", 400)
     modes_tables(tapered)
     said = capsys.readouterr().out
     differences = [line.strip("│ ").split("│")[1:] for line in said.splitlines() if "less exact" in line]

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.polynomial.polynomial import polyder, polyval
 from numpy.testing import assert_allclose
 
-from towercrane.motion import (
+from towercrane.motions.motion import (
     SAME_INSTANT,
     SHORTEST_WAY,
     Motion,
@@ -21,7 +21,7 @@ from towercrane.motion import (
     table,
     trapezoid,
 )
-from towercrane.superposition import total
+from towercrane.motions.superposition import total
 
 positive = st.floats(0.01, 10.0)
 place = st.floats(-50.0, 50.0)

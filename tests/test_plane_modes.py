@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from modal import Chain, CraneFrame, EndBody, Foundation, Segment
-from towercrane.plane_modes import LOADS, MEMBERS, OUTPUTS, PlaneCrane
+from towercrane.studies.plane_modes import LOADS, MEMBERS, OUTPUTS, PlaneCrane
 
 HEIGHT, REACH, BENDING = 24.0, 50.0, 2.9e9
 TOWER = Chain((Segment(HEIGHT, 350.0, BENDING),), {1: EndBody(17000.0, 3e6)})

@@ -7,15 +7,15 @@ import space_crane as space
 from case_files import only_fault
 from numpy.testing import assert_allclose
 
-from towercrane.case import CaseError, load_case
-from towercrane.cranes.small_motions import natural_modes
-from towercrane.cranes.sway_frequencies import PendulumFrequencies, SwayFrequencies
-from towercrane.models import model_of
-from towercrane.motion import rest, sequence, trapezoid
-from towercrane.plans import Move, NotSettled, Plan, Shaping, shaped_motions
-from towercrane.ramps import shape_ramps
-from towercrane.rest_study import attempt
-from towercrane.shaping import DESIGNS, boxes, zv, zvd
+from towercrane.cases.case import CaseError, load_case
+from towercrane.cases.models import model_of
+from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
+from towercrane.motions.motion import rest, sequence, trapezoid
+from towercrane.motions.plans import Move, NotSettled, Plan, Shaping, shaped_motions
+from towercrane.motions.ramps import shape_ramps
+from towercrane.motions.shaping import DESIGNS, boxes, zv, zvd
+from towercrane.studies.rest_study import attempt
 
 CASE = "qtz5613/condition-3"
 TROLLEY = trapezoid(10.0, 40.0, 0.8, 0.2)

@@ -8,8 +8,8 @@ import pytest
 from qtz5613 import CONDITIONS, CRANE, model, motions
 
 from modal import cantilever_modes
-from towercrane.plots import radial, style
-from towercrane.simulate import simulate
+from towercrane.report.plots import radial, style
+from towercrane.simulation.simulate import simulate
 
 matplotlib.use("Agg")
 

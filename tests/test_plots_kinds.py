@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from lab_crane import crane, motions
 
-from towercrane.case import load_case
-from towercrane.folder import RUN_FILES
-from towercrane.plots import jib, sensitivity, slewing, space
-from towercrane.simulate import run_case, simulate
+from towercrane.cases.case import load_case
+from towercrane.report.folder import RUN_FILES
+from towercrane.report.plots import jib, sensitivity, slewing, space
+from towercrane.simulation.simulate import run_case, simulate
 
 NOTE = json.dumps([["crane.mass.jib_tip", "14 kg", "not printed"]])
 

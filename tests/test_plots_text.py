@@ -8,11 +8,11 @@ import pytest
 from matplotlib.figure import Figure
 from PIL import Image
 
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
 from towercrane.cli import _pictures
-from towercrane.plots import style
-from towercrane.plots.literal import LiteralFigure
-from towercrane.simulate import run_case
+from towercrane.report.plots import style
+from towercrane.report.plots.literal import LiteralFigure
+from towercrane.simulation.simulate import run_case
 
 ODD = ["a $5 \\foo $6", "$$ \\frac{", "$x_1^2$", "_hidden", "x\ny", "中文 кран \u202e \x1b[31m", "%s {} [red] " * 3]
 

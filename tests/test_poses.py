@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from towercrane import results
-from towercrane.case import load_case
-from towercrane.poses import SHOWN, Poses, poses_of
-from towercrane.result_case import case_of
-from towercrane.simulate import run_case
+from towercrane.cases.case import load_case
+from towercrane.cases.poses import SHOWN, Poses, poses_of
+from towercrane.cases.result_case import case_of
+from towercrane.results import files as results
+from towercrane.simulation.simulate import run_case
 
 CASES = {
     "radial": ("qtz5613/condition-3", "run.duration=12 s"),

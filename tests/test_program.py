@@ -11,11 +11,11 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
-from towercrane import results
 from towercrane.__main__ import main
 from towercrane.cli import app
-from towercrane.folder import write_run
-from towercrane.plots.style import figure_of
+from towercrane.report.folder import write_run
+from towercrane.report.plots.style import figure_of
+from towercrane.results import files as results
 
 RUN = ("run", "qtz5613/condition-3", "--no-pictures", "--set", "run.duration=1 s")
 posix = pytest.mark.skipif(os.name == "nt", reason="signals, limits and links of POSIX")
@@ -89,7 +89,7 @@ def test_interrupt_that_a_library_turns_into_another_error_is_an_interrupt(raise
 from importlib.abc import MetaPathFinder
 class Interrupted(MetaPathFinder):
     def find_spec(self, name, path, target=None):
-        if name == "towercrane.shipped":
+        if name == "towercrane.cases.shipped":
             try:
                 os.kill(os.getpid(), signal.SIGINT)
             except KeyboardInterrupt as error:

@@ -10,22 +10,16 @@ import pytest
 from qtz5613 import CRANE, motions, standing
 from typer.testing import CliRunner
 
-from modal.beam import Beam
-from modal.chain import Chain, Foundation
-from modal.segment import Segment
-from modal.torsion import Shaft
-from towercrane import load_case, results
-from towercrane.accuracy import Indicators, choose
-from towercrane.cli import app
-from towercrane.cranes.lumped_data import Drive
-from towercrane.cranes.tower_crane import TowerCrane
-from towercrane.cranes.wind import WindAreas, steady
-from towercrane.indicators import _slip_by_swing, drift, vibration
-from towercrane.ladders import measured_choice
-from towercrane.motion import rest, sequence, smooth_ramps, trapezoid
-from towercrane.nodes import OUTPUTS, RICHEST, SWING, nodes_of
-from towercrane.payload import Load
-from towercrane.promise import (
+from modal.beams.beam import Beam
+from modal.beams.chain import Chain, Foundation
+from modal.beams.segment import Segment
+from modal.beams.torsion import Shaft
+from towercrane import load_case
+from towercrane.accuracy.choice import Indicators, choose
+from towercrane.accuracy.indicators import _slip_by_swing, drift, vibration
+from towercrane.accuracy.instants import OUTPUTS, RICHEST, SWING, nodes_of
+from towercrane.accuracy.mode_convergence import measured_choice
+from towercrane.accuracy.promise import (
     AS_ASKED,
     BROKEN,
     CANNOT_BE_PROMISED,
@@ -36,12 +30,19 @@ from towercrane.promise import (
     settle,
     verification,
 )  # fmt: skip
-from towercrane.readings import Tolerance, gap, peak
-from towercrane.recording import Recording
-from towercrane.scene import RadialScene, Setting
-from towercrane.shaping import minimum_jerk
-from towercrane.simulate import record_case
-from towercrane.space_scene import SpaceScene
+from towercrane.accuracy.scene import RadialScene, Setting
+from towercrane.accuracy.space_scene import SpaceScene
+from towercrane.cli import app
+from towercrane.cranes.parts.wind import WindAreas, steady
+from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.parameters import TowerCrane
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest, sequence, smooth_ramps, trapezoid
+from towercrane.motions.shaping import minimum_jerk
+from towercrane.results import files as results
+from towercrane.results.measures import Tolerance, gap, peak
+from towercrane.results.recording import Recording
+from towercrane.simulation.simulate import record_case
 
 OPEN = "qtz5613/within-1e-3"
 STEEL = 206e9
@@ -264,7 +265,7 @@ def test_a_promise_that_its_verification_breaks_ends_with_an_exit_code(tmp_path,
 
     command = ["run", OPEN, "--verify", "--no-pictures", "--out", str(tmp_path), "--set", "run.duration=5 s"]
     assert CliRunner().invoke(app, command).exit_code == 0
-    monkeypatch.setattr("towercrane.promise.verification", found)
+    monkeypatch.setattr("towercrane.accuracy.promise.verification", found)
     done = CliRunner().invoke(app, command)
     assert done.exit_code == 1
     assert "the error asked for is promise broken" in done.stderr

@@ -9,11 +9,11 @@ from numpy.testing import assert_allclose
 from qtz5613 import CONDITIONS, CRANE, model, motions, standing
 from scipy.integrate import solve_ivp
 
-from towercrane.cranes.radial import RadialModel
-from towercrane.drift import EnergyDriftWarning
-from towercrane.motion import rest, s_curve, sequence, trapezoid
-from towercrane.payload import Load
-from towercrane.simulate import simulate
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest, s_curve, sequence, trapezoid
+from towercrane.simulation.drift import EnergyDriftWarning
+from towercrane.simulation.simulate import simulate
 
 RUN_OPTIONS = ("state", "rtol", "atol", "output_step", "method")
 TIGHT = {"rtol": 1e-11, "atol": 1e-13}

@@ -9,9 +9,9 @@ import pytest
 
 from modal import Chain, EndBody, Foundation, Segment, crane_structure
 from towercrane import load_case
-from towercrane.cranes.radial import RadialModel
-from towercrane.simulate import simulate
-from towercrane.towers import as_chain, crane_frame, joined
+from towercrane.cranes.tower.file.build import as_chain, crane_frame, joined
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.simulation.simulate import simulate
 
 CASE = load_case("qtz5613/condition-3")
 CRANE = CASE.radial_crane()

@@ -11,8 +11,8 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 from qtz5613 import CRANE
 
-from towercrane.cranes.radial import RadialModel
-from towercrane.payload import Load
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.kernels.payload import Load
 
 GAUSS = leggauss(32)
 
@@ -191,7 +191,7 @@ def test_accelerations_fulfil_the_virtual_work_of_positions(options):
 
 def test_mass_matrix_is_symmetric_positive_definite_anywhere():
     # The whole matrix that is factored: structure, trolley, and the load along the rope.
-    from towercrane.payload import JACOBIAN, MASS
+    from towercrane.kernels.payload import JACOBIAN, MASS
 
     rng = np.random.default_rng(0)
     model = RadialModel(CRANE, Load(800.0), 3, 4)

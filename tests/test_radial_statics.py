@@ -6,11 +6,11 @@ from numpy.testing import assert_allclose
 from qtz5613 import CRANE, model, standing
 
 from modal import crane_structure, finite_element_structure_frequencies
-from towercrane.cranes.radial import RadialModel
-from towercrane.payload import Load
-from towercrane.simulate import simulate
-from towercrane.system import NoEquilibrium
-from towercrane.towers import frame_of
+from towercrane.cranes.tower.file.build import frame_of
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.kernels.payload import Load
+from towercrane.simulation.simulate import simulate
+from towercrane.simulation.system import NoEquilibrium
 
 # --- equilibrium ---------------------------------------------------------------------------------------
 

@@ -8,12 +8,12 @@ import pytest
 
 from modal import Beam, EndBody, cantilever_modes
 from towercrane import load_case
-from towercrane.lattice_command import lattice_report
-from towercrane.models import slewing_builder
-from towercrane.readings import gap
-from towercrane.sensitivity import OUTPUTS, study
-from towercrane.simulate import record_case
-from towercrane.summary import summarise
+from towercrane.cases.models import slewing_builder
+from towercrane.commands.lattice import lattice_report
+from towercrane.results.measures import gap
+from towercrane.runs.summary import summarise
+from towercrane.simulation.simulate import record_case
+from towercrane.studies.sensitivity import OUTPUTS, study
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 NUMBER = re.compile(r"(?<![\w.^])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")

@@ -10,18 +10,18 @@ import space_crane as space
 from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
-from towercrane import rest_study
-from towercrane.candidates import candidates
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
+from towercrane.cases.models import model_of
 from towercrane.cli import app
-from towercrane.cranes.sway_frequencies import PendulumFrequencies, SwayFrequencies
-from towercrane.drive_table import drive_table
-from towercrane.models import model_of
-from towercrane.motion import trapezoid
-from towercrane.plans import Move, Plan, Shaping, shaped_motions
-from towercrane.plots import shaping as pictured
-from towercrane.rest_study import RestStudy, Row, Trial, attempt, report, study
-from towercrane.shaping import zv
+from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
+from towercrane.motions.motion import trapezoid
+from towercrane.motions.plans import Move, Plan, Shaping, shaped_motions
+from towercrane.motions.shaping import zv
+from towercrane.report.drive_table import drive_table
+from towercrane.report.plots import shaping as pictured
+from towercrane.studies import rest_study
+from towercrane.studies.candidates import candidates
+from towercrane.studies.rest_study import RestStudy, Row, Trial, attempt, report, study
 
 CASE = "qtz5613/condition-3"
 
@@ -103,7 +103,7 @@ def test_hoists_keep_their_own_shaping_and_shaped_cases_are_tried_too():
 
 
 def test_cases_shaped_for_the_model_are_calm():
-    from towercrane.simulate import run_case
+    from towercrane.simulation.simulate import run_case
 
     left = {}
     for shape in ("trapezoid", "zvd"):

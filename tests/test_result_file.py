@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from towercrane import results
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
 from towercrane.cli import app
-from towercrane.simulate import run_case
+from towercrane.results import files as results
+from towercrane.simulation.simulate import run_case
 
 KINDS = {
     "radial": "qtz5613/condition-3",

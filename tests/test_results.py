@@ -8,9 +8,9 @@ import xarray as xr
 from numpy.testing import assert_allclose
 from qtz5613 import model, motions
 
-from towercrane import results
-from towercrane.case import load_case
-from towercrane.simulate import record, record_case, simulate
+from towercrane.cases.case import load_case
+from towercrane.results import files as results
+from towercrane.simulation.simulate import record, record_case, simulate
 
 
 @pytest.fixture(scope="module")

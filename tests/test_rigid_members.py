@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from towercrane import results
 from towercrane.cli import app
+from towercrane.results import files as results
 
 IN_THE_PLANE, IN_SPACE = "qtz5613/condition-3", "qtz5613/slewing"
 PLANE = ("tower_modes", "jib_modes")

@@ -8,13 +8,13 @@ import qtz5613
 from numpy.testing import assert_allclose
 from pendulums import Pendulum
 
-from towercrane.case import load_case
-from towercrane.directions import restore, restore_rows
-from towercrane.integrate import METHODS, integrate
-from towercrane.lanes import LaneRun, integrate_many
-from towercrane.models import model_of
-from towercrane.motion import phases, rest
-from towercrane.simulate import simulate
+from towercrane.cases.case import load_case
+from towercrane.cases.models import model_of
+from towercrane.motions.motion import phases, rest
+from towercrane.simulation.directions import restore, restore_rows
+from towercrane.simulation.integrate import METHODS, integrate
+from towercrane.simulation.lanes.many import LaneRun, integrate_many
+from towercrane.simulation.simulate import simulate
 
 GRAVITY = qtz5613.CRANE.gravity
 SPAN = 1800.0

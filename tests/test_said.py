@@ -3,21 +3,21 @@
 import numpy as np
 import pytest
 
-from towercrane.candidates import candidates
-from towercrane.cranes.sway_frequencies import PendulumFrequencies
-from towercrane.motion import rest, trapezoid
-from towercrane.plans import Move, Plan
-from towercrane.tables.modes import lattice_tables, linear_tables
-from towercrane.tables.runs import run_tables, verification_tables
-from towercrane.tables.space import comparison_tables, space_modes_tables
-from towercrane.tables.studies import sensitivity_tables, shape_tables, sweep_tables
+from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies
+from towercrane.motions.motion import rest, trapezoid
+from towercrane.motions.plans import Move, Plan
+from towercrane.report.tables.modes import lattice_tables, linear_tables
+from towercrane.report.tables.runs import run_tables, verification_tables
+from towercrane.report.tables.space import comparison_tables, space_modes_tables
+from towercrane.report.tables.studies import sensitivity_tables, shape_tables, sweep_tables
+from towercrane.studies.candidates import candidates
 
 ASSUMED = [{"key": "a.key", "value": "3 m", "why": "some reason"}]
 
 
 @pytest.fixture(autouse=True)
 def _wide(monkeypatch):
-    monkeypatch.setattr("towercrane.tables.layout.WIDTH_OF_A_PIPE", 400)
+    monkeypatch.setattr("towercrane.report.tables.layout.WIDTH_OF_A_PIPE", 400)
 
 
 def rows_of(text):

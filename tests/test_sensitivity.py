@@ -7,11 +7,11 @@ import pytest
 from lab_crane import BASIC, BUILDERS, LOAD, crane, motions
 from numpy.testing import assert_allclose
 
-from towercrane.cranes.lumped import LumpedModel
-from towercrane.cranes.reduce import make_rigid
-from towercrane.cranes.slewing_parameters import BasicParameters
-from towercrane.sensitivity import parameters_of, study
-from towercrane.simulate import simulate
+from towercrane.cranes.slewing.model import LumpedModel
+from towercrane.cranes.slewing.parameters import BasicParameters
+from towercrane.cranes.slewing.reduce import make_rigid
+from towercrane.simulation.simulate import simulate
+from towercrane.studies.sensitivity import parameters_of, study
 
 MEMBERS = [spring.name for spring in crane("multi-mass").crane.springs]
 

@@ -7,13 +7,13 @@ import pytest
 import space_crane as space
 from numpy.testing import assert_allclose
 
-from towercrane.cranes.damping import ModalDamping
-from towercrane.cranes.scaled_torsion import ScaledTorsion
-from towercrane.cranes.sway_frequencies import PendulumFrequencies, SwayFrequencies
-from towercrane.motion import rest
-from towercrane.plans import Move, Plan, Shaping, shaped_motions
-from towercrane.rest_study import attempt, resting_place
-from towercrane.shaping import boxes, ei, minimum_jerk, zv, zvd
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.scaled_torsion import ScaledTorsion
+from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
+from towercrane.motions.motion import rest
+from towercrane.motions.plans import Move, Plan, Shaping, shaped_motions
+from towercrane.motions.shaping import boxes, ei, minimum_jerk, zv, zvd
+from towercrane.studies.rest_study import attempt, resting_place
 
 DAMPED = ModalDamping(0.01, 0.01, 0.01, 0.01)
 SLEWING = {"trolley": rest(30.0), "rope": rest(15.0), "slewing": space.manoeuvre()["slewing"]}

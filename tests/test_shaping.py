@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from oscillator import residual
 
-from towercrane.motion import SAME_INSTANT, rest, s_curve, sequence, smooth_ramps, trapezoid
-from towercrane.ramps import ramps, shape_ramps
-from towercrane.shaping import DESIGNS, Shaper, boxes, ei, minimum_jerk, zv, zvd
+from towercrane.motions.motion import SAME_INSTANT, rest, s_curve, sequence, smooth_ramps, trapezoid
+from towercrane.motions.ramps import ramps, shape_ramps
+from towercrane.motions.shaping import DESIGNS, Shaper, boxes, ei, minimum_jerk, zv, zvd
 
 frequency = st.floats(0.05, 0.5)
 limit = st.floats(0.05, 2.0)

@@ -20,10 +20,10 @@ from lab_crane import (
 )
 from numpy.testing import assert_allclose
 
-from towercrane.cranes.lumped import LumpedModel
-from towercrane.cranes.lumped_outputs import position
-from towercrane.motion import rest, sequence, trapezoid
-from towercrane.payload import Load
+from towercrane.cranes.slewing.model import LumpedModel
+from towercrane.cranes.slewing.outputs import position
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest, sequence, trapezoid
 
 KINDS = tuple(PARAMETERS)
 STILL = {"shaft": rest(0.0), "rope": rest(2.0)}

@@ -16,10 +16,10 @@ import pytest
 from lab_crane import BUILDERS, PARAMETERS, crane, lossless, motions, run
 from scipy.integrate import solve_ivp
 
-from towercrane.cranes import lumped_kernel as kernel
-from towercrane.cranes.lumped import LumpedModel
-from towercrane.motion import phases, rest, trapezoid
-from towercrane.payload import Load
+from towercrane.cranes.slewing import kernel
+from towercrane.cranes.slewing.model import LumpedModel
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import phases, rest, trapezoid
 
 ORDER = {
     "multi-mass": ("z4", "phi3", "y3", "x3", "phi2", "phi1", "phi4", "z6"),

@@ -10,13 +10,13 @@ from lab_crane import MULTI_MASS, PARAMETERS, crane, lossless, motions, run
 from numpy.testing import assert_allclose
 from scipy.special import ellipj, ellipk
 
-from towercrane.cranes import lumped_kernel as kernel
-from towercrane.cranes.lumped import LumpedModel
-from towercrane.cranes.lumped_data import Drive, Link, LumpedCrane, Point
-from towercrane.integrate import integrate
-from towercrane.motion import phases, rest, trapezoid
-from towercrane.payload import Load
-from towercrane.simulate import simulate
+from towercrane.cranes.slewing import kernel
+from towercrane.cranes.slewing.description import Drive, Link, LumpedCrane, Point
+from towercrane.cranes.slewing.model import LumpedModel
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import phases, rest, trapezoid
+from towercrane.simulation.integrate import integrate
+from towercrane.simulation.simulate import simulate
 
 STILL = {"shaft": rest(0.0), "rope": rest(2.0)}
 

@@ -17,10 +17,10 @@ from lab_crane import (
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from towercrane.cranes import slewing
-from towercrane.cranes.lumped import LumpedModel
-from towercrane.cranes.lumped_data import Link, Point
-from towercrane.motion import phases
+from towercrane.cranes.slewing import models as slewing
+from towercrane.cranes.slewing.description import Link, Point
+from towercrane.cranes.slewing.model import LumpedModel
+from towercrane.motions.motion import phases
 
 # --- limits --------------------------------------------------------------------------------------------
 

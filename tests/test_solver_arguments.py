@@ -5,11 +5,11 @@ import pytest
 import qtz5613
 from exact_systems import driven, oscillator
 
-from towercrane.case import load_case
-from towercrane.integrate import METHODS, evaluate, integrate
-from towercrane.lanes import LaneRun, integrate_many
-from towercrane.motion import phases
-from towercrane.simulate import record, record_case, simulate
+from towercrane.cases.case import load_case
+from towercrane.motions.motion import phases
+from towercrane.simulation.integrate import METHODS, evaluate, integrate
+from towercrane.simulation.lanes.many import LaneRun, integrate_many
+from towercrane.simulation.simulate import record, record_case, simulate
 
 
 @pytest.mark.parametrize("name", ["rtol", "atol"])

@@ -10,14 +10,14 @@ from case_files import copy_case, only_fault
 from numpy.testing import assert_allclose, assert_array_equal
 
 from modal import Chain
-from towercrane.case import CaseError, case_folder, load_case
-from towercrane.cranes.lumped_data import Drive
-from towercrane.cranes.small_motions import natural_modes
-from towercrane.cranes.wind import WindAreas
-from towercrane.linear_report import linear_model
-from towercrane.models import model_of
-from towercrane.simulate import run_case, simulate
-from towercrane.summary import summarise
+from towercrane.cases.case import CaseError, case_folder, load_case
+from towercrane.cases.models import model_of
+from towercrane.cranes.parts.wind import WindAreas
+from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.runs.summary import summarise
+from towercrane.simulation.simulate import run_case, simulate
+from towercrane.studies.linear_report import linear_model
 
 MANOEUVRE, SLEWING, DRIVEN = "qtz5613/manoeuvre", "qtz5613/slewing", "qtz5613/soft-drive"
 DAMPED = ("tower", "torsion", "jib_lateral", "jib_vertical")

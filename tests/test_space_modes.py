@@ -7,14 +7,14 @@ import pytest
 from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
+from towercrane.cases.models import space_model
 from towercrane.cli import app
-from towercrane.cranes.flexible_motion import FlexibleMotion
-from towercrane.models import space_model
-from towercrane.motion import rest
-from towercrane.plots import space_modes as pictured
-from towercrane.space_modes import Place, drawn_sweeps, modes_at, modes_rest_on, place_at, space_frequencies
-from towercrane.space_shapes import crane_lines
+from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.motions.motion import rest
+from towercrane.report.plots import space_modes as pictured
+from towercrane.studies.space_modes import Place, drawn_sweeps, modes_at, modes_rest_on, place_at, space_frequencies
+from towercrane.studies.space_shapes import crane_lines
 
 NAME = "qtz5613/manoeuvre"
 # Two lateral modes on either side of the pendulum, of an independent program [Hz].

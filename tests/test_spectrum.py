@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from towercrane.spectrum import _stands_out, amplitude_spectrum, spectrum_peaks, swing_period
+from towercrane.results.spectrum import _stands_out, amplitude_spectrum, spectrum_peaks, swing_period
 
 TIMES = np.arange(2401) * 0.05
 

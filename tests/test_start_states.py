@@ -6,8 +6,8 @@ from every_kind import TURNED, lumped
 from numpy.testing import assert_allclose
 
 from towercrane import load_case
-from towercrane.motion import phases, rest
-from towercrane.simulate import record, record_case
+from towercrane.motions.motion import phases, rest
+from towercrane.simulation.simulate import record, record_case
 
 ANGLE = 1.0
 TIMES = np.linspace(0.0, 4.0, 41)

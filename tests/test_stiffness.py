@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from determinants import state_matrix
 
-from modal.chain import Chain
-from modal.compiled import kernel
-from modal.piece import SERIES, TERMS, piece_transfer, pieces_within
-from modal.segment import Segment
-from modal.stiffness import make_absolute, relative_stiffness
-from modal.structure import HELD, Member, Structure, chain_frequencies, chain_structure
+from modal.beams.chain import Chain
+from modal.beams.segment import Segment
+from modal.compiler.compiled import kernel
+from modal.structures.piece import SERIES, TERMS, piece_transfer, pieces_within
+from modal.structures.stiffness import make_absolute, relative_stiffness
+from modal.structures.structure import HELD, Member, Structure, chain_frequencies, chain_structure
 
 INF = float("inf")
 WHOLE = 1.0, 1.0, 1.0, 1.0

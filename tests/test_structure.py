@@ -9,11 +9,11 @@ import pytest
 from collocation import collocated_chain
 from determinants import has_root_within
 
-from modal.beam import EndBody
-from modal.chain import Chain, Foundation, Pendulum
-from modal.roots import characteristic_roots
-from modal.segment import Segment
-from modal.structure import HELD, Member, Structure, Unstable, chain_frequencies, chain_structure
+from modal.beams.beam import EndBody
+from modal.beams.chain import Chain, Foundation, Pendulum
+from modal.beams.roots import characteristic_roots
+from modal.beams.segment import Segment
+from modal.structures.structure import HELD, Member, Structure, Unstable, chain_frequencies, chain_structure
 
 INF = float("inf")
 BEAM = Segment(1.0, 1.0, 1.0)

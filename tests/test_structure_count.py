@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modal.beam import EndBody
-from modal.chain import Chain, Foundation, Pendulum
-from modal.roots import characteristic_roots
-from modal.segment import Segment
-from modal.structure import HELD, Member, Structure, Unstable, chain_structure
+from modal.beams.beam import EndBody
+from modal.beams.chain import Chain, Foundation, Pendulum
+from modal.beams.roots import characteristic_roots
+from modal.beams.segment import Segment
+from modal.structures.structure import HELD, Member, Structure, Unstable, chain_structure
 
 BEAM = Segment(1.0, 1.0, 1.0)
 CLAMPED = characteristic_roots(np.inf, np.inf, 3) ** 2

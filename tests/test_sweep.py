@@ -8,9 +8,10 @@ import pytest
 from numpy.testing import assert_allclose
 from test_cli import towercrane
 
-from towercrane import load_case, results, run_case, sweep
-from towercrane.summary import peaks
-from towercrane.variations import grid
+from towercrane import load_case, run_case, sweep
+from towercrane.results import files as results
+from towercrane.runs.summary import peaks
+from towercrane.runs.sweep import grid
 
 SHORT = ["run.duration=8 s", "solver.rtol=1e-5", "solver.atol=1e-7", "model.jib_modes=1", "model.tower_modes=1"]
 

@@ -10,17 +10,18 @@ from case_files import copy_case
 from numpy.testing import assert_allclose
 from test_cli import towercrane
 
-from towercrane import load_case, results, run_case, sweep
-from towercrane.cranes.flexible_layout import STIFFNESS
-from towercrane.faults import CaseError
-from towercrane.kinds import KINDS, known_keys, unit_of
-from towercrane.models import radial_model
-from towercrane.plausibility import RANGES
-from towercrane.schema import tables
-from towercrane.summary import accuracy, peaks
-from towercrane.sweep_data import BAD_INPUT, RADIAL_OUTPUTS
-from towercrane.units import to_si
-from towercrane.variations import grid
+from towercrane import load_case, run_case, sweep
+from towercrane.cases.kinds import KINDS, known_keys, unit_of
+from towercrane.cases.models import radial_model
+from towercrane.cases.plausibility import RANGES
+from towercrane.cranes.tower.kernels.layout import STIFFNESS
+from towercrane.results import files as results
+from towercrane.runs.summary import accuracy, peaks
+from towercrane.runs.sweep import grid
+from towercrane.runs.sweep_data import BAD_INPUT, RADIAL_OUTPUTS
+from towercrane.schema.faults import CaseError
+from towercrane.schema.fields import tables
+from towercrane.schema.units import to_si
 
 SHORT = ("run.duration=3 s", "solver.rtol=1e-4", "solver.atol=1e-6")
 HOIST = 'motion.hoist={shape="trapezoid", end="18 m", speed="0.5 m/s", acceleration="0.2 m/s^2"}'

@@ -5,9 +5,9 @@ import pytest
 from every_kind import KINDS, lumped
 from numpy.testing import assert_allclose
 
-from towercrane.integrate import evaluate
-from towercrane.lanes import LaneRun, integrate_many
-from towercrane.motion import phases
+from towercrane.motions.motion import phases
+from towercrane.simulation.integrate import evaluate
+from towercrane.simulation.lanes.many import LaneRun, integrate_many
 
 END = 4.0
 """After the last switch of all motions [s]."""

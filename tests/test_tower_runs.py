@@ -12,14 +12,14 @@ from tower_files import ONE_SEGMENT, SEGMENTS, UNIFORM, write_case
 
 from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Segment, crane_structure
 from towercrane import Load, RadialModel, TowerCrane, load_case, run_case
-from towercrane.linearise import linearise
-from towercrane.models import radial_model
-from towercrane.motion import rest, trapezoid
-from towercrane.natural import natural_frequencies
-from towercrane.simulate import simulate
-from towercrane.summary import summarise
-from towercrane.tables.modes import modes_tables
-from towercrane.towers import crane_frame
+from towercrane.cases.models import radial_model
+from towercrane.cranes.tower.file.build import crane_frame
+from towercrane.linear.linearise import linearise
+from towercrane.motions.motion import rest, trapezoid
+from towercrane.report.tables.modes import modes_tables
+from towercrane.runs.summary import summarise
+from towercrane.simulation.simulate import simulate
+from towercrane.studies.natural import natural_frequencies
 
 TOWERS = ("towers/laced", "towers/stepped", "towers/tapered")
 JIB = Segment(40.0, 100.0, 210e9 * 0.003)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numba import types
 
-from modal.compiled import kernel
-from modal.traced import traced
-from towercrane.lane_arrays import in_lanes
-from towercrane.lane_vector import LANES
+from modal.compiler.compiled import kernel
+from modal.compiler.traced import traced
+from towercrane.kernels.arrays import in_lanes
+from towercrane.kernels.vector import LANES
 
 
 def arithmetic(a, pair, fixed):

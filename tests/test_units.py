@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from towercrane.faults import shown
-from towercrane.units import COMMON, KINDS, UnitError, registry, split, to_si, wanted
+from towercrane.schema.faults import shown
+from towercrane.schema.units import COMMON, KINDS, UnitError, registry, split, to_si, wanted
 
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3, "in": 0.0254, "ft": 0.3048, "µm": 1e-6, "metre": 1.0}
 

@@ -10,17 +10,17 @@ from numpy.testing import assert_allclose
 from scipy.linalg import expm
 from space_points import CraneCloud
 
-from towercrane.case import load_case
-from towercrane.cranes.damping import ModalDamping
-from towercrane.cranes.lumped_data import Drive
-from towercrane.cranes.wind import WindAreas, gusts, steady
-from towercrane.linear_report import linear_model, linear_report
-from towercrane.linearise import linearise
-from towercrane.models import model_of
-from towercrane.motion import Motion, phases, rest, trapezoid
-from towercrane.payload import Load
-from towercrane.simulate import run_case, simulate
-from towercrane.system import start_inputs
+from towercrane.cases.case import load_case
+from towercrane.cases.models import model_of
+from towercrane.cranes.parts.wind import WindAreas, gusts, steady
+from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.kernels.payload import Load
+from towercrane.linear.linearise import linearise
+from towercrane.motions.motion import Motion, phases, rest, trapezoid
+from towercrane.simulation.simulate import run_case, simulate
+from towercrane.simulation.system import start_inputs
+from towercrane.studies.linear_report import linear_model, linear_report
 
 AREAS = WindAreas(tower=3.0, jib=1.2, counter_jib=1.5, counterweight=8.0)
 LOAD = Load(400.0, rope_damping=400.0, drag_area=7.2)
@@ -167,7 +167,7 @@ def test_linear_model_answers_a_gust_as_the_crane_does():
 
 
 def _course(model, motions, state, span, shown):
-    from towercrane.integrate import evaluate, integrate
+    from towercrane.simulation.integrate import evaluate, integrate
 
     cut = phases(tuple(motions[channel] for channel in model.channels), span)
     times = np.array([span])

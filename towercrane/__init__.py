@@ -2,7 +2,8 @@
 
 ``load_case`` reads a case file and ``run_case`` simulates it. ``TowerCrane``, ``Load`` and ``RadialModel``
 (or ``FlexibleModel`` of a ``flexible_crane`` in space) with
-:func:`towercrane.simulate.simulate` and the motions of :mod:`towercrane.motion` do the same without files.
+:func:`towercrane.simulation.simulate.simulate` and the motions of :mod:`towercrane.motions.motion` do the same
+without files.
 """
 
 from __future__ import annotations
@@ -11,14 +12,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from towercrane.case import load_case
-    from towercrane.cranes.flexible import FlexibleModel
-    from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
-    from towercrane.cranes.radial import RadialModel
-    from towercrane.cranes.tower_crane import TowerCrane
-    from towercrane.payload import Load
-    from towercrane.simulate import run_case
-    from towercrane.variations import sweep
+    from towercrane.cases.case import load_case
+    from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
+    from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.parameters import TowerCrane
+    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.kernels.payload import Load
+    from towercrane.runs.sweep import sweep
+    from towercrane.simulation.simulate import run_case
 
 __all__ = [
     "FlexibleModel",

@@ -45,7 +45,7 @@ def main() -> None:
     if code == CLOSED_PIPE:
         os._exit(code)
     if interrupts or code == INTERRUPTED:
-        from towercrane.terminal import say
+        from towercrane.commands.terminal import say
 
         say("interrupted")
         # At once: after Ctrl-C an orderly end may report the signal instead.
@@ -59,7 +59,7 @@ def main() -> None:
 def _run() -> int:
     """Do what the arguments say; the exit code."""
     from towercrane.cli import app
-    from towercrane.terminal import show_warning
+    from towercrane.commands.terminal import show_warning
 
     warnings.showwarning = lambda message, *place, **more: show_warning(message)
     return app(standalone_mode=False) or 0
@@ -67,9 +67,9 @@ def _run() -> int:
 
 def _code(error: BaseException, interrupted: bool) -> Any:
     """Exit code of an ending by an exception, whose message is said; one that nobody foresaw is raised again."""
-    from modal.compiled import NoCompiler
-    from towercrane.faults import CaseError
-    from towercrane.terminal import BAD_INPUT, say
+    from modal.compiler.compiled import NoCompiler
+    from towercrane.commands.terminal import BAD_INPUT, say
+    from towercrane.schema.faults import CaseError
 
     causes = list(_causes(error))
     if any(isinstance(cause, BrokenPipeError) for cause in causes):

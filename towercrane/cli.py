@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from towercrane.__main__ import main
-from towercrane.animate_command import animate
-from towercrane.compare_command import compare
-from towercrane.lattice_command import lattice
-from towercrane.map_command import frequency_map
-from towercrane.space_command import space_modes
-from towercrane.studies import bench, linearise, sensitivity, shape
-from towercrane.sweeps import sweep
-from towercrane.terminal import (
+from towercrane.commands.animate import animate
+from towercrane.commands.compare import compare
+from towercrane.commands.lattice import lattice
+from towercrane.commands.linearise import bench, linearise, sensitivity, shape
+from towercrane.commands.map import frequency_map
+from towercrane.commands.space_modes import space_modes
+from towercrane.commands.sweep import sweep
+from towercrane.commands.terminal import (
     ENDED_EARLY,
     INTERRUPTED,
     NOT_AS_EXPECTED,
@@ -43,7 +43,7 @@ from towercrane.terminal import (
 if TYPE_CHECKING:
     import xarray as xr
 
-    from towercrane.case import Case
+    from towercrane.cases.case import Case
 
 app = typer.Typer(
     help="How a tower crane vibrates and how its load swings.",
@@ -78,7 +78,7 @@ def cases(context: typer.Context) -> None:
     """List the cases that ship with the program."""
     if context.invoked_subcommand is not None:
         return
-    from towercrane.case import list_cases
+    from towercrane.cases.case import list_cases
 
     found = list_cases()
     width = max(len(name) for name, _ in found)
@@ -99,7 +99,7 @@ def copy_cases(
     ],
 ) -> None:
     """Copy the shipped cases to a folder of yours, to change them."""
-    from towercrane.case import case_folder
+    from towercrane.cases.case import case_folder
 
     source = case_folder()
     found = sorted([*source.rglob("*.toml"), *source.rglob("*.csv")])
@@ -139,7 +139,7 @@ def modes(
     if out is not None:
         folder_for_results(out)
     announce_compilation("modes", "chain")
-    from towercrane.natural import natural_frequencies
+    from towercrane.studies.natural import natural_frequencies
 
     report = natural_frequencies(loaded, actual=actual)
     if out is not None:
@@ -147,7 +147,7 @@ def modes(
     if as_json:
         tell(json.dumps(report, indent=2))
     else:
-        from towercrane.tables.modes import modes_tables
+        from towercrane.report.tables.modes import modes_tables
 
         modes_tables(report)
         if out is not None:
@@ -174,17 +174,17 @@ def run(
     if verify and loaded.kind not in ("radial", "space"):
         fail(f"--verify: wanted a case of kind 'radial' or 'space', got {loaded.kind!r}")
     folder = out if out is not None else Path("results") / loaded.name
-    from towercrane.folder import RUN_FILES
+    from towercrane.report.folder import RUN_FILES
 
     folder_for_results(folder, RUN_FILES)
     announce_compilation(*loaded.uses, "runs")
-    from towercrane.simulate import record_case
-    from towercrane.summary import summarise
+    from towercrane.runs.summary import summarise
+    from towercrane.simulation.simulate import record_case
 
     result = with_progress(loaded, record_case)
     interrupted, verified = result.attrs["outcome"] == "interrupted", {}
     if verify and result.attrs["outcome"] == "finished":
-        from towercrane.promise import settle, verification
+        from towercrane.accuracy.promise import settle, verification
 
         try:
             verified["verification"] = verification(loaded, result)
@@ -207,7 +207,7 @@ def run(
     if as_json:
         tell(text)
     else:
-        from towercrane.tables.runs import run_tables, verification_tables
+        from towercrane.report.tables.runs import run_tables, verification_tables
 
         run_tables(summary)
         if "verification" in summary:
@@ -231,7 +231,7 @@ def run(
         say(f"the run ended at {summary['end_time_s']:.6g} s: {summary['outcome']}")
         raise typer.Exit(ENDED_EARLY)
     if "accuracy" in summary:
-        from towercrane.promise import AS_ASKED
+        from towercrane.accuracy.promise import AS_ASKED
 
         if summary["accuracy"]["outcome"] not in AS_ASKED:
             say(f"the error asked for is {summary['accuracy']['outcome']}")
@@ -254,8 +254,8 @@ def figures(
     """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
     folder_for_results(out)
     announce_compilation("radial", "runs")
-    from towercrane.plots import radial
-    from towercrane.simulate import run_case
+    from towercrane.report.plots import radial
+    from towercrane.simulation.simulate import run_case
 
     conditions = {}
     for number in (1, 2, 3, 4):
@@ -271,25 +271,25 @@ def figures(
 def _pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
     """Pictures of a run, as its kind of crane has them."""
     if case.kind == "radial":
-        from towercrane.plots import radial
+        from towercrane.report.plots import radial
 
         return {**radial.run_pictures(result), "modes.png": _mode_picture(case)}
     if case.kind == "jib":
-        from towercrane.plots import jib
+        from towercrane.report.plots import jib
 
         return dict(jib.run_pictures(result))
     if case.kind == "space":
-        from towercrane.plots import space
+        from towercrane.report.plots import space
 
         return dict(space.run_pictures(result))
-    from towercrane.plots import slewing
+    from towercrane.report.plots import slewing
 
     return dict(slewing.run_pictures(result))
 
 
 def _mode_picture(case: Case) -> Any:
-    from towercrane.assumptions import as_notes
-    from towercrane.plots import radial
+    from towercrane.cases.assumptions import as_notes
+    from towercrane.report.plots import radial
 
     crane, count = case.radial_crane(), case.modes.count
     notes = as_notes(a for a in case.rests_on if a.key.startswith("crane."))

@@ -18,7 +18,7 @@ from towercrane.bench.space import space_right_hand_sides
 from towercrane.bench.space_accuracy import error_controlled_in_space
 from towercrane.bench.structure import crane_map, stepped_tower
 from towercrane.bench.workprecision import work_precision
-from towercrane.simulate import versions
+from towercrane.simulation.simulate import versions
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy import SMALLEST_PEAK, Choice, Indicators, candidates, choose, free_frequency
+from towercrane.accuracy.choice import SMALLEST_PEAK, Choice, Indicators, candidates, choose, free_frequency
+from towercrane.accuracy.instants import OUTPUTS, TENSION
+from towercrane.accuracy.promise import KEPT, OUT_OF_REACH
+from towercrane.accuracy.scene import Setting
 from towercrane.bench.clock import short
 from towercrane.bench.drawn import scenes
-from towercrane.integrate import FINISHED
-from towercrane.nodes import OUTPUTS, TENSION
-from towercrane.promise import KEPT, OUT_OF_REACH
-from towercrane.readings import Tolerance, gap, peak
-from towercrane.scene import Setting
-from towercrane.system import NoEquilibrium
+from towercrane.results.measures import Tolerance, gap, peak
+from towercrane.simulation.integrate import FINISHED
+from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.recording import Recording
-    from towercrane.scene import RadialScene
+    from towercrane.accuracy.scene import RadialScene
+    from towercrane.results.recording import Recording
 
     Floats = NDArray[np.float64]
 

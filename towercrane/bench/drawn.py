@@ -7,23 +7,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.accuracy.scene import RadialScene
+from towercrane.accuracy.space_scene import SpaceScene
 from towercrane.bench.drawn_cranes import any_crane, familiar_crane, in_space, spread
-from towercrane.cranes.damping import ModalDamping
-from towercrane.cranes.lumped_data import Drive
-from towercrane.cranes.wind import WindAreas, gusts, steady
-from towercrane.motion import rest, s_curve, sequence, smooth_ramps, table, trapezoid
-from towercrane.payload import Load
-from towercrane.scene import RadialScene
-from towercrane.shaping import minimum_jerk
-from towercrane.space_scene import SpaceScene
+from towercrane.cranes.parts.wind import WindAreas, gusts, steady
+from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest, s_curve, sequence, smooth_ramps, table, trapezoid
+from towercrane.motions.shaping import minimum_jerk
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.random import Generator
 
-    from towercrane.cranes.tower_crane import TowerCrane
-    from towercrane.motion import Motion
+    from towercrane.cranes.tower.parameters import TowerCrane
+    from towercrane.motions.motion import Motion
 
 FAMILIAR = 0.25
 """Part of the scenes whose crane is about the QTZ5613."""

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.beam import Beam, EndBody
-from modal.chain import Chain, Foundation
-from modal.segment import Segment
-from modal.torsion import Shaft
-from towercrane.cranes.tower_crane import TowerCrane
-from towercrane.towers import TAPER_POWERS
+from modal.beams.beam import Beam, EndBody
+from modal.beams.chain import Chain, Foundation
+from modal.beams.segment import Segment
+from modal.beams.torsion import Shaft
+from towercrane.cranes.tower.file.build import TAPER_POWERS
+from towercrane.cranes.tower.parameters import TowerCrane
 
 if TYPE_CHECKING:
     from numpy.random import Generator

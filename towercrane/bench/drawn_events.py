@@ -13,21 +13,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.case import load_case
-from towercrane.cranes.jib_crane import JibCrane, PlannedJibCrane
-from towercrane.cranes.lumped_data import Drive
-from towercrane.cranes.wind import gusts
-from towercrane.models import SLEWING, radial_model, slewing_builder, space_model
-from towercrane.motion import rest, sequence, speed_trapezoid
-from towercrane.payload import Load
+from towercrane.cases.case import load_case
+from towercrane.cases.models import SLEWING, radial_model, slewing_builder, space_model
+from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
+from towercrane.cranes.parts.wind import gusts
+from towercrane.cranes.slewing.description import Drive
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest, sequence, speed_trapezoid
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from towercrane.case import Case
-    from towercrane.cranes.slewing_parameters import FrictionLaw
-    from towercrane.motion import Motion
-    from towercrane.system import Model
+    from towercrane.cases.case import Case
+    from towercrane.cranes.slewing.parameters import FrictionLaw
+    from towercrane.motions.motion import Motion
+    from towercrane.simulation.system import Model
 
 TICK = 0.25
 """All times are multiples of it [s]."""
@@ -37,7 +37,7 @@ KINDS = (*SLEWING, "radial", "prescribed slewing", "slewing drive", "jib")
 
 @dataclass(frozen=True, eq=False)
 class EventScene:
-    """What is run, as :func:`towercrane.simulate.record` wants it."""
+    """What is run, as :func:`towercrane.simulation.simulate.record` wants it."""
 
     kind: str
     model: Model

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from towercrane.bench.clock import interleaved
-from towercrane.integrate import evaluate
+from towercrane.simulation.integrate import evaluate
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
-    from towercrane.motion import Phases
-    from towercrane.system import System
+    from towercrane.motions.motion import Phases
+    from towercrane.simulation.system import System
 
 COUNT = 20_000
 """Evaluations in one compiled loop."""

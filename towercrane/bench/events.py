@@ -10,14 +10,14 @@ import numpy as np
 
 from towercrane.bench.clock import short
 from towercrane.bench.drawn_events import KINDS, TICK, event_scenes
-from towercrane.cranes.lumped import SLACK_ROPE
-from towercrane.integrate import FINISHED, INTERRUPTED
-from towercrane.simulate import record
-from towercrane.summary import energy_balance
+from towercrane.cranes.slewing.model import SLACK_ROPE
+from towercrane.runs.summary import energy_balance
+from towercrane.simulation.integrate import FINISHED, INTERRUPTED
+from towercrane.simulation.simulate import record
 
 if TYPE_CHECKING:
     from towercrane.bench.drawn_events import EventScene
-    from towercrane.recording import Recording
+    from towercrane.results.recording import Recording
 
 RUNS, QUICK_RUNS, SEED = 10_000, 70, 7
 

@@ -8,18 +8,18 @@ import numpy as np
 
 from towercrane.bench.clock import whole
 from towercrane.bench.scenes import unwatched
-from towercrane.case import load_case
-from towercrane.cranes.flexible_energy import total_energy
-from towercrane.cranes.flexible_motion import FlexibleMotion
-from towercrane.drift import ATOL_SHARE
-from towercrane.integrate import FINISHED, integrate
-from towercrane.models import radial_model
-from towercrane.motion import phases, rest
+from towercrane.cases.case import load_case
+from towercrane.cases.models import radial_model
+from towercrane.cranes.tower.energy import total_energy
+from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.motions.motion import phases, rest
+from towercrane.simulation.drift import ATOL_SHARE
+from towercrane.simulation.integrate import FINISHED, integrate
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.integrate import Trajectory
+    from towercrane.simulation.integrate import Trajectory
 
     Floats = NDArray[np.float64]
 

@@ -9,15 +9,15 @@ import numpy as np
 
 from towercrane.bench.clock import interleaved, whole
 from towercrane.bench.scenes import unwatched
-from towercrane.case import load_case
-from towercrane.integrate import evaluate, integrate
-from towercrane.models import radial_model
-from towercrane.motion import phases, rest
+from towercrane.cases.case import load_case
+from towercrane.cases.models import radial_model
+from towercrane.motions.motion import phases, rest
+from towercrane.simulation.integrate import evaluate, integrate
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from towercrane.cranes.radial import RadialModel
+    from towercrane.cranes.tower.planar import RadialModel
 
 SPANS = (15.0, 30.0, 60.0, 120.0, 240.0, 480.0)
 """Simulated times [s]."""

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.bench.clock import short
-from towercrane.case import list_cases, load_case
-from towercrane.integrate import INTERRUPTED
-from towercrane.simulate import run_case
-from towercrane.summary import energy_balance, expected
-from towercrane.vibration import SIGNALS, SLEWING_SIGNALS
+from towercrane.cases.case import list_cases, load_case
+from towercrane.runs.summary import energy_balance, expected
+from towercrane.runs.vibration import SIGNALS, SLEWING_SIGNALS
+from towercrane.simulation.integrate import INTERRUPTED
+from towercrane.simulation.simulate import run_case
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     import xarray as xr
 
-    from towercrane.schema import Expect
+    from towercrane.schema.fields import Expect
 
 FOLDER = "hard/"
 """Of the shipped cases, those under this name."""
@@ -141,9 +141,9 @@ def difference(kind: str, run: xr.Dataset, reference: xr.Dataset) -> float | Non
 
 def root_records() -> list[dict[str, Any]]:
     """Characteristic roots where they are hardest, and finite elements past their round-off floor."""
-    from modal.beam import Beam
-    from modal.elements import MOST_ELEMENTS
-    from modal.structure_elements import finite_element_frequencies
+    from modal.beams.beam import Beam
+    from modal.elements.beam_elements import MOST_ELEMENTS
+    from modal.elements.structure_elements import finite_element_frequencies
 
     ratios = (1e-8, 1e-4, 1.0, 1e4, 1e8)
     every = [(a, j, 0.0, n) for a in ratios for j in ratios for n in range(1, 7)]
@@ -165,7 +165,7 @@ def root_records() -> list[dict[str, Any]]:
 
 
 def _root_record(name: str, roots: Iterable[tuple[float, float, float, int]]) -> dict[str, Any]:
-    from modal.roots import characteristic_roots, count_roots_below
+    from modal.beams.roots import characteristic_roots, count_roots_below
 
     worst = 0.0
     for a, j, h, n in roots:

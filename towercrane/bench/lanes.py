@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.bench.clock import short, whole
-from towercrane.case import load_case
-from towercrane.cranes.radial_lanes import OUTPUTS
-from towercrane.integrate import INTERRUPTED, evaluate, integrate
-from towercrane.lane_vector import LANES
-from towercrane.lanes import LaneRun, available_cores, integrate_many
-from towercrane.models import radial_model
-from towercrane.motion import phases
-from towercrane.simulate import rows_of
+from towercrane.cases.case import load_case
+from towercrane.cases.models import radial_model
+from towercrane.kernels.vector import LANES
+from towercrane.motions.motion import phases
+from towercrane.simulation.integrate import INTERRUPTED, evaluate, integrate
+from towercrane.simulation.lanes.advance import OUTPUTS
+from towercrane.simulation.lanes.many import LaneRun, available_cores, integrate_many
+from towercrane.simulation.simulate import rows_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.lanes import LaneAnswers
+    from towercrane.simulation.lanes.many import LaneAnswers
 
     Floats = NDArray[np.float64]
 

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from modal import Chain, ColumnTruss, StructureElements, chain_structure
-from modal.lattice import BeamModel
-from modal.lattice_comparison import LatticeAnswers, beam_answers, truss_answers
+from modal.lattices.lattice import BeamModel
+from modal.lattices.lattice_comparison import LatticeAnswers, beam_answers, truss_answers
 from towercrane.bench.clock import interleaved, short
 from towercrane.bench.structure import EXACT, NO_MPMATH, transfer_matrices
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
 
 if TYPE_CHECKING:
     from collections.abc import Callable

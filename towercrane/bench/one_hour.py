@@ -8,9 +8,9 @@ import numpy as np
 
 from towercrane.bench.clock import signed
 from towercrane.bench.free_vibration import CASE, FreeVibration
-from towercrane.drift import ATOL_SHARE
-from towercrane.integrate import METHODS
-from towercrane.tableaus import TABLEAUS
+from towercrane.simulation.drift import ATOL_SHARE
+from towercrane.simulation.integrate import METHODS
+from towercrane.simulation.tableaus import TABLEAUS
 
 HOUR = 3600.0
 """[s]"""

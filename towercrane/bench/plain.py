@@ -1,7 +1,7 @@
 """Radial equations as one would first write them in NumPy: matrices, a general solve, the swing as an angle.
 
-The same model as :class:`towercrane.cranes.radial.RadialModel` in other coordinates and without its shortcuts. It
-shows what the compiled right-hand side saves, and checks it.
+The same model as :class:`towercrane.cranes.tower.planar.RadialModel` in other coordinates and without its shortcuts.
+It shows what the compiled right-hand side saves, and checks it.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes import flexible_layout as layout
+from towercrane.cranes.tower.kernels import layout
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from towercrane.cranes.radial import RadialModel
+    from towercrane.cranes.tower.planar import RadialModel
 
     Floats = NDArray[np.float64]
     Rhs = Callable[[float, Floats, Floats], Floats]

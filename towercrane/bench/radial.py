@@ -10,18 +10,18 @@ import numpy as np
 from towercrane.bench.clock import differences, interleaved, short, whole
 from towercrane.bench.evaluations import Instant, evaluations
 from towercrane.bench.scenes import radial_outputs
-from towercrane.case import load_case
-from towercrane.integrate import integrate
-from towercrane.models import radial_model
-from towercrane.motion import phases
+from towercrane.cases.case import load_case
+from towercrane.cases.models import radial_model
+from towercrane.motions.motion import phases
+from towercrane.simulation.integrate import integrate
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from towercrane.cranes.radial import RadialModel
-    from towercrane.integrate import Trajectory
+    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.simulation.integrate import Trajectory
 
     Floats = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.bench.clock import whole
-from towercrane.integrate import FINISHED, integrate
+from towercrane.simulation.integrate import FINISHED, integrate
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,7 +68,8 @@ class Family:
 
 
 def own(method: str, split: bool = True) -> Solve:
-    """A method of :data:`towercrane.integrate.METHODS`, SciPy's among them, on the compiled right-hand side."""
+    """A method of :data:`towercrane.simulation.integrate.METHODS`, SciPy's among them, on the compiled right-hand
+    side."""
 
     def solve(scene: Scene, rtol: float) -> tuple[Floats, int]:
         run = whole(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.bench.clock import interleaved, short
-from towercrane.case import load_case
+from towercrane.cases.case import load_case
 
 if TYPE_CHECKING:
     from collections.abc import Callable

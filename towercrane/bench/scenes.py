@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.case import load_case
-from towercrane.cranes.flexible_motion import FlexibleMotion
-from towercrane.models import model_of, radial_model, space_model
-from towercrane.motion import phases
+from towercrane.cases.case import load_case
+from towercrane.cases.models import model_of, radial_model, space_model
+from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.motions.motion import phases
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.bench.plain import Rhs
-    from towercrane.cranes.radial import RadialModel
-    from towercrane.motion import Phases
-    from towercrane.system import System
+    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.motions.motion import Phases
+    from towercrane.simulation.system import System
 
     Floats = NDArray[np.float64]
 

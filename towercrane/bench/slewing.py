@@ -6,7 +6,7 @@ from typing import Any
 
 from towercrane.bench.evaluations import Instant, evaluations
 from towercrane.bench.scenes import lumped_scene
-from towercrane.models import SLEWING
+from towercrane.cases.models import SLEWING
 
 
 def right_hand_sides(repeats: int) -> dict[str, Any]:

@@ -6,10 +6,10 @@ from typing import Any
 
 from towercrane.bench.evaluations import Instant, evaluations
 from towercrane.bench.scenes import SPACE
-from towercrane.case import load_case
-from towercrane.cranes.flexible import FlexibleModel
-from towercrane.cranes.flexible_crane import ModeCounts, flexible_crane
-from towercrane.motion import phases
+from towercrane.cases.case import load_case
+from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
+from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.motions.motion import phases
 
 EVALUATIONS = 20_000
 """Right-hand sides in one measurement."""

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy import SMALLEST_PEAK
+from towercrane.accuracy.choice import SMALLEST_PEAK
+from towercrane.accuracy.mode_convergence import measured_choice
+from towercrane.accuracy.promise import KEPT, OUT_OF_REACH, finer_in_space
 from towercrane.bench.accuracy import promises
 from towercrane.bench.drawn import space_scenes
-from towercrane.integrate import FINISHED
-from towercrane.ladders import measured_choice
-from towercrane.promise import KEPT, OUT_OF_REACH, finer_in_space
-from towercrane.readings import MOTIONS, Tolerance, gap, peak
-from towercrane.system import NoEquilibrium
+from towercrane.results.measures import MOTIONS, Tolerance, gap, peak
+from towercrane.simulation.integrate import FINISHED
+from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
-    from towercrane.space_scene import SpaceScene
+    from towercrane.accuracy.space_scene import SpaceScene
 
 TARGETS = (1e-1, 3e-2, 1e-2, 3e-3)
 """Errors over peaks that are asked for."""

@@ -11,9 +11,9 @@ from towercrane.bench.clock import short, signed
 from towercrane.bench.free_vibration import CASE, SWING, TROLLEY, FreeVibration
 from towercrane.bench.one_hour import one_hour
 from towercrane.bench.scenes import radial_outputs
-from towercrane.drift import ATOL_SHARE, NAMED, SPAN, energy_drift, notice, refusal
-from towercrane.integrate import METHODS
-from towercrane.tableaus import TABLEAUS
+from towercrane.simulation.drift import ATOL_SHARE, NAMED, SPAN, energy_drift, notice, refusal
+from towercrane.simulation.integrate import METHODS
+from towercrane.simulation.tableaus import TABLEAUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable

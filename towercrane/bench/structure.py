@@ -10,8 +10,8 @@ import numpy as np
 from modal import Chain, EndBody, Segment, chain_frequencies, chain_structure, crane_structure
 from towercrane.bench.clock import interleaved, short
 from towercrane.bench.roots import family
-from towercrane.case import load_case
-from towercrane.towers import crane_frame
+from towercrane.cases.case import load_case
+from towercrane.cranes.tower.file.build import crane_frame
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -47,7 +47,7 @@ TOWER = Chain(
 
 def stepped_tower(repeats: int) -> dict[str, Any]:
     """Eight frequencies of a tower of three shear-flexible segments."""
-    from modal.structure_elements import finite_element_structure_frequencies
+    from modal.elements.structure_elements import finite_element_structure_frequencies
 
     def elements(number: int) -> Callable[[], Floats]:
         return lambda: finite_element_structure_frequencies(chain_structure(TOWER), MODES, elements=number)
@@ -65,8 +65,8 @@ def stepped_tower(repeats: int) -> dict[str, Any]:
 
 def crane_map(repeats: int) -> dict[str, Any]:
     """Eight frequencies of the plane QTZ5613 along its jib."""
-    from modal.structure_elements import finite_element_structure_frequencies
-    from towercrane.frequency_map import SPARE, frequency_map
+    from modal.elements.structure_elements import finite_element_structure_frequencies
+    from towercrane.studies.frequency_map import SPARE, frequency_map
 
     case = load_case(CASE)
     frame = crane_frame(case)

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modal.shapes import Modes
+from modal.beams.shapes import Modes
 from towercrane.bench.plain import Balance, derivatives
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.bench.scenes import Scene
-    from towercrane.cranes.radial import RadialModel
+    from towercrane.cranes.tower.planar import RadialModel
 
     Floats = NDArray[np.float64]
 

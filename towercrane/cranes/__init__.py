@@ -1,1 +1,1 @@
-"""Crane models: parameters and a structure each."""
+"""Kinds of cranes, one folder for each family. Never imports cases, runs or reports."""

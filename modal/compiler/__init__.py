@@ -1,0 +1,1 @@
+"""The compiler's tools: compiled functions, their cache, traced algebra. Imports nothing else of modal."""

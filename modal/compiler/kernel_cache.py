@@ -1,0 +1,113 @@
+"""Machine code on disk: what is damaged there is compiled anew, what cannot be kept there is said once."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import os
+import pickle
+import warnings
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Any
+
+from numba.core import caching
+
+from modal.compiler.compiled import CacheWarning, obstacle
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+DIGEST = hashlib.sha256().digest_size
+"""Bytes at the beginning of each file that tell whether the rest is what was written."""
+
+
+# Numba's own classes carry no types.
+_caching: Any = caching
+
+
+def keep(dispatcher: Any, function: Callable[..., Any], folder: Path) -> None:
+    """Let a dispatcher keep its machine code in a folder; it goes without, and says so, where that cannot be."""
+    if reason := obstacle(folder):
+        _say(f"kernels are compiled each time, for {folder} cannot keep them: {reason}")
+        return
+    kept = KernelCache(function)
+    # Where its own subfolder cannot be written numba would turn to the folder of the source.
+    if kept.cache_path.startswith(str(folder)):
+        dispatcher._cache = kept
+    else:
+        _say(f"kernels are compiled each time, for {folder} cannot keep them: no right to write in its folders")
+
+
+class KernelCache(_caching.FunctionCache):  # type: ignore[misc]
+    """Cache of one kernel that takes a file which cannot be read for none."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)
+        source_stamp = self._impl.locator.get_source_stamp()
+        self._cache_file = KernelFile(self._cache_path, self._impl.filename_base, source_stamp)
+
+    def load_overload(self, signature: Any, context: Any) -> Any:
+        """Machine code for a signature, None if there is none that can be used."""
+        try:
+            return super().load_overload(signature, context)
+        # Bytes that are no pickle raise whatever they make of it.
+        except Exception as error:
+            _say(f"damaged machine code in {self.cache_path} is compiled anew ({error})")
+            with suppress(OSError):
+                self.flush()
+            return None
+
+    def save_overload(self, signature: Any, data: Any) -> None:
+        """Keep machine code for a signature."""
+        try:
+            super().save_overload(signature, data)
+        except OSError as error:
+            _say(f"machine code cannot be kept in {self.cache_path}: {(error.strerror or str(error)).lower()}")
+
+
+class KernelFile(_caching.IndexDataCacheFile):  # type: ignore[misc]
+    """Index and machine code of one kernel; each file begins with a digest of the rest.
+
+    Machine code with a single wrong bit computes wrong numbers or ends the process, and no later check finds it.
+    """
+
+    def _load_index(self) -> dict[Any, str]:
+        try:
+            content = io.BytesIO(_verified(self._index_path))
+        except FileNotFoundError:
+            return {}
+        if pickle.load(content) != self._version:
+            return {}
+        stamp, overloads = pickle.load(content)
+        return dict(overloads) if stamp == self._source_stamp else {}
+
+    def _load_data(self, name: str) -> Any:
+        return pickle.loads(_verified(self._data_path(name)))
+
+    @contextmanager
+    def _open_for_write(self, path: str) -> Iterator[io.BytesIO]:
+        content = io.BytesIO()
+        yield content
+        with super()._open_for_write(path) as file:
+            file.write(hashlib.sha256(content.getbuffer()).digest())
+            file.write(content.getbuffer())
+
+
+def _verified(path: str) -> bytes:
+    """What a file holds after its digest."""
+    with open(path, "rb") as file:
+        digest, content = file.read(DIGEST), file.read()
+    if hashlib.sha256(content).digest() != digest:
+        raise ValueError(f"{os.path.basename(path)} is not what was written")
+    return content
+
+
+def _say(text: str) -> None:
+    """Warn once in a process, whatever the kernel."""
+    if not _said:
+        _said.append(text)
+        warnings.warn(text, CacheWarning, stacklevel=2)
+
+
+_said: list[str] = []

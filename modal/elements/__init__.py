@@ -1,0 +1,1 @@
+"""Finite elements, a check of exact structures. Never imports lattices."""

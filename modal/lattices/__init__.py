@@ -1,0 +1,1 @@
+"""Laced columns: from members to beams, and the truss that they are."""

@@ -1,0 +1,85 @@
+"""Search for a structure's natural frequencies and critical loads, octave by octave, each on arrays made for it."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modal.structures.assembly import Assembly, assembly, refined, units_of
+from modal.structures.structure import Structure, Unstable
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+FOREVER = 1e9
+"""Load factor beyond which buckling is not looked for."""
+
+SMALLEST = 1e-150
+"""Part of a structure's own frequency, or load factor, below which nothing is looked for."""
+
+FEW_RUNS = 16
+"""Runs for the search of critical loads, which goes to loads far beyond those of any interest."""
+
+_FREE = "structure: wanted one that no motion leaves unstrained, got one without support"
+
+
+def lowest_frequencies(structure: Structure, count: int) -> Floats:
+    """Lowest natural angular frequencies [rad/s], see `modal.structures.structure.Structure.angular_frequencies`."""
+    require_stable(structure, assembly(refined(structure, 0.0), 0.0))
+    return _lowest(structure, count, units_of(structure)[2], inf, by_load=False)
+
+
+def buckling_factor(structure: Structure) -> float:
+    """Lowest critical load factor [1], see `modal.structures.structure.Structure.buckling_factor`."""
+    if not structure.is_loaded:
+        return inf
+    found = _lowest(structure, 1, 1.0, FOREVER, by_load=True)
+    return float(found[0]) if found.size else inf
+
+
+def require_stable(structure: Structure, at_rest: Assembly) -> None:
+    """Refuse a structure that buckles.
+
+    Raises
+    ------
+    ValueError
+        If the structure can move without strain.
+    Unstable
+        With the factor under which it buckles.
+    """
+    if at_rest.count(0.0) > 0:
+        factor = buckling_factor(structure)
+        if factor > 1.0:
+            raise ValueError(_FREE)
+        raise Unstable(f"the structure carries only {factor:.4g} times its weights and loads")
+
+
+def _lowest(structure: Structure, count: int, start: float, most: float, *, by_load: bool) -> Floats:
+    """Lowest frequencies or load factors up to one; as many as there are if fewer."""
+
+    def below(limit: float) -> tuple[float, Assembly, int]:
+        if by_load:
+            ready = assembly(refined(structure, 0.0, limit, FEW_RUNS), 0.0, limit, FEW_RUNS)
+            return limit, ready, ready.count(0.0, limit)
+        ready = assembly(refined(structure, limit), limit)
+        return limit, ready, ready.count(limit)
+
+    # Arrays made for high frequencies would cost digits of low ones.
+    levels = [below(start)]
+    while levels[-1][2] > 0:
+        if levels[-1][0] < SMALLEST * start:
+            raise ValueError(_FREE)
+        levels.append(below(levels[-1][0] / 8.0))
+    above, _, known = levels.pop()
+    found: list[Floats] = []
+    while known < count and above < most:
+        limit, ready, number = levels.pop() if levels else below(2.0 * above)
+        if number > known:
+            found.append(ready.roots(above, limit, known, min(number, count) - known, by_load=by_load))
+            known = number
+        above = limit
+    return np.concatenate(found) if found else np.empty(0)

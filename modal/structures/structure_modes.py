@@ -1,0 +1,301 @@
+"""Mode shapes of a structure, exact along every segment, and their integrals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache, cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modal.checks import whole_number
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from modal.structures.structure import Member, Structure
+
+    Floats = NDArray[np.float64]
+
+DEFLECTION, ROTATION, FORCE, MOMENT, SLOPE = range(5)
+"""What a shape is made of; the slope is the deflection's derivative, the rotation that of the section."""
+
+_GAUSS_POINTS = 24
+
+_DOUBLE = 1e-9
+"""Relative distance of frequencies whose shapes are found together."""
+
+
+@dataclass(frozen=True, eq=False)
+class PartShapes:
+    """Shapes of n modes along one part of a structure: tower, jib or counter-jib.
+
+    Parameters
+    ----------
+    ends : ndarray, shape (p + 1,)
+        Distances from the part's foot between which the shapes are polynomials [m].
+    coefficients : ndarray, shape (n, p, terms, 5)
+        Taylor coefficients of deflection, rotation, transverse force, moment and slope in the fraction of a piece.
+    mass_per_length, rotary_inertia, bending_stiffness, shear_flexibility : ndarray, shape (p, g)
+        Properties at the Gauss points of every piece [kg/m], [kg m], [N m^2], [1/N].
+    """
+
+    ends: Floats
+    coefficients: Floats
+    mass_per_length: Floats
+    rotary_inertia: Floats
+    bending_stiffness: Floats
+    shear_flexibility: Floats
+
+    def evaluate(self, position: ArrayLike, quantity: int = DEFLECTION, derivative: int = 0) -> Floats:
+        """A quantity of all modes, or its derivative, at positions along the part [m]; shape (n, *positions).
+
+        Raises
+        ------
+        ValueError
+            If a position is off the part or not a number, or the order is negative or no integer.
+        """
+        where, length = np.asarray(position, dtype=float), float(self.ends[-1])
+        # A position that was added up from parts may pass the end by rounding.
+        on_part = (where >= -1e-12 * length) & (where <= (1 + 1e-12) * length)
+        if not on_part.all():
+            raise ValueError(f"position: wanted 0 to {length!r} m, got {float(where[~on_part].flat[0])!r}")
+        if derivative != int(derivative) or derivative < 0:
+            raise ValueError(f"derivative: wanted an integer, zero or more, got {derivative!r}")
+        flat = where.ravel()
+        piece = np.clip(np.searchsorted(self.ends, flat, side="right") - 1, 0, self.ends.size - 2)
+        width = np.diff(self.ends)[piece]
+        fraction = (flat - self.ends[piece]) / width
+        powers = np.polynomial.polynomial.polyder(self.coefficients[..., quantity], int(derivative), axis=2)
+        values = np.zeros((len(powers), flat.size))
+        for k in range(powers.shape[2] - 1, -1, -1):
+            values = values * fraction + powers[:, piece, k]
+        return (values / width ** int(derivative)).reshape(-1, *where.shape)
+
+    @cached_property
+    def points(self) -> Floats:
+        """Positions of the Gauss points [m], shape (p, g)."""
+        return self.ends[:-1, None] + np.diff(self.ends)[:, None] * _gauss()[0]
+
+    @cached_property
+    def weights(self) -> Floats:
+        """Weights of the Gauss points [m], shape (p, g)."""
+        return np.diff(self.ends)[:, None] * _gauss()[1]
+
+    def at_points(self, quantity: int) -> Floats:
+        """A quantity of all modes at the Gauss points, shape (n, p, g)."""
+        powers = _gauss()[0] ** np.arange(self.coefficients.shape[2])[:, None]
+        values: Floats = self.coefficients[..., quantity] @ powers
+        return values
+
+    def product(self, density: Floats | float, left: int, right: int) -> Floats:
+        """Integrals of density times two quantities of all pairs of modes, shape (n, n)."""
+        weighted = self.at_points(left) * (density * self.weights)
+        return np.tensordot(weighted, self.at_points(right), ((1, 2), (1, 2)))
+
+    def energies(self, density: Floats | float, quantity: int) -> Floats:
+        """Integrals of density times the square of a quantity of each mode, shape (n,)."""
+        return np.tensordot(self.at_points(quantity) ** 2, density * self.weights, 2)
+
+    def mass_matrix(self) -> Floats:
+        """Mass along the part, ``int m v v + rho I theta theta dx``, shape (n, n)."""
+        return self.product(self.mass_per_length, DEFLECTION, DEFLECTION) + self.product(
+            self.rotary_inertia, ROTATION, ROTATION
+        )
+
+    def strain_matrix(self) -> Floats:
+        """Stiffness along the part, ``int EI theta' theta' + S (v' - theta) (v' - theta) dx``, shape (n, n)."""
+        # From moments and shear strains, not from differences: with S infinite there is no strain.
+        with np.errstate(divide="ignore"):
+            stiff = np.where(self.shear_flexibility > 0.0, 1.0 / self.shear_flexibility, 0.0)
+        strain = self.at_points(SLOPE) - self.at_points(ROTATION)
+        shear = np.tensordot(strain * (stiff * self.weights), strain, ((1, 2), (1, 2)))
+        return self.product(1.0 / self.bending_stiffness, MOMENT, MOMENT) + shear
+
+    def softening_matrix(self, compression: Floats | float, shear_theory: str = "haringx") -> Floats:
+        """What an axial force takes from the stiffness, ``int P (v' theta + theta v' - theta theta) dx`` (Haringx).
+
+        Parameters
+        ----------
+        compression : ndarray or float
+            The force at the Gauss points, shape (p, g), or a number.
+        shear_theory : {"haringx", "engesser"}
+            With Engesser the integral is ``int P v' v' dx``.
+        """
+        if shear_theory == "engesser":
+            return self.product(compression, SLOPE, SLOPE)
+        mixed = self.product(compression, SLOPE, ROTATION)
+        return mixed + mixed.T - self.product(compression, ROTATION, ROTATION)
+
+
+@dataclass(frozen=True, eq=False)
+class StructureModes:
+    """Natural modes of a structure, orthonormal in its mass: shapes are in m/(kg^1/2 m), that is kg^-1/2.
+
+    Parameters
+    ----------
+    structure : Structure
+    angular_frequencies : ndarray, shape (n,)
+        Ascending [rad/s].
+    vectors : ndarray, shape (n, unknowns)
+        Motion of the structure's unknowns [kg^-1/2, rad/(m kg^1/2)].
+    parts : dict of str to PartShapes
+        Shapes along every part.
+    """
+
+    structure: Structure
+    angular_frequencies: Floats
+    vectors: Floats
+    parts: dict[str, PartShapes]
+
+    @property
+    def frequencies_hz(self) -> Floats:
+        """Natural frequencies [Hz], shape (n,)."""
+        return self.angular_frequencies / (2.0 * np.pi)
+
+    def mass_matrix(self) -> Floats:
+        """Mass of all parts and bodies; the unit matrix but for rounding, shape (n, n)."""
+        total = np.zeros((len(self.vectors),) * 2)
+        for (i, j), value in self.structure.bodies.items():
+            total += value * np.outer(self.vectors[:, i], self.vectors[:, j])
+        for part in self.parts.values():
+            total += part.mass_matrix()
+        return total
+
+
+def structure_modes(structure: Structure, count: int) -> StructureModes:
+    """Lowest natural modes of a structure.
+
+    Parameters
+    ----------
+    structure : Structure
+    count : int
+        Number of modes, one or more.
+
+    Returns
+    -------
+    StructureModes
+        Signs make the last unknown of the first part move to the positive side.
+
+    Raises
+    ------
+    ValueError
+        If the count is less than one.
+    Unstable
+        If the structure buckles under its weights and loads.
+    """
+    from modal.structures.assembly import refined
+
+    omega = structure.angular_frequencies(whole_number("count", count, 1))
+    fine = refined(structure, float(omega[-1]))
+    shapes, motions = _shapes(fine, omega)
+    parts = {
+        name: _part(fine, name, shapes, float(omega[-1])) for name in dict.fromkeys(m.part for m in fine.members)
+    }
+    modes = StructureModes(structure, omega, motions[:, : len(structure.unknowns)], parts)
+    mix = _orthonormal(modes)
+    first = structure.members[0].part
+    end = max((m for m in structure.members if m.part == first), key=lambda m: m.position).unknowns
+    tip = mix @ modes.vectors[:, [end[2], end[3]]]
+    lead = np.where(np.abs(tip[:, 0]) > 1e-9 * np.abs(tip[:, 1]), tip[:, 0], tip[:, 1])
+    mix *= np.where(lead < 0.0, -1.0, 1.0)[:, None]
+    mixed = {
+        name: PartShapes(
+            part.ends, np.tensordot(mix, part.coefficients, 1), part.mass_per_length, part.rotary_inertia,
+            part.bending_stiffness, part.shear_flexibility,
+        )
+        for name, part in parts.items()
+    }  # fmt: skip
+    return StructureModes(structure, omega, mix @ modes.vectors, mixed)
+
+
+def _clusters(omega: Floats) -> list[slice]:
+    """Frequencies that count as equal, side by side."""
+    starts = [k for k in range(omega.size) if k == 0 or omega[k] - omega[k - 1] > _DOUBLE * omega[k]]
+    return [slice(near, far) for near, far in pairwise([*starts, omega.size])]
+
+
+def _orthonormal(modes: StructureModes) -> Floats:
+    """What makes the shapes orthonormal: a scale for each, a mixture of those of equal frequency; shape (n, n)."""
+    mass = modes.mass_matrix()
+    mix = np.zeros_like(mass)
+    for of in _clusters(modes.angular_frequencies):
+        mix[of, of] = np.linalg.inv(np.linalg.cholesky(mass[of, of]))
+    return mix
+
+
+def _shapes(fine: Structure, omega: Floats) -> tuple[list[Floats], Floats]:
+    """Shape along every member (n, p, terms, 5), in SI, and motions of all unknowns (n, u), not yet of unit mass."""
+    from modal.structures.assembly import assembly
+    from modal.structures.piece import TERMS
+    from modal.structures.shape_kernel import run_shape
+    from modal.structures.structure_kernel import piece_ends
+
+    none = np.empty(1)
+    motions, counts = np.zeros((omega.size, len(fine.unknowns))), np.empty(0, dtype=int)
+    shapes: list[Floats] = []
+    for of in _clusters(omega):
+        # Arrays made for this frequency alone: those for higher ones would cost digits.
+        ready = assembly(fine, float(omega[of][-1]))
+        length, force, frequency = ready.units
+        highest = float((omega[-1] / frequency) ** 2)
+        if not shapes:
+            counts = np.array([piece_ends(row, highest, 1.0, none) for row in ready.segments])
+            shapes = [np.zeros((omega.size, count, TERMS + 1, 5)) for count in counts]
+        for k, vector in zip(range(omega.size)[of], ready.null_vectors(omega[of]), strict=True):
+            motions[k] = ready.composition @ vector
+            for (first, last, single), motion in zip(ready.runs, ready.motions, strict=True):
+                out, along = np.zeros((counts[first:last].sum(), TERMS + 1, 5)), np.zeros((last - first + 1, 2))
+                run_shape(
+                    ready.segments, ready.nodes, first, last, single == 1, highest,
+                    float((omega[k] / frequency) ** 2), 1.0, motion @ vector, out, along,
+                )  # fmt: skip
+                # Deflections come in the unit of length, forces in that of force.
+                out *= np.array([length, 1.0, force, force * length, 1.0])
+                for member, part in zip(
+                    range(first, last), np.split(out, np.cumsum(counts[first:last])[:-1]), strict=True
+                ):
+                    shapes[member][k] = part
+                    if member > first:
+                        motions[k, fine.members[member].unknowns[:2]] = along[member - first] * (length, 1.0)
+    return shapes, motions
+
+
+def _part(fine: Structure, part: str, shapes: list[Floats], highest: float) -> PartShapes:
+    """Shapes along one part from those along its members, whose pieces are those of the highest frequency."""
+    from modal.structures.assembly import row_of, units_of
+    from modal.structures.structure_kernel import piece_ends
+
+    units = units_of(fine)
+    along, found = [np.zeros(1)], []
+    properties: list[list[Floats]] = [[], [], [], []]
+    for member, shape in zip(fine.members, shapes, strict=True):
+        if member.part != part:
+            continue
+        ends = np.zeros(1 + shape.shape[1])
+        piece_ends(row_of(member, fine, units), (highest / units[2]) ** 2, 1.0, ends)
+        found.append(shape)
+        along.append(member.position + ends[1:] * units[0])
+        for values, one in zip(properties, _properties(member, ends * units[0]), strict=True):
+            values.append(one)
+    return PartShapes(np.concatenate(along), np.concatenate(found, axis=1), *map(np.concatenate, properties))
+
+
+def _properties(member: Member, ends: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """Mass, rotary inertia, bending stiffness and shear flexibility at the Gauss points of a segment's pieces."""
+    s = member.segment
+    breadth = s.breadth(ends[:-1, None] + np.diff(ends)[:, None] * _gauss()[0])
+    return (
+        s.mass_per_length * breadth**s.mass_power,
+        s.rotary_inertia * breadth**s.bending_power,
+        s.bending_stiffness * breadth**s.bending_power,
+        1.0 / (s.shear_stiffness * breadth**s.shear_power),
+    )
+
+
+@cache
+def _gauss() -> tuple[Floats, Floats]:
+    """Gauss-Legendre points and weights on (0, 1), enough for products of two shapes."""
+    points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    return 0.5 * (points + 1.0), 0.5 * weights

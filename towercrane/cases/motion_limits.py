@@ -1,0 +1,238 @@
+"""Motions of a case, and the limits that crane and ground set for them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from towercrane.cases.kinds import TOWER_CRANES
+from towercrane.cases.plausibility import FARTHEST_TURN, FASTEST, at, fastest_turn, si, si_at
+from towercrane.cases.profiles import plan
+from towercrane.cases.wind_file import CHANNELS, wind_motions
+from towercrane.cranes.tower.file.checks import tower_height
+from towercrane.motions.plans import Move, Plan
+from towercrane.schema.faults import CaseError, Fault, shown
+from towercrane.schema.motions import HoistMotion, JointMotion, TrolleyMotion
+from towercrane.schema.text import leaves
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+ROUNDING = 1e-9
+"""Relative; a motion that ends at the jib's end may overshoot it by rounding."""
+
+JOINTS: dict[str, tuple[str, ...]] = {
+    "radial": (),
+    "space": ("slewing", "shaft"),
+    "multi-mass": ("shaft",),
+    "basic": ("shaft",),
+    "enhanced": ("shaft",),
+    "jib": ("slew", "luff", "fold"),
+}
+"""What turns, by kind of crane."""
+
+RESTS = ("slew", "slewing")
+"""Joints that rest at zero where the case does not name them."""
+
+
+@cache
+def _reader(described: Any) -> TypeAdapter[Any]:
+    """What reads a motion; making it takes as long as the rest of a case."""
+    return TypeAdapter(described)
+
+
+@dataclass(frozen=True)
+class Way:
+    """Limits of a motion along a line or of a turn.
+
+    Parameters
+    ----------
+    key : str
+        Key of the motion.
+    high : float or None
+        Largest value [m], of a turn in either sense [rad]; None where it is not known.
+    open_low : bool
+        Whether zero itself is too low.
+    wanted, hint : str
+        For the message.
+    turns : bool
+        Whether the motion is a turn, in radians.
+    fastest : float
+        Largest plausible speed [m/s or rad/s].
+    """
+
+    key: str
+    high: float | None = None
+    open_low: bool = False
+    wanted: str = ""
+    hint: str = ""
+    turns: bool = False
+    fastest: float = FASTEST
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the motion."""
+        return "rad" if self.turns else "m"
+
+    def keeps(self, value: float) -> bool:
+        """Whether a value lies within the limits."""
+        high = float("inf") if self.high is None else self.high * (1 + ROUNDING)
+        if self.turns:
+            return abs(value) <= high
+        return (value > 0.0 if self.open_low else value >= -ROUNDING) and value <= high
+
+    def fault(self, key: str, got: str) -> Fault:
+        """Fault at ``key``."""
+        return Fault("", key, self.wanted, got, self.hint)
+
+
+def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], dict[str, Plan]]:
+    """Plans by channel, without those that cannot be built, and where they leave the jib or the air.
+
+    Parts of the case that are faulty themselves limit nothing, so that all faults show at once.
+    """
+    faults: list[Fault] = []
+    plans: dict[str, Plan | None] = {}
+    if kind in TOWER_CRANES:
+        faults, plans["trolley"] = _trolley(tree, folder)
+    if kind == "space":
+        more, wind = wind_motions(tree, folder)
+        faults = [*faults, *more]
+        plans |= {name: None if motion is None else Plan((Move(motion),)) for name, motion in wind.items()}
+    for joint in _joints(tree, kind):
+        most, hint = FARTHEST_TURN[joint], "the header names the units: slew [deg]"
+        wanted = f"angles up to {most:g} rad"
+        way = Way(f"motion.{joint}", most, False, wanted, hint, turns=True, fastest=fastest_turn(kind))
+        plans[joint], more = _motion(tree, way, _reader(JointMotion), folder, 0.0 if joint in RESTS else None)
+        faults += more
+    more, plans["rope"] = _rope(tree, folder, kind)
+    faults += more
+    found = {name: plan for name, plan in plans.items() if plan is not None}
+    if kind not in TOWER_CRANES:
+        faults += [_without_model(name, kind) for name, plan in found.items() if plan.needs_model]
+    return faults, found
+
+
+def _without_model(channel: str, kind: str) -> Fault:
+    """Fault of a motion that asks for frequencies which this kind of crane does not give."""
+    key = f"motion.{'hoist' if channel == 'rope' else channel}.frequencies"
+    hint = "towercrane linearise shows the frequencies of any crane"
+    return Fault("", key, f'a list of frequencies for a crane of kind "{kind}", such as ["0.12 Hz"]', '"model"', hint)
+
+
+def channels(tree: dict[str, Any], kind: str) -> tuple[str, ...]:
+    """Names of the motions that drive the crane of a case of this kind."""
+    wind = CHANNELS if kind == "space" and "wind" in tree else ()
+    return (*(("trolley",) if kind in TOWER_CRANES else ()), *_joints(tree, kind), *wind, "rope")
+
+
+def _joints(tree: dict[str, Any], kind: str) -> tuple[str, ...]:
+    """What turns in a case; the head of a tower crane, or the shaft of its drive where that moves."""
+    if kind != "space":
+        return JOINTS[kind]
+    return ("shaft",) if at(tree, "motion.shaft") is not None else ("slewing",)
+
+
+def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Plan | None]:
+    jib = si_at(tree, "crane.jib.length", "m")
+    known = f"from 0 to {jib:g} m (the length of the jib)" if jib else "from 0 on"
+    on_jib = Way("motion.trolley", jib, False, f"positions on the jib, {known}", "the trolley leaves the jib")
+    faults = _out_of_way(tree, on_jib, ("start", "end"))
+    trolley, more = _motion(tree, on_jib, _reader(TrolleyMotion), folder, None)
+    for listed in ("modes.trolley_positions", "map.trolley_positions"):
+        for key, value in leaves(at(tree, listed) or [], listed):
+            position = si(value, "m")
+            if position is not None and not on_jib.keeps(position):
+                faults.append(on_jib.fault(key, shown(value)))
+    faults += more if not any(f.key.startswith("motion.") for f in faults) else []
+    return faults, trolley
+
+
+def _rope(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], Plan | None]:
+    high, what = _height(tree, kind)
+    known = f"above 0 and up to {high:g} m ({what})" if high else "above 0"
+    hint = "the load would be in the ground or the rope wound up"
+    in_air = Way("motion.hoist", high, True, f"rope lengths {known}", hint)
+    start = si_at(tree, "rope.length", "m")
+    if start is not None and start > 0.0 and not in_air.keeps(start):
+        return [in_air.fault("rope.length", shown(at(tree, "rope.length")))], None
+    faults = _out_of_way(tree, in_air, ("end",))
+    for key, value in leaves(at(tree, "modes.rope_lengths") or [], "modes.rope_lengths"):
+        length = si(value, "m")
+        if length is not None and length > 0.0 and not in_air.keeps(length):
+            faults.append(in_air.fault(key, shown(value)))
+    rope, more = _motion(tree, in_air, _reader(HoistMotion), folder, start)
+    return faults or more, rope
+
+
+def _height(tree: dict[str, Any], kind: str) -> tuple[float | None, str]:
+    """Height that the rope hangs from and what it is; None where it is not known."""
+    if kind in TOWER_CRANES:
+        return tower_height(tree), "the height of the tower"
+    keys, what = {
+        "jib": (("post.height", "primary_boom.length", "secondary_boom.length"), "post and booms upright"),
+    }.get(kind, (("geometry.tower_height", "geometry.top_height"), "the height of the tower with its top"))
+    parts = [si_at(tree, f"crane.{key}", "m") for key in keys]
+    # A post without height only says that its source gives none: heights count from its top.
+    if any(part is None or part < 0.0 for part in parts) or not parts[0]:
+        return None, what
+    return sum(part for part in parts if part is not None), what
+
+
+def _out_of_way(tree: dict[str, Any], way: Way, names: tuple[str, ...]) -> list[Fault]:
+    """Single values of a motion outside its limits."""
+    faults = []
+    for key, value in leaves(at(tree, way.key), way.key):
+        position = si(value, way.unit) if key.rpartition(".")[2] in names else None
+        if position is not None and not way.keeps(position):
+            faults.append(way.fault(key, shown(value)))
+    return faults
+
+
+def _motion(
+    tree: dict[str, Any], way: Way, adapter: TypeAdapter[Any], folder: Path, start: float | None
+) -> tuple[Plan | None, list[Fault]]:
+    """The motion at ``way.key`` and what is wrong with it as a whole; without one a known start is kept."""
+    written = at(tree, way.key)
+    if written is None and start is not None and (start > 0.0 or way.turns):
+        written = {"shape": "rest"}
+    try:
+        described = adapter.validate_python(written)
+    except ValidationError:
+        return None, []
+    hoists = not hasattr(described, "start") and way.open_low
+    if hoists and start is None:
+        return None, []
+    begin = start if hoists and start is not None else getattr(described, "start", 0.0)
+    try:
+        found = plan(described, begin, folder, way.unit)
+    except CaseError as error:
+        named = f"named by {way.key}.file of the case"
+        return None, [replace(f, hint=f"{f.hint}; {named}" if f.hint else named) for f in error.faults]
+    except (ArithmeticError, ValueError) as error:
+        return None, [Fault("", way.key, "a motion that can be computed", str(error))]
+    motion = found.commanded
+    key = f"{way.key}.file" if described.shape == "table" else way.key
+    if hoists and abs(float(motion(0.0)) - begin) > 1e-6:
+        got = f"a first length of {float(motion(0.0)):g} m"
+        return None, [Fault("", key, f"a table that begins with rope.length, {begin:g} m", got)]
+    reached, limit = max(abs(rate) for rate in motion.range(1)), way.fastest
+    # Other motions state their speed, which has a range of its own.
+    units = "angles in radians" if way.turns else "metres"
+    hints = {
+        "table": f"seconds and {units}? The header names the units: time [s]",
+        "minimum-jerk": "a longer duration?",
+    }
+    if described.shape in hints and reached > limit:
+        table, hint = described.shape == "table", hints[described.shape]
+        got = f"a {'table' if table else 'motion'} that reaches {reached:.3g} {way.unit}/s"
+        return None, [Fault("", key, f"speeds up to {limit:g} {way.unit}/s", got, hint)]
+    low, high = motion.range()
+    # Other turns state their angles, which have ranges of their own.
+    if not (way.keeps(low) and way.keeps(high)) and (described.shape == "table" or not way.turns):
+        return None, [way.fault(key, f"a motion from {low:g} to {high:g} {way.unit}")]
+    return found, []

@@ -1,0 +1,299 @@
+"""What a case's numbers may be: one table of wide ranges, and the limits that values set for each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+from towercrane.cases.kinds import knows, plain_key
+from towercrane.schema.faults import Fault, did_you_mean, shown
+from towercrane.schema.text import leaves
+from towercrane.schema.units import UnitError, split, to_si
+from towercrane.simulation.drift import refusal
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+FARTHEST = 1e9
+"""How many times beyond its range a value may lie that the case allows: numbers farther off overflow in products."""
+
+MOST_SAMPLES = 5_000_000
+FASTEST = 10.0
+"""Largest plausible speed of trolley and hook [m/s]."""
+
+FASTEST_TURN = 5.0
+"""Largest plausible speed of shaft and joints [rad/s]."""
+
+FARTHEST_TURN = {"shaft": 100.0, "slewing": 100.0, "slew": 100.0, "luff": 3.2, "fold": 6.4}
+"""Largest plausible angle of each joint in either sense [rad]."""
+
+FASTEST_SLEWING = 0.5
+"""Largest plausible speed of a tower crane's head whose motion states none [rad/s]; they turn at 0.1 or less."""
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Range outside which a value is more likely a slip than a crane.
+
+    Parameters
+    ----------
+    key : str
+        Dotted key; ``*`` stands for any part.
+    unit : str
+        SI unit of the bounds.
+    low, high : float
+        Bounds; zero, where the key allows it, is never implausible.
+    likely : tuple of str
+        Units that the number may have been meant in.
+    signed : bool
+        Whether a negative value is judged by its size; elsewhere it is impossible, not implausible.
+    kind : str
+        Kind of crane that the range is for; ``*`` for all.
+    """
+
+    key: str
+    unit: str
+    low: float
+    high: float
+    likely: tuple[str, ...] = ()
+    signed: bool = False
+    kind: str = "*"
+
+    def is_for(self, key: str, kind: str) -> bool:
+        """Whether it is the range of a dotted key of this kind of crane."""
+        # To compile the patterns of all rows takes longer than all other checks of a case.
+        beginning, wild, _ = self.key.partition("*")
+        own = fnmatchcase(key, self.key) if wild and key.startswith(beginning) else key == self.key
+        return own and fnmatchcase(kind, self.kind)
+
+    def fault(self, key: str, value: object, *, allowed: bool = False) -> Fault | None:
+        """Fault if ``value`` lies outside the range, or so far outside that it may not be ``allowed``.
+
+        A value that cannot be read is for others to report.
+        """
+        try:
+            size = to_si(value, self.unit) * (-1.0 if self.signed and split(value)[0] < 0.0 else 1.0)
+            number = abs(split(value)[0])
+        except UnitError:
+            return None
+        beyond = FARTHEST if allowed else 1.0
+        low, high = self.low / beyond, self.high * beyond
+        if size <= 0.0 or low <= size <= high:
+            return None
+        wanted = f"a value from {low:g} to {high:g} {self.unit}".removesuffix(" 1")
+        if allowed:
+            return Fault("", key, wanted, shown(value), "beyond that an implausible value cannot be computed with")
+        allow = f'if it is right, put allow_implausible = ["{key}"] at the top of the case file'
+        unit = next((unit for unit in self.likely if self._holds(f"{number!r} {unit}")), None)
+        hint = f"{unit} meant? {allow}" if unit else allow
+        return Fault("", key, wanted, f"{shown(value)}, which is not plausible", hint)
+
+    def _holds(self, text: str) -> bool:
+        """Whether a quantity lies within the range; one too large for a number does not."""
+        try:
+            return self.low <= to_si(text, self.unit) <= self.high
+        except UnitError:
+            return False
+
+
+LENGTHS = ("mm", "cm", "km", "ft")
+AREAS = ("cm^2", "mm^2")
+SPRINGS = ("kN/m", "MN/m", "N/mm")
+ROTARY_SPRINGS = ("kN m/rad", "MN m/rad")
+ANGLES = ("deg", "mrad")
+TURNS = ("rpm", "deg/s", "mrad/s")
+
+RANGES = (
+    Range("crane.gravity", "m/s^2", 1, 30, ("cm/s^2", "mm/s^2")),
+    Range("crane.tower.height", "m", 2, 1000, LENGTHS),
+    Range("crane.jib.length", "m", 1, 200, LENGTHS),
+    Range("crane.counter_jib.length", "m", 0.5, 100, LENGTHS),
+    Range("crane.*.mass_per_length", "kg/m", 1, 20e3, ("t/m", "kg/mm", "g/m")),
+    Range("crane.*.youngs_modulus", "Pa", 1e9, 1e12, ("GPa", "MPa", "N/mm^2", "kPa")),
+    Range("crane.*.second_moment_of_area", "m^4", 1e-8, 10, ("cm^4", "mm^4")),
+    Range("crane.tower*.lattice.*_area", "m^2", 1e-5, 0.5, AREAS),
+    Range("crane.tower*.lattice.leg_spacing", "m", 0.05, 20, LENGTHS),
+    Range("crane.tower*.lattice.panel_height", "m", 0.05, 20, LENGTHS),
+    Range("crane.tower*.shear_stiffness", "N", 1e4, 1e12, ("MN", "kN")),
+    Range("crane.tower*.rotary_inertia_per_length", "kg m^2/m", 1e-4, 1e5, ("t m", "g m")),
+    Range("crane.tower.segments*.length", "m", 0.05, 1000, LENGTHS),
+    Range("crane.tower.segments*.top_breadth_ratio", "1", 0.05, 10, ("%",)),
+    Range("crane.tower.bodies*.height", "m", 1e-3, 1000, LENGTHS),
+    Range("crane.tower.bodies*.mass", "kg", 1, 1e6, ("t", "g")),
+    Range("crane.tower.bodies*.rotary_inertia", "kg m^2", 1e-2, 1e9, ("t m^2",)),
+    Range("crane.tower.bodies*.offset", "m", 1e-3, 50, LENGTHS, signed=True),
+    Range("crane.foundation.rotation_stiffness", "N m/rad", 1e4, 1e14, ("MN m/rad", "GN m/rad", "kN m/rad")),
+    Range("crane.foundation.translation_stiffness", "N/m", 1e4, 1e13, ("MN/m", "GN/m", "kN/m")),
+    Range("crane.tower.torsional_stiffness", "N m^2", 1e4, 1e13, ("MN m^2", "kN m^2", "GN m^2")),
+    Range("crane.tower.torsional_inertia_per_length", "kg m^2/m", 1e-3, 1e6, ("t m",)),
+    Range("crane.jib.lateral_second_moment_of_area", "m^4", 1e-8, 10, ("cm^4", "mm^4")),
+    Range("crane.roll_inertia", "kg m^2", 1e-2, 1e9, ("t m^2",)),
+    Range("crane.wind_areas.*", "m", 1e-3, 50, ("cm", "mm")),
+    Range("crane.wind_areas.counterweight", "m^2", 1e-3, 1e3, AREAS),
+    Range("crane.drive.inertia", "kg m^2", 1e-2, 1e9, ("t m^2",)),
+    Range("wind.speed", "m/s", 1e-3, 80, ("km/h",)),
+    Range("wind.upward", "m/s", 1e-3, 80, ("km/h",), signed=True),
+    Range("wind.direction", "rad", 1e-9, 100, ANGLES, signed=True),
+    Range("crane.counter_jib.counterweight", "kg", 50, 1e6, ("t", "g")),
+    Range("crane.trolley.mass", "kg", 5, 50e3, ("t", "g")),
+    Range("crane.geometry.*", "m", 0.02, 1000, LENGTHS),
+    Range("crane.mass.*", "kg", 0.05, 1e6, ("t", "g")),
+    Range("crane.mass.counter_moment", "kg m", 0.05, 1e8, ("t m",)),
+    Range("crane.*.inertia", "kg m^2", 1, 1e9, ("t m^2",)),
+    Range("crane.inertia.*", "kg m^2", 1e-4, 1e9, ("t m^2", "g m^2")),
+    Range("crane.stiffness.*", "N/m", 500, 1e12, SPRINGS),
+    Range("crane.stiffness.tower_torsion", "N m/rad", 500, 1e13, ROTARY_SPRINGS),
+    Range("crane.stiffness.*jib_lateral", "N m/rad", 500, 1e13, ROTARY_SPRINGS),
+    Range("crane.stiffness.jib_lateral", "N/m", 500, 1e12, SPRINGS, kind="basic"),
+    Range("crane.damping.*", "N s/m", 1e-3, 1e9, ("kN s/m",)),
+    Range("crane.damping.tower_torsion", "N m s/rad", 1e-3, 1e10, ("kN m s/rad",)),
+    Range("crane.damping.*jib_lateral", "N m s/rad", 1e-3, 1e10, ("kN m s/rad",)),
+    Range("crane.damping.jib_lateral", "N s/m", 1e-3, 1e9, ("kN s/m",), kind="basic"),
+    Range("crane.drive.*_stiffness", "N m/rad", 0.1, 1e12, ROTARY_SPRINGS),
+    Range("crane.drive.corner", "rad", 1e-6, 1.6, ANGLES),
+    Range("crane.drive.damping", "N m s/rad", 1e-3, 1e10, ("kN m s/rad",)),
+    Range("crane.friction.torque", "N m", 1e-3, 1e7, ("kN m",)),
+    Range("crane.friction.rate", "rad/s", 1e-9, 1, TURNS),
+    Range("crane.drag.*", "N s^2/m^2", 1e-6, 1e4, ("g/m",)),
+    Range("crane.post.height", "m", 0.1, 1000, LENGTHS),
+    Range("crane.*_boom.length", "m", 0.1, 200, LENGTHS),
+    Range("payload.mass", "kg", 1, 1e6, ("t", "g")),
+    Range("payload.rope_damping", "N m s/rad", 1e-6, 1e8, ("kN m s/rad",)),
+    Range("payload.drag_area", "m^2", 1e-4, 1e3, AREAS),
+    Range("payload.drag", "N s^2/m^2", 1e-5, 1e3, ("g/m",)),
+    Range("map.payload_masses*", "kg", 1, 1e6, ("t", "g")),
+    Range("rope.length", "m", 0.1, 1000, LENGTHS),
+    Range("motion.*.speed", "m/s", 1e-3, FASTEST, ("m/min", "mm/s", "km/h"), signed=True),
+    Range("motion.*.acceleration", "m/s^2", 1e-4, 20, ("cm/s^2", "mm/s^2")),
+    Range("motion.*.jerk", "m/s^3", 1e-5, 1e3, ("cm/s^3", "mm/s^3")),
+    *(
+        row
+        for joint, most in FARTHEST_TURN.items()
+        for row in (
+            Range(f"motion.{joint}.start", "rad", 1e-9, most, ANGLES, signed=True),
+            Range(f"motion.{joint}*.end", "rad", 1e-9, most, ANGLES, signed=True),
+            Range(f"motion.{joint}*.speed", "rad/s", 1e-5, FASTEST_TURN, TURNS, signed=True),
+            Range(f"motion.{joint}*.acceleration", "rad/s^2", 1e-7, 50, ("deg/s^2",)),
+            Range(f"motion.{joint}*.jerk", "rad/s^3", 1e-8, 1e3, ("deg/s^3",)),
+        )
+    ),
+    Range("motion.*.ramp", "s", 1e-3, 1e5, ("ms", "min")),
+    Range("motion.*.hold", "s", 1e-3, 1e5, ("ms", "min")),
+    Range("motion.*.frequencies*", "Hz", 1e-3, 20, ("mHz",)),
+    Range("motion.*.delay", "s", 1e-3, 1e5, ("ms", "min")),
+    Range("motion.*.duration", "s", 1e-3, 1e5, ("ms", "min")),
+    Range("modes.rope_lengths*", "m", 0.1, 1000, LENGTHS),
+    Range("modes.slewing_angles*", "rad", 1e-9, 100, ANGLES, signed=True),
+    Range("model.*_damping_ratio", "1", 1e-6, 0.3, ("%",)),
+    Range("start.swing_angle", "rad", 1e-9, 1.6, ANGLES, signed=True),
+    Range("run.duration", "s", 0.01, 1e6, ("ms", "min", "h")),
+    Range("run.output_step", "s", 1e-6, 1e4, ("ms",)),
+    Range("solver.atol", "1", 1e-20, 1),
+)
+"""Of several rows that fit a key, the last holds."""
+
+
+@lru_cache(maxsize=4096)
+def _rule(key: str, kind: str) -> Range | None:
+    """The range of a dotted key."""
+    return next((rule for rule in reversed(RANGES) if rule.is_for(key, kind)), None)
+
+
+def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> Iterator[Fault]:
+    """Values outside their range for this kind of crane, except where the case allows them."""
+    ruled = {}
+    for key, value in leaves(tree):
+        if knows(kind, plain_key(key)) and (rule := _rule(key, kind)):
+            ruled[key] = rule.fault(key, value, allowed=key in allowed)
+    for key in allowed:
+        if key not in ruled:
+            wanted, hint = "keys of this case whose range is checked", did_you_mean(key, ruled)
+            yield Fault("", "allow_implausible", wanted, shown(key), hint)
+    yield from (fault for fault in ruled.values() if fault)
+
+
+def check_values(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Values that do not fit each other, motions and towers apart."""
+    for check in (_check_output, _check_elements, _check_drag, _check_friction, _check_method):
+        yield from check(tree)
+
+
+def _check_method(tree: dict[str, Any]) -> Iterator[Fault]:
+    """A solver that cannot follow friction from sticking to slipping, or that feeds vibration."""
+    law, method = at(tree, "crane.friction.law"), at(tree, "solver.method")
+    if law == "stick-slip" and isinstance(method, str) and method.startswith("scipy-"):
+        hint = 'friction that sticks and slips switches equations; "tanh" friction needs no switching'
+        yield Fault("", "solver.method", '"dop853" or "dopri5" with stick-slip friction', shown(method), hint)
+    rtol, atol = si_at(tree, "solver.rtol", "1", 1e-8), si_at(tree, "solver.atol", "1", 1e-10)
+    if isinstance(method, str) and rtol and atol and (reason := refusal(method, rtol, atol)):
+        yield Fault("", "solver.rtol", f"tolerances at which {method} is stable", f"{rtol:g}, atol {atol:g}", reason)
+
+
+def _check_output(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Output steps that do not fit the span."""
+    duration, step = si_at(tree, "run.duration", "s"), si_at(tree, "run.output_step", "s", 0.05)
+    if not (duration and step and duration > 0.0 and step > 0.0):
+        return
+    if step > duration:
+        hint = "no output would fall into the run"
+        yield Fault("", "run.output_step", f"at most run.duration, {duration:g} s", f"{step:g} s", hint)
+    elif duration / step > MOST_SAMPLES:
+        got = f"{step:g} s, which makes {duration / step:.3g}"
+        yield Fault("", "run.output_step", f"at most {MOST_SAMPLES} output samples", got, "ms or s mixed up?")
+
+
+def _check_elements(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Fewer unknowns than wanted modes."""
+    count, elements = si_at(tree, "modes.count", "1", 4), si_at(tree, "modes.elements", "1", 32)
+    if count and elements and count >= 2 * elements:
+        wanted = f"more than {count / 2:g} elements for {count:g} modes"
+        yield Fault("", "modes.elements", wanted, f"{elements:g}", "each element adds two unknowns")
+
+
+def _check_drag(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Drag that is given twice."""
+    area, force = at(tree, "payload.drag_area"), at(tree, "payload.drag")
+    if area is not None and force is not None:
+        wanted = "the load's drag once: drag_area (an area) or drag (a force per squared speed)"
+        yield Fault("", "payload.drag", wanted, f"{shown(force)} beside drag_area = {shown(area)}", "leave one out")
+
+
+def _check_friction(tree: dict[str, Any]) -> Iterator[Fault]:
+    """A law of friction that lacks its numbers."""
+    law = at(tree, "crane.friction.law")
+    needs = {"tanh": (("torque", "N m", "22 N m"), ("rate", "rad/s", "0.01 rad/s")),
+             "stick-slip": (("torque", "N m", "22 N m"),)}  # fmt: skip
+    for name, unit, example in needs.get(law, ()) if isinstance(law, str) else ():
+        key = f"crane.friction.{name}"
+        if si_at(tree, key, unit, 0.0) == 0.0:
+            wanted = f'a {name} above 0, such as "{example}": the law "{law}" needs it'
+            got = at(tree, key)
+            yield Fault("", key, wanted, "nothing: the key is missing" if got is None else shown(got))
+
+
+def fastest_turn(kind: str) -> float:
+    """Largest plausible speed of a turn of this kind of crane that states none [rad/s]."""
+    return FASTEST_SLEWING if kind == "space" else FASTEST_TURN
+
+
+def at(tree: Any, key: str) -> Any:
+    """Value at a dotted key, None if there is none."""
+    for name in key.split("."):
+        tree = tree.get(name) if isinstance(tree, dict) else None
+    return tree
+
+
+def si(value: object, unit: str) -> float | None:
+    """SI value; None if it cannot be read."""
+    try:
+        return to_si(value, unit)
+    except UnitError:
+        return None
+
+
+def si_at(tree: dict[str, Any], key: str, unit: str, default: float | None = None) -> float | None:
+    """SI value at a dotted key; None if it cannot be read."""
+    value = at(tree, key)
+    return default if value is None else si(value, unit)

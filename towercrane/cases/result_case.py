@@ -1,0 +1,51 @@
+"""The case that a result was computed from."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from towercrane.cases.case import Case
+from towercrane.cases.kinds import TOWER_CRANES, kind_of
+from towercrane.cranes.registry import KINDS
+from towercrane.cranes.tower.file.checks import check_tower
+from towercrane.schema.text import split_provenance
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def case_of(result: xr.Dataset) -> Case:
+    """Case of a result of :func:`towercrane.simulation.simulate.run_case`, without its motions.
+
+    Raises
+    ------
+    ValueError
+        If the result does not hold its case, or holds one that this version cannot read.
+    """
+    from pydantic import ValidationError
+
+    if not isinstance(result.attrs.get("case_text"), str):
+        raise ValueError("wanted a result that holds its case, as `towercrane run` writes it, got one without")
+    try:
+        written = json.loads(result.attrs["case_text"])
+        tree, assumed, _ = split_provenance(written)
+    except (ValueError, RecursionError):
+        written = tree = {}
+    if not isinstance(tree.get("crane"), dict):
+        raise ValueError("wanted a result that holds its case as JSON, got one without its crane")
+    kind, _ = kind_of(tree)
+    tree.pop("kind", None)
+    tree["crane"]["kind"] = kind
+    try:
+        checked = KINDS[kind].model_validate(tree)
+    except ValidationError as error:
+        first = ".".join(str(part) for part in error.errors()[0]["loc"])
+        raise ValueError(f"the result's case cannot be read by this version, at {first}") from error
+    # What no single value shows: a tower whose parts do not fit each other.
+    for fault in check_tower(tree) if kind in TOWER_CRANES else ():
+        raise ValueError(f"the result's case cannot be read by this version, at {fault.key}: {fault.got}")
+    changes = tuple(json.loads(result.attrs.get("changes", "[]")))
+    name = result.attrs["case"]
+    return Case(name, Path(name), checked.title or name, checked, {}, tuple(assumed), written, changes)

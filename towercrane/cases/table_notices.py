@@ -1,0 +1,87 @@
+"""What a case's CSV tables do to a run that nobody would expect, in sentences."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from towercrane.cases.case import Case
+    from towercrane.motions.motion import Motion
+
+    Floats = NDArray[np.float64]
+
+SHAKING = {"m": 0.05, "rad": 0.002}
+"""Acceleration by noise that is named, a half per cent of gravity [m/s^2], and what makes it 25 m out [rad/s^2]."""
+
+FEWEST = 8
+"""Second differences of a table from which scatter can be told."""
+
+SAME_INSTANT = 1e-6
+"""[s]"""
+
+
+def table_notices(case: Case) -> tuple[str, ...]:
+    """Records that end before the run does, and tables whose noise the crane feels as acceleration."""
+    return (*_ended(case), *_noisy(case))
+
+
+def _ended(case: Case) -> Iterator[str]:
+    """Gusts that end before the run."""
+    wind = getattr(case.checked, "wind", None)
+    if wind is None or not wind.series:
+        return
+    blown = {axis: case.plans[f"wind_{axis}"].commanded for axis in "xyz"}
+    end, duration = max(motion.duration for motion in blown.values()), case.run.duration
+    if end < duration - SAME_INSTANT:
+        stays = ", ".join(f"{motion.end:g}" for motion in blown.values())
+        yield (
+            f"wind.series: the record ends at {end:g} s; in the {duration - end:g} s that the run goes on the wind "
+            f"stays at its last value, x, y, z = {stays} m/s"
+        )
+
+
+def _noisy(case: Case) -> Iterator[str]:
+    """Tables whose points scatter."""
+    for name, described in case.checked.motion:
+        if getattr(described, "shape", "") != "table":
+            continue
+        motion = case.plans["rope" if name == "hoist" else name].moves[-1].commanded
+        unit = "m" if name in ("trolley", "hoist") else "rad"
+        step, size = scatter(motion)
+        shaken, allowed = np.sqrt(6.0) * size / step**2, SHAKING[unit]
+        if shaken > allowed:
+            # A parabola fitted over a time T leaves e sqrt(720 h) / T^2.5 of a scatter e at steps of h.
+            time = (size * np.sqrt(720.0 * step) / allowed) ** 0.4
+            felt = max(abs(rate) for rate in motion.range(2))
+            yield (
+                f"motion.{name}.file: its values scatter by {size:.2g} {unit} from point to point, by rounding or "
+                f"noise, which makes {shaken:.2g} of the up to {felt:.2g} {unit}/s^2 that the drive accelerates by; "
+                f"a parabola fitted to each point over {time:.2g} s (scipy.signal.savgol_filter) leaves {allowed:g}"
+            )
+
+
+def scatter(motion: Motion) -> tuple[float, float]:
+    """Step of a table's points [s] and standard deviation by which they scatter, zero where they do not.
+
+    Independent errors e make second differences whose neighbours have the covariance -4 e^2. Those of a smooth way
+    have the same sign.
+
+    Parameters
+    ----------
+    motion : Motion
+        Through the points, a piece between each.
+    """
+    times = motion.switch_times
+    values = np.append(motion.coefficients[:, 0], motion.end)
+    spans = np.diff(times)
+    step = float(np.median(spans))
+    second = 2.0 * step**2 * np.diff(np.diff(values) / spans) / (spans[1:] + spans[:-1])
+    if len(second) < FEWEST:
+        return step, 0.0
+    return step, float(np.sqrt(np.maximum(-np.mean(second[1:] * second[:-1]) / 4.0, 0.0)))

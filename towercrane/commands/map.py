@@ -1,0 +1,181 @@
+"""The command `map`: natural frequencies over trolley position and payload, and the tower's buckling load."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from towercrane.commands.terminal import (
+    ENDED_EARLY,
+    AsJson,
+    CaseName,
+    Changes,
+    Out,
+    Pictures,
+    announce_compilation,
+    fail,
+    folder_for_results,
+    load,
+    options_of,
+    say,
+    suggest,
+    tell,
+    with_bar,
+    write,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from modal import CraneFrame
+    from towercrane.cases.case import Case
+
+MOST_MODES = 20
+"""Branches beyond which a map takes minutes and cannot be read."""
+
+
+def frequency_map(
+    case: CaseName,
+    positions: Annotated[
+        int | None,
+        typer.Option("--positions", metavar="N", help="Places of the trolley along the jib; else the case's."),
+    ] = None,
+    payload: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--payload",
+            metavar="MASSES",
+            help='Loads, e.g. --payload "400 kg, 2 t"; else the case\'s.',
+        ),
+    ] = None,
+    modes: Annotated[int, typer.Option("--modes", metavar="N", help="Branches from the lowest on.")] = 6,
+    shapes: Annotated[
+        str | None,
+        typer.Option("--shapes", metavar="X", help='Draw the modes with the trolley there, e.g. --shapes "23 m".'),
+    ] = None,
+    out: Out = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+    pictures: Pictures = True,
+) -> None:
+    """Natural frequencies of the plane crane over trolley position and payload; the tower's buckling load."""
+    loaded = load(case, changes)
+    if loaded.kind == "space":
+        fail(f"{case}: wanted a case of kind 'radial', got 'space'; try: towercrane modes {case}")
+    if loaded.kind != "radial":
+        fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
+    folder = out if out is not None else Path("results") / f"{loaded.name}-map"
+    folder_for_results(folder)
+    from towercrane.cranes.registry import MOST_POSITIONS
+
+    if positions is not None and not 1 <= positions <= MOST_POSITIONS:
+        fail(f"--positions {positions}: wanted 1 to {MOST_POSITIONS}")
+    if not 1 <= modes <= MOST_MODES:
+        fail(f"--modes {modes}: wanted 1 to {MOST_MODES}")
+    masses = _masses(loaded, payload)
+    reach = loaded.radial_crane().jib.length
+    where = None if shapes is None else _position(shapes, reach)
+    announce_compilation("chain")
+    import numpy as np
+
+    from towercrane.cranes.tower.file.build import crane_frame
+    from towercrane.cranes.tower.file.effects import softened
+    from towercrane.studies.map_report import csv_text, map_report, provenance
+
+    frame = crane_frame(loaded, weight=softened(loaded))
+    places = np.unique(loaded.map.trolley_positions)
+    if positions is not None:
+        # A single place is the jib's end, where the load bends it most.
+        places = np.linspace(0.0, reach, positions) if positions > 1 else np.array([reach])
+    data = _mapped(loaded, frame, places, masses, modes)
+    data.attrs |= provenance(loaded)
+    report = map_report(data)
+    files: dict[str, Any] = {
+        "map.nc": data,
+        "map.csv": csv_text(data),
+        "map.json": json.dumps(report, indent=2) + "\n",
+    }
+    if pictures:
+        from towercrane.report.plots import frequency_map as pictured
+
+        files["map.png"] = pictured.frequencies(data)
+    if where is not None:
+        files |= _mode_picture(loaded, frame, where, modes)
+    write(folder, files)
+    if as_json:
+        tell(json.dumps(report, indent=2))
+    else:
+        from towercrane.report.tables.modes import map_tables
+
+        map_tables(report)
+        tell(f"written to {folder}: {', '.join(files)}")
+        if where is None:
+            suggest("map", case, *options_of(changes), "--shapes", f"{0.5 * reach:g} m")
+        else:
+            suggest("run", case, *options_of(changes))
+    if report["outcome"] != "finished":
+        for row in report["payloads"]:
+            if row["outcome"] != "finished":
+                factor = f"{row['buckling_factor']:.4g} times the weights"
+                say(f"load {row['payload_kg']:g} kg: {row['outcome']} at {factor}")
+        raise typer.Exit(ENDED_EARLY)
+
+
+def _masses(case: Case, written: list[str] | None) -> list[float]:
+    """Payloads [kg], ascending, each once."""
+    from towercrane.schema.units import UnitError, to_si
+
+    masses = set() if written else set(case.map.payload_masses)
+    for text in (part.strip() for option in written or () for part in option.split(",")):
+        try:
+            mass = to_si(text, "kg")
+        except UnitError as error:
+            fail(f"--payload {text}: {error}")
+        if not 0.0 < mass <= 1e6:
+            fail(f"--payload {text}: wanted a mass above 0 and up to 1000 t; without a load the hook's own")
+        masses.add(mass)
+    return sorted(masses)
+
+
+def _position(written: str, reach: float) -> float:
+    """Place of the trolley [m]."""
+    from towercrane.schema.units import UnitError, to_si
+
+    try:
+        position = to_si(written, "m")
+    except UnitError as error:
+        fail(f"--shapes {written}: {error}")
+    if not 0.0 <= position <= reach:
+        fail(f"--shapes {written}: wanted a place on the jib, 0 to {reach:g} m")
+    return position
+
+
+def _mapped(case: Case, frame: CraneFrame, places: Any, masses: list[float], modes: int) -> xr.Dataset:
+    """The map, with a progress bar if somebody is looking."""
+    from towercrane.studies.frequency_map import frequency_map as computed
+
+    title = f"{case.name}: {len(masses)} payloads, {len(places)} positions"
+    return with_bar(title, partial(computed, frame, places, masses, modes=modes))
+
+
+def _mode_picture(case: Case, frame: CraneFrame, position: float, count: int) -> dict[str, Any]:
+    """Picture of the modes with the case's own payload; none if the tower buckles under it."""
+    from modal import Unstable
+    from towercrane.cases.assumptions import as_notes, rests_on
+    from towercrane.report.plots.frequency_map import shapes
+    from towercrane.studies.plane_modes import PlaneCrane
+
+    try:
+        found = PlaneCrane(replace(frame, payload_mass=case.payload.mass)).modes(position, count)
+    except Unstable:
+        return {}
+    title = (
+        f"{case.crane.name}: trolley at {position:g} m, load {case.payload.mass:g} kg on {case.rope.length:g} m; "
+        "crane to scale, displacements not"
+    )
+    return {"shapes.png": shapes(found, title, as_notes(rests_on(case, exact_crane=True)))}

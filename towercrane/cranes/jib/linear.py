@@ -1,0 +1,179 @@
+"""Small motions of the jib crane: linear sway along a plan, and matrices about a pose at rest.
+
+Source: Al-Ajmi, Abu-El Yazied, Abu-El-Hagag, Makady, Eq. 17-25, derived anew: the printed equations keep products
+of small rates, drop the nominal motion's first-order terms, and have the torque D_22 for its derivative.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.cranes.jib import kernel
+from towercrane.cranes.jib.model import PlannedJibCrane
+from towercrane.kernels.payload import FORCE, JACOBIAN, MASS
+from towercrane.results.recording import Quantity
+from towercrane.simulation.system import System
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.jib.model import JibCrane
+    from towercrane.kernels.payload import Load
+    from towercrane.motions.motion import Motion
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LinearSway:
+    """Sway about the hanging position on the joints' exact paths, linear in the sway alone.
+
+    With xi the horizontal inertial components of the rope's direction and a the suspension point's acceleration,
+    l xi'' + 2 l' xi' + (g + a_z) xi = -(a_x, a_y). There are no Coriolis terms because the axes do not turn.
+
+    Parameters
+    ----------
+    crane : JibCrane
+    load : Load
+        Its mass is of no consequence here.
+    heave : bool
+        Include a_z; without it the stiffness is frozen at g, as a linear time-invariant model has it.
+    """
+
+    crane: JibCrane
+    load: Load
+    heave: bool = True
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Motions: the three joint angles [rad] and the rope's length [m]."""
+        return self._planned.channels
+
+    @property
+    def _planned(self) -> PlannedJibCrane:
+        return PlannedJibCrane(self.crane, self.load)
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it; the state is (xi, xi')."""
+        numbers = self._planned.numbers
+        numbers[kernel.HEAVE] = float(self.heave)
+        return System(
+            equations=lambda: kernel.linear_sway_rhs,
+            size=4,
+            guards=(),
+            floors=np.empty(0),
+            scale=np.ones(4),
+            numbers=numbers,
+            vectors=np.empty((0, 0)),
+            matrices=np.empty((0, 0, 0)),
+            tables=np.empty((0, 0, 0)),
+            work_shape=(kernel.ROWS, kernel.JOINTS),
+        )
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State at rest; arguments as of :meth:`towercrane.cranes.jib.model.PlannedJibCrane.start`."""
+        hanging = self._planned.start(inputs, state, swing_angle)
+        return np.array([hanging[0], hanging[1], 0.0, 0.0])
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Small sway angles over time."""
+        slew = motions["slew"](times)
+        c, s = np.cos(slew), np.sin(slew)
+        return {
+            "sway_in_plane": Quantity(
+                ("time",), c * states[:, 0] + s * states[:, 1], "rad", "small swing in the booms' plane, outward"
+            ),
+            "sway_lateral": Quantity(
+                ("time",), c * states[:, 1] - s * states[:, 0], "rad", "small swing towards growing slew"
+            ),
+        }
+
+    def provenance(self) -> dict[str, Any]:
+        """Crane and load, for a result's attributes."""
+        return self._planned.provenance()
+
+
+def static_matrices(
+    crane: JibCrane, load: Load, luff: float, fold: float, rope_length: float
+) -> tuple[Floats, Floats]:
+    """Mass and stiffness of small motions about a pose at rest whose torques are held.
+
+    Parameters
+    ----------
+    crane : JibCrane
+    load : Load
+    luff, fold : float
+        Elevation of the primary boom and, relative to it, of the secondary boom [rad].
+    rope_length : float
+        Length of the rope [m].
+
+    Returns
+    -------
+    mass, stiffness : ndarray, shape (5, 5)
+        Coordinates are slew, luff, fold, in-plane and lateral sway [rad]. The booms' stiffness is negative above the
+        horizontal: they are inverted pendulums.
+    """
+    work = np.zeros((kernel.ROWS, kernel.JOINTS))
+    numbers = PlannedJibCrane(crane, load).numbers
+    kernel.structure(np.array([0.0, luff, fold]), np.zeros(3), numbers, work)
+    lower = np.tril(work[MASS : MASS + 3])
+    # Velocity of the load per rate of each coordinate, booms along x.
+    load_rates = np.hstack([work[JACOBIAN : JACOBIAN + 3], rope_length * np.eye(3)[:, :2]])
+    mass = load.mass * load_rates.T @ load_rates
+    mass[:3, :3] += lower + np.tril(lower, -1).T
+
+    a2, a3 = crane.primary_length, crane.secondary_length
+    primary = crane.primary_mass_per_length * a2
+    secondary = crane.secondary_mass_per_length * a3
+    folding = -crane.gravity * a3 * np.sin(luff + fold) * (secondary / 2 + load.mass)
+    luffing = -crane.gravity * a2 * np.sin(luff) * (primary / 2 + secondary + load.mass)
+    stiffness = np.zeros((5, 5))
+    stiffness[1:3, 1:3] = folding
+    stiffness[1, 1] += luffing
+    stiffness[3, 3] = stiffness[4, 4] = load.mass * crane.gravity * rope_length
+    return mass, stiffness
+
+
+def static_torques(crane: JibCrane, load: Load, luff: float, fold: float) -> Floats:
+    """Joint torques that hold crane and load at rest; shape (3,) [N m]."""
+    work = np.zeros((kernel.ROWS, kernel.JOINTS))
+    kernel.structure(np.array([0.0, luff, fold]), np.zeros(3), PlannedJibCrane(crane, load).numbers, work)
+    return np.asarray(-work[FORCE] + load.mass * crane.gravity * work[JACOBIAN + 2])
+
+
+def growth_rates(
+    crane: JibCrane,
+    load: Load,
+    luff: float,
+    fold: float,
+    rope_length: float,
+    free: tuple[int, ...] = (0, 1, 2, 3, 4),
+) -> Floats:
+    """Rates at which small errors grow under held torques, largest first [1/s].
+
+    Parameters
+    ----------
+    crane, load, luff, fold, rope_length
+        As in :func:`static_matrices`.
+    free : tuple of int
+        Coordinates that move; the others are held.
+
+    Returns
+    -------
+    ndarray, shape (k,)
+        One for each unstable mode.
+    """
+    from scipy.linalg import eigh
+
+    mass, stiffness = (matrix[np.ix_(free, free)] for matrix in static_matrices(crane, load, luff, fold, rope_length))
+    squared = eigh(stiffness, mass, eigvals_only=True)
+    # Slew has no stiffness: its eigenvalue is zero but for rounding.
+    unstable = squared < -1e-9 * abs(squared).max()
+    return np.asarray(np.sqrt(-squared[unstable]))

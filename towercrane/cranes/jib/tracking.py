@@ -1,0 +1,78 @@
+"""Jib crane under the torques of its plan, solved beside the plan itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modal.checks import check_fields
+from towercrane.cranes.jib import kernel
+from towercrane.cranes.jib.model import DRIVEN_ROPE, SLACK_ROPE, JibModel, driven_start, hanging
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.motions.motion import Motion
+    from towercrane.results.recording import Quantity
+    from towercrane.simulation.system import System
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class TrackingJibCrane(JibModel):
+    """Joints under the torques of their plan, with or without a controller that holds them to it.
+
+    Plan and crane are solved side by side: tau = tau_plan - stiffness (theta - theta_plan) - damping
+    (theta' - theta_plan'), where tau_plan is the inverse dynamics of the plan and its own load.
+
+    Parameters
+    ----------
+    crane : JibCrane
+    load : Load
+    stiffness : float
+        Torque per angle that a joint is off its plan, the same for each [N m/rad]; 0 is open loop.
+    damping : float
+        Torque per rate that a joint is off its plan [N m s/rad].
+    rope_as_rod : bool
+        Let the rope push. Without it a slack rope, of crane or plan, ends the run.
+
+    Raises
+    ------
+    ValueError
+        If a gain is negative.
+    """
+
+    stiffness: float = 0.0
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_fields(self, not_negative=("stiffness", "damping"))
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        numbers = self.numbers
+        numbers[kernel.STIFFNESS], numbers[kernel.DAMPING] = self.stiffness, self.damping
+
+        ropes = DRIVEN_ROPE, (kernel.PLAN, kernel.PLAN + kernel.AXES)
+        works = (kernel.PLAN - 1, kernel.PLAN + 2 * kernel.AXES)
+        return self.make_system(kernel.tracking_rhs, works, numbers, ropes, (f"{SLACK_ROPE} in the plan",))
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State on the plan with both loads at rest; arguments as of :meth:`PlannedJibCrane.start`."""
+        angles, rates = inputs[: kernel.JOINTS, 0], inputs[: kernel.JOINTS, 1]
+        crane = driven_start(angles, rates, state, swing_angle)
+        return np.concatenate([crane, hanging(float(angles[0]), state, swing_angle), np.zeros(kernel.AXES + 1)])
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time, with the joints' errors; see :func:`towercrane.cranes.jib.outputs.observe`."""
+        from towercrane.cranes.jib.outputs import driven_rows, joint_error, observe
+
+        outputs = observe(self.numbers, self.load, motions, times, driven_rows(states), guards)
+        return {**outputs, "joint_error": joint_error(motions, times, states)}

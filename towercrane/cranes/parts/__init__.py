@@ -1,0 +1,1 @@
+"""What cranes of several families share. Imports no family."""

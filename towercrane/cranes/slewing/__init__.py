@@ -1,0 +1,1 @@
+"""Slewing cranes of point masses and springs. Imports no other family."""

@@ -1,0 +1,237 @@
+"""Crane files of slewing and jib cranes: one table per kind of crane."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from towercrane.schema.fields import (
+    Acceleration,
+    Corner,
+    Damping,
+    Drag,
+    HingeDamping,
+    Inertia,
+    Length,
+    Mass,
+    MassMomentOrNone,
+    MassOrNone,
+    MassPerLength,
+    Reach,
+    RotaryStiffness,
+    Stiffness,
+    Table,
+    TorqueOrNone,
+    TurningOrNone,
+)
+
+
+class Geometry(Table):
+    """Lengths of a lumped slewing crane."""
+
+    tower_height: Length
+    top_height: Reach
+    jib_radius: Length
+
+
+class BalancedGeometry(Geometry):
+    """Lengths, counter-jib included."""
+
+    counterweight_radius: Length
+
+
+class BasicMass(Table):
+    """Masses of the basic model."""
+
+    jib_tip: Mass
+
+
+class EnhancedMass(Table):
+    """Masses of the enhanced model; the counterweight enters by its moment alone."""
+
+    tower_top: MassOrNone
+    jib_tip: Mass
+    counter_moment: MassMomentOrNone = 0.0
+
+
+class MultiMass(Table):
+    """Masses of the multi-mass model."""
+
+    tower_top: MassOrNone
+    jib_tip: Mass
+    counterweight: Mass
+
+
+class BasicInertia(Table):
+    """Moment of inertia about the vertical."""
+
+    platform: Inertia
+
+
+class TowerInertia(BasicInertia):
+    """Moments of inertia about the vertical."""
+
+    tower_top: Inertia
+
+
+class BasicStiffness(Table):
+    """Springs at the jib's tip, and the rope's."""
+
+    jib_lateral: Stiffness
+    jib_radial: Stiffness
+    jib_vertical: Stiffness
+    rope: Stiffness
+
+
+class EnhancedStiffness(Table):
+    """Springs of tower and jib."""
+
+    tower_x: Stiffness
+    tower_y: Stiffness
+    jib_vertical: Stiffness
+    tower_torsion: RotaryStiffness
+    jib_lateral: RotaryStiffness
+
+
+class MultiMassStiffness(EnhancedStiffness):
+    """Springs of tower, jib and counter-jib."""
+
+    counter_jib_vertical: Stiffness
+    counter_jib_lateral: RotaryStiffness
+
+
+class BasicDamping(Table):
+    """Dampers beside the springs."""
+
+    jib_lateral: Damping = 0.0
+    jib_radial: Damping = 0.0
+    jib_vertical: Damping = 0.0
+    rope: Damping = 0.0
+
+
+class EnhancedDamping(Table):
+    """Dampers beside the springs."""
+
+    tower_x: Damping = 0.0
+    tower_y: Damping = 0.0
+    jib_vertical: Damping = 0.0
+    tower_torsion: HingeDamping = 0.0
+    jib_lateral: HingeDamping = 0.0
+
+
+class MultiMassDamping(EnhancedDamping):
+    """Dampers beside the springs."""
+
+    counter_jib_vertical: Damping = 0.0
+    counter_jib_lateral: HingeDamping = 0.0
+
+
+class Drive(Table):
+    """Coupling of shaft and platform: soft up to the corner, stiff beyond it."""
+
+    soft_stiffness: RotaryStiffness
+    stiff_stiffness: RotaryStiffness
+    corner: Corner
+    damping: HingeDamping = 0.0
+
+
+class Friction(Table):
+    """Friction of the slewing bearing; the rate is the platform's at which tanh bends."""
+
+    law: Literal["tanh", "stick-slip", "none"]
+    torque: TorqueOrNone = 0.0
+    rate: TurningOrNone = 0.0
+
+
+class BasicDrag(Table):
+    """Air drag of the structure."""
+
+    jib_tip: Drag = 0.0
+
+
+class EnhancedDrag(BasicDrag):
+    """Air drag of the structure."""
+
+    tower_top: Drag = 0.0
+
+
+class MultiMassDrag(EnhancedDrag):
+    """Air drag of the structure."""
+
+    counterweight: Drag = 0.0
+
+
+class SlewingCrane(Table):
+    """What the lumped slewing cranes share."""
+
+    name: str
+    source: str = ""
+    kind: str
+    gravity: Acceleration = 9.81
+    geometry: Geometry
+    mass: Table
+    inertia: BasicInertia
+    stiffness: Table
+    damping: Table
+    drive: Drive
+    friction: Friction = Friction(law="none")
+    drag: BasicDrag = Field(default_factory=BasicDrag)
+
+
+class BasicCrane(SlewingCrane):
+    """Basic model: a platform and the jib's tip on springs."""
+
+    kind: Literal["basic"]
+    mass: BasicMass
+    stiffness: BasicStiffness
+    damping: BasicDamping = Field(default_factory=BasicDamping)
+
+
+class EnhancedCrane(SlewingCrane):
+    """Enhanced model: platform, tower top and jib's tip."""
+
+    kind: Literal["enhanced"]
+    mass: EnhancedMass
+    inertia: TowerInertia
+    stiffness: EnhancedStiffness
+    damping: EnhancedDamping = Field(default_factory=EnhancedDamping)
+    drag: EnhancedDrag = Field(default_factory=EnhancedDrag)
+
+
+class MultiMassCrane(SlewingCrane):
+    """Multi-mass model: platform, tower top, jib's tip and counterweight."""
+
+    kind: Literal["multi-mass"]
+    geometry: BalancedGeometry
+    mass: MultiMass
+    inertia: TowerInertia
+    stiffness: MultiMassStiffness
+    damping: MultiMassDamping = Field(default_factory=MultiMassDamping)
+    drag: MultiMassDrag = Field(default_factory=MultiMassDrag)
+
+
+class Post(Table):
+    """Post of a jib crane."""
+
+    height: Reach = 0.0
+    inertia: Inertia
+
+
+class Boom(Table):
+    """Rigid uniform boom."""
+
+    length: Length
+    mass_per_length: MassPerLength
+
+
+class JibCrane(Table):
+    """Jib crane: a post that slews, a boom that luffs and a boom that folds."""
+
+    name: str
+    source: str = ""
+    kind: Literal["jib"]
+    gravity: Acceleration = 9.81
+    post: Post
+    primary_boom: Boom
+    secondary_boom: Boom

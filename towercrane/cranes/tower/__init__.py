@@ -1,0 +1,1 @@
+"""Tower cranes whose tower and jib bend. Imports no other family."""

@@ -1,0 +1,82 @@
+"""What of a case in space belongs together, checked on the tables as written."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from towercrane.cases.plausibility import at, si_at
+from towercrane.cranes.registry import SpaceModel
+from towercrane.schema.faults import Fault, shown
+from towercrane.schema.units import wanted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+MISSING = "nothing: the key is missing"
+
+NEEDED = {
+    "torsion_modes": (("tower.torsional_stiffness", "N m^2"), ("tower.torsional_inertia_per_length", "kg m^2/m")),
+    "jib_lateral_modes": (("jib.lateral_second_moment_of_area", "m^4"),),
+}
+"""What of the crane modes of a kind need, and its unit."""
+
+PRESSED = {
+    "crane.wind_areas.tower": "m",
+    "crane.wind_areas.jib": "m",
+    "crane.wind_areas.counter_jib": "m",
+    "crane.wind_areas.counterweight": "m^2",
+    "payload.drag_area": "m^2",
+    "payload.drag": "N s^2/m^2",
+}
+"""What the wind may press on, and its unit."""
+
+
+def check_space(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Faults of a case in space as a whole. Keys that are wrong by themselves are for others to report."""
+    yield from _check_members(tree)
+    yield from _check_drive(tree)
+    yield from _check_wind(tree)
+
+
+def _check_members(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Modes of members that the crane file does not describe."""
+    for modes, keys in NEEDED.items():
+        count = at(tree, f"model.{modes}")
+        count = SpaceModel.model_fields[modes].default if count is None else count
+        if not (isinstance(count, int) and count > 0) or not isinstance(at(tree, "crane.tower"), dict):
+            continue
+        for key, unit in keys:
+            if at(tree, f"crane.{key}") is None and isinstance(at(tree, f"crane.{key.partition('.')[0]}"), dict):
+                hint = f"model.{modes} = 0 leaves it rigid"
+                yield Fault("", f"crane.{key}", f"{wanted(unit)}, for model.{modes} = {count}", MISSING, hint)
+
+
+def _check_drive(tree: dict[str, Any]) -> Iterator[Fault]:
+    """A head that turns twice, and a shaft without its drive."""
+    if at(tree, "motion.shaft") is None:
+        return
+    if at(tree, "motion.slewing") is not None:
+        what = "one of [motion.slewing] (the head turns as stated) and [motion.shaft] (its drive's shaft does)"
+        yield Fault("", "motion.slewing", what, "both", "leave one out")
+    crane = at(tree, "crane")
+    if isinstance(crane, dict) and "drive" not in crane:
+        hint = "without a drive the head turns as [motion.slewing] says"
+        what = "a table [crane.drive] with soft_stiffness, stiff_stiffness, corner: [motion.shaft] needs it"
+        yield Fault("", "crane.drive", what, "nothing: the table is missing", hint)
+
+
+def _check_wind(tree: dict[str, Any]) -> Iterator[Fault]:
+    """A wind that is described twice or not at all, or meets nothing."""
+    wind = at(tree, "wind")
+    if not isinstance(wind, dict):
+        return
+    steady = [name for name in ("speed", "direction", "upward") if name in wind]
+    if wind.get("series") and steady:
+        what = "a steady wind (speed, direction) or a series of gusts, not both"
+        yield Fault("", "wind.series", what, f"{shown(wind['series'])} beside {', '.join(steady)}", "leave one out")
+    elif not wind.get("series") and "speed" not in wind:
+        what = f"{wanted('m/s')}, or series, the name of a CSV file"
+        yield Fault("", "wind.speed", what, MISSING)
+    if all(si_at(tree, key, unit, 0.0) == 0.0 for key, unit in PRESSED.items()):
+        what = "something that the wind presses on: crane.wind_areas or payload.drag_area above 0"
+        yield Fault("", "wind", what, "no area at all")

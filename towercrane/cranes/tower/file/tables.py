@@ -1,0 +1,111 @@
+"""Crane files of tower cranes, for cases in the plane of the jib and in space."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from towercrane.cranes.slewing.tables import Drive, Friction
+from towercrane.cranes.tower.file.tower_tables import Foundation, Tower
+from towercrane.schema.fields import (
+    Acceleration,
+    AreaOrNone,
+    InertiaOrNone,
+    Length,
+    MassOrNone,
+    MassPerLength,
+    MassPerLengthOrNone,
+    Modulus,
+    ModulusIfAny,
+    PressedLength,
+    Reach,
+    SecondMoment,
+    SecondMomentIfAny,
+    Table,
+)
+
+
+class Jib(Table):
+    """Jib as a uniform beam; the lateral second moment of area is that of bending to its sides."""
+
+    length: Length
+    mass_per_length: MassPerLength
+    youngs_modulus: Modulus
+    second_moment_of_area: SecondMoment
+    lateral_second_moment_of_area: SecondMomentIfAny = None
+
+
+class CounterJib(Table):
+    """Counter-jib with the counterweight at its end.
+
+    It is rigid in the equations of motion. Modulus and second moment of area, both or none, let it bend in the exact
+    frequencies of the crane, see :func:`towercrane.cranes.tower.file.build.crane_frame`.
+    """
+
+    length: Reach
+    mass_per_length: MassPerLengthOrNone
+    counterweight: MassOrNone
+    youngs_modulus: ModulusIfAny = None
+    second_moment_of_area: SecondMomentIfAny = None
+
+
+class Trolley(Table):
+    """Trolley."""
+
+    mass: MassOrNone
+
+
+class WindAreas(Table):
+    """Drag areas of the structure, drag coefficients included; of tower and jibs per unit length."""
+
+    tower: PressedLength = 0.0
+    jib: PressedLength = 0.0
+    counter_jib: PressedLength = 0.0
+    counterweight: AreaOrNone = 0.0
+
+
+class SlewingDrive(Drive):
+    """Drive of a tower crane's head; its inertia turns with the head and does not tilt."""
+
+    inertia: InertiaOrNone = 0.0
+
+
+class SmoothFriction(Friction):
+    """Friction of a tower crane's slewing bearing."""
+
+    law: Literal["tanh", "none"]
+
+
+class Crane(Table):
+    """Tower crane.
+
+    One file serves cases in the jib's plane and in space. The latter alone use torsion of the tower, bending of the
+    jib to its sides, the wind's areas, drive, friction and roll inertia.
+    """
+
+    name: str
+    source: str = ""
+    kind: str
+    gravity: Acceleration = 9.81
+    tower: Tower
+    foundation: Foundation = Field(default_factory=Foundation)
+    jib: Jib
+    counter_jib: CounterJib
+    trolley: Trolley
+    roll_inertia: InertiaOrNone = 0.0
+    wind_areas: WindAreas = Field(default_factory=WindAreas)
+    drive: SlewingDrive | None = None
+    friction: SmoothFriction = SmoothFriction(law="none")
+
+
+class RadialCrane(Crane):
+    """Tower crane in radial motion."""
+
+    kind: Literal["radial"] = "radial"
+
+
+class SpaceCrane(Crane):
+    """Tower crane in space."""
+
+    kind: Literal["space"] = "space"

@@ -1,0 +1,245 @@
+"""What a flexible crane is made of: shapes of its members, sums over the mass they carry, and what the wind meets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from modal.beams.shapes import cantilever_modes
+from modal.beams.torsion import torsion_modes
+from modal.checks import whole_number
+from towercrane.cranes.parts import wind
+from towercrane.cranes.tower.mass_sums import Basis, MassSums, rigid_sums, uniform_sums
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from towercrane.cranes.tower.parameters import TowerCrane
+
+    Floats = NDArray[np.float64]
+
+
+class TorsionBasis(Protocol):
+    """Shapes of torsion of the tower, such as :class:`modal.beams.torsion.TorsionModes`."""
+
+    @property
+    def count(self) -> int:
+        """Number of shapes."""
+
+    @property
+    def angular_frequencies(self) -> Floats:
+        """Square roots of the stiffness of each shape by itself."""
+
+    def __call__(self, position: ArrayLike) -> Floats:
+        """Twist, shape (count, *shape of position)."""
+
+    def mass_matrix(self) -> Floats:
+        """Products of shapes over the tower's own inertia."""
+
+    def mass_moment(self) -> Floats:
+        """Sums of shapes over the tower's own inertia."""
+
+
+@dataclass(frozen=True, slots=True)
+class ModeCounts:
+    """Numbers of modes of each kind, zero for what is rigid.
+
+    Parameters
+    ----------
+    tower : int
+        Bending, in each direction: unlike numbers would make the tower stiffer one way than the other.
+    torsion : int
+        Of the tower.
+    lateral, vertical : int
+        Of the jib.
+
+    Raises
+    ------
+    ValueError
+        If one is no whole number of zero or more.
+    """
+
+    tower: int = 1
+    torsion: int = 1
+    lateral: int = 1
+    vertical: int = 1
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            whole_number(f"ModeCounts.{name}", getattr(self, name))
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleCrane:
+    """Tower on the ground, head that slews and tilts with its top, jib with trolley, rigid counter-jib.
+
+    Parameters
+    ----------
+    name : str
+    tower_height, jib_length : float
+        [m]
+    tower : Basis
+        Bending, the same along x and y.
+    torsion : TorsionBasis
+    lateral, vertical : Basis
+        Bending of the jib to the left and up.
+    jib, counter : MassSums
+        The jib; counter-jib, counterweight and whatever else is rigid on the head.
+    tower_mass : float
+        Of the tower and its own bodies [kg].
+    trolley_mass : float
+        [kg]
+    planes : {1, 2}
+        Directions in which the tower bends: x, or x and y.
+    jib_exposure, counter_exposure : MassSums, optional
+        Sums over the drag per squared speed [kg/m] of jib and counter-jib, in place of their mass.
+    tower_drag : float
+        Of the tower, per squared speed and length [kg/m^2].
+    gravity : float
+        [m/s^2]
+
+    Raises
+    ------
+    ValueError
+        If there are other planes than these.
+    """
+
+    name: str
+    tower_height: float
+    jib_length: float
+    tower: Basis
+    torsion: TorsionBasis
+    lateral: Basis
+    vertical: Basis
+    jib: MassSums
+    counter: MassSums
+    tower_mass: float
+    trolley_mass: float
+    planes: int = 2
+    jib_exposure: MassSums | None = None
+    counter_exposure: MassSums | None = None
+    tower_drag: float = 0.0
+    gravity: float = 9.81
+
+    def __post_init__(self) -> None:
+        if self.planes not in (1, 2):
+            raise ValueError(f"FlexibleCrane.planes: wanted 1 or 2, got {self.planes!r}")
+
+    @cached_property
+    def slewing(self) -> MassSums:
+        """Sums over all that turns, without trolley and load."""
+        return self.jib + self.counter
+
+    @property
+    def exposure(self) -> MassSums | None:
+        """Sums over the drag of all that turns; None where the wind does not matter."""
+        parts = [part for part in (self.jib_exposure, self.counter_exposure) if part is not None]
+        return parts[0] if len(parts) == 1 else parts[0] + parts[1] if parts else None
+
+    @cached_property
+    def tower_moments(self) -> tuple[Floats, Floats]:
+        """Sums over the tower's own mass of its shapes, and with the height as weight; shapes (count,)."""
+        return self.tower.mass_moments()
+
+    @cached_property
+    def tower_matrices(self) -> tuple[Floats, Floats]:
+        """Own mass and stiffness of the tower in its shapes; shapes (count, count)."""
+        return self.tower.mass_matrix(), self.tower.stiffness_matrix()
+
+    @cached_property
+    def tower_softening(self) -> tuple[Floats, Floats]:
+        """What unit force on the tower's top, and its own weight under unit gravity, take from the stiffness."""
+        return self.tower.slope_matrix(), self.tower.weight_matrix()
+
+    def jib_shapes(self, position: ArrayLike, derivative: int = 0) -> Floats:
+        """Shapes of the jib to the left, then up, or their derivatives; shape (jib modes, *shape of position)."""
+        bases = [basis for basis in (self.lateral, self.vertical) if basis.count]
+        if not bases:
+            return np.empty((0, *np.shape(position)))
+        return np.concatenate([basis(position, derivative) for basis in bases])
+
+    @cached_property
+    def tip_shapes(self) -> Floats:
+        """Shapes of the jib at its tip, shape (jib modes, 1)."""
+        return self.jib_shapes([self.jib_length])
+
+    @property
+    def top_slope(self) -> Floats:
+        """Rotation of the tower's top with each of its shapes, shape (count,)."""
+        return self.tower.rotation(self.tower_height)
+
+
+def flexible_crane(
+    crane: TowerCrane, modes: ModeCounts, areas: wind.WindAreas | None = None, planes: int = 2
+) -> FlexibleCrane:
+    """Crane in so many modes of its members, the tower's with the head on their end.
+
+    Parameters
+    ----------
+    crane : TowerCrane
+    modes : ModeCounts
+    areas : WindAreas, optional
+    planes : {1, 2}
+        Directions in which the tower bends.
+
+    Raises
+    ------
+    ValueError
+        If there are modes of a member that the crane does not describe.
+    """
+    for member, count, wanted in (("shaft", modes.torsion, "torsion"), ("jib_lateral", modes.lateral, "lateral")):
+        if count and getattr(crane, member) is None:
+            raise ValueError(f"TowerCrane.{member}: wanted for {count} {wanted} modes, got None")
+    lateral = cantilever_modes(crane.jib_lateral or crane.jib, modes.lateral)
+    vertical = cantilever_modes(crane.jib, modes.vertical)
+    # The shapes do not depend on the bending stiffness: the longer list serves both directions.
+    both = max(lateral, vertical, key=lambda m: m.count)
+    jib = uniform_sums(crane.jib.length, crane.jib.mass_per_length, both, modes.lateral, modes.vertical)
+    counter = rigid_sums(
+        crane.counter_mass,
+        crane.counter_moment,
+        crane.counter_inertia,
+        modes.lateral + modes.vertical,
+        roll=crane.roll_inertia,
+    )
+    tower = crane.tower_modes(modes.tower)
+    jib_exposure, counter_exposure = None, None
+    if areas is not None:
+        length, per_length = crane.counter_jib_length, wind.drag(areas.counter_jib)
+        tip = wind.drag(areas.counterweight)
+        jib_exposure = jib.scaled(wind.drag(areas.jib) / crane.jib.mass_per_length)
+        counter_exposure = rigid_sums(
+            per_length * length + tip,
+            -(per_length * length / 2 + tip) * length,
+            (per_length * length / 3 + tip) * length**2,
+            modes.lateral + modes.vertical,
+        )
+    return FlexibleCrane(
+        name=crane.name,
+        tower_height=crane.tower.length,
+        jib_length=crane.jib.length,
+        tower=tower,
+        torsion=_torsion(crane, modes.torsion),
+        lateral=lateral,
+        vertical=vertical,
+        jib=jib,
+        counter=counter,
+        tower_mass=crane.tower_mass,
+        trolley_mass=crane.trolley_mass,
+        planes=planes,
+        jib_exposure=jib_exposure,
+        counter_exposure=counter_exposure,
+        tower_drag=wind.drag(areas.tower) if areas is not None else 0.0,
+        gravity=crane.gravity,
+    )
+
+
+def _torsion(crane: TowerCrane, count: int) -> TorsionBasis:
+    from modal.beams.torsion import Shaft
+
+    # A rigid shaft has no modes, whatever its data.
+    shaft = crane.shaft or Shaft(crane.tower.length, 1.0, 1.0)
+    return torsion_modes(shaft, count, crane.slewing_inertia)

@@ -1,0 +1,114 @@
+"""Poses of a flexible tower crane in the plane or in space: its members' shapes from their modal coordinates."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.cases.poses import Poses, sampled
+from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from towercrane.cases.case import Case
+
+    Floats = NDArray[np.float64]
+
+POINTS = 40
+"""Points along a member."""
+
+IN_PLANE = {"tower_x": "tower", "jib_vertical": "jib"}
+"""What a result in the plane calls coordinates."""
+
+
+def flexible_poses(case: Case, result: xr.Dataset, times: Floats) -> Poses:
+    """Poses of a case of kind "radial" or "space" with the modes that the result has.
+
+    The positions are those of the equations of motion, in which tilt and twist of the head are finite rotations.
+
+    Parameters
+    ----------
+    case : Case
+    result : xarray.Dataset
+    times : ndarray, shape (f,)
+        [s]
+
+    Raises
+    ------
+    ValueError
+        If the result holds no coordinates of such a crane.
+    """
+    from scipy.spatial.transform import Rotation
+
+    in_space = case.kind == "space"
+    q = {
+        kind: _coordinates(result, kind if in_space else IN_PLANE.get(kind, kind), times)
+        for kind in ("tower_x", "tower_y", "torsion", "jib_lateral", "jib_vertical")
+    }
+    counts = ModeCounts(
+        tower=q["tower_x"].shape[1],
+        torsion=q["torsion"].shape[1],
+        lateral=q["jib_lateral"].shape[1],
+        vertical=q["jib_vertical"].shape[1],
+    )
+    written = case.space_crane() if in_space else case.radial_crane()
+    crane, height = flexible_crane(written, counts), written.tower.length
+    heading = sampled(result, "slewing_angle", times) if in_space else np.zeros(len(times))
+
+    up = np.linspace(0.0, height, POINTS)
+    upright = np.broadcast_to(np.stack([0.0 * up, 0.0 * up, up], axis=1), (len(times), POINTS, 3))
+    tower = upright.copy()
+    shapes, slopes = crane.tower(up), crane.top_slope
+    slope = np.zeros((2, len(times)))
+    for axis, kind in enumerate(("tower_x", "tower_y")):
+        if q[kind].shape[1]:
+            tower[..., axis] += q[kind] @ shapes
+            slope[axis] = q[kind] @ slopes
+    tilt = Rotation.from_rotvec(np.stack([-slope[1], slope[0], 0.0 * heading], axis=1))
+    twist = q["torsion"] @ crane.torsion(height)
+    head = (tilt * Rotation.from_euler("z", (heading + twist)[:, None])).as_matrix()
+    turned = Rotation.from_euler("z", heading[:, None]).as_matrix()
+    top, lateral = tower[:, -1], counts.lateral
+
+    def on_head(along: Floats, deflection: Floats) -> tuple[Floats, Floats]:
+        """Points on the jib's line, shapes (f or 1, p) and (2, f, p): deformed, and undeformed."""
+        places = np.stack(np.broadcast_arrays(along, *deflection), axis=-1)
+        straight = np.stack(np.broadcast_arrays(along, *np.zeros_like(deflection)), axis=-1)
+        return (
+            top[:, None] + np.einsum("tij,tpj->tpi", head, places),
+            upright[:, -1:] + np.einsum("tij,tpj->tpi", turned, straight),
+        )
+
+    along = np.linspace(0.0, written.jib.length, POINTS)
+    jib = crane.jib_shapes(along)
+    deflection = np.stack([q["jib_lateral"] @ jib[:lateral], q["jib_vertical"] @ jib[lateral:]])
+    # A trolley that leaves the jib ends the run; its last row stands a hair beyond the end.
+    trolley = np.clip(sampled(result, "trolley_position", times), 0.0, written.jib.length)
+    there = crane.jib_shapes(trolley)
+    at_trolley = np.stack([
+        np.einsum("ti,it->t", q["jib_lateral"], there[:lateral]),
+        np.einsum("ti,it->t", q["jib_vertical"], there[lateral:]),
+    ])  # fmt: skip
+    back = np.array([0.0, -written.counter_jib_length])
+    pairs = {
+        "tower": (tower, upright),
+        "jib": on_head(along[None], deflection),
+        "counter-jib": on_head(back[None], np.zeros((2, len(times), 2))),
+        "suspension": on_head(trolley[:, None], at_trolley[..., None]),
+    }
+    return Poses(
+        times,
+        heading,
+        {name: deformed for name, (deformed, _) in pairs.items()},
+        {name: still for name, (_, still) in pairs.items()},
+        sampled(result, "payload_position", times) + np.array([0.0, 0.0, height]),
+    )
+
+
+def _coordinates(result: xr.Dataset, kind: str, times: Floats) -> Floats:
+    """Amplitudes of the modes of a kind, none of them where the result has none; shape (f, modes)."""
+    name = f"{kind}_coordinate"
+    return sampled(result, name, times) if name in result else np.zeros((len(times), 0))

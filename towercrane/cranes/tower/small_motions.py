@@ -1,0 +1,199 @@
+"""Small motions of a flexible crane with its load: matrices, natural frequencies, and what kind each mode is of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.cranes.tower.kernels import layout
+from towercrane.kernels.payload import JACOBIAN, MASS
+from towercrane.simulation.differences import jacobian
+from towercrane.simulation.system import NoEquilibrium
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from towercrane.cranes.tower.model import FlexibleModel
+
+    Floats = NDArray[np.float64]
+
+KINDS = ("radial", "lateral", "torsion", "radial sway", "lateral sway")
+"""What moves in a mode: tower and jib in the jib's vertical plane, tower and jib across it, torsion with slewing, and
+the load along and across the jib."""
+
+
+@dataclass(frozen=True, eq=False)
+class NaturalMode:
+    """One small motion about the equilibrium.
+
+    Parameters
+    ----------
+    angular_frequency : float
+        [rad/s]
+    kind : str
+        The one of `KINDS` that holds most of the mode's energy.
+    shares : dict of str to float
+        Share of each kind in the elastic and potential energy; they add up to 1.
+    shape : ndarray, shape (coordinates + 2,)
+        Coordinates, then the load's way from the point it hangs from, along the fixed axes x and y [m].
+    """
+
+    angular_frequency: float
+    kind: str
+    shares: dict[str, float]
+    shape: Floats
+
+    @property
+    def frequency_hz(self) -> float:
+        """Natural frequency [Hz]."""
+        return self.angular_frequency / (2.0 * np.pi)
+
+
+def linear_matrices(model: FlexibleModel, drives: ArrayLike, *, about: Floats | None = None) -> tuple[Floats, Floats]:
+    """Mass and stiffness of small motions with the drives held.
+
+    Parameters
+    ----------
+    model : FlexibleModel
+    drives : array_like, shape (channels,) or (channels, 1)
+        Value of each of the model's channels.
+    about : ndarray, shape (coordinates,), optional
+        Coordinates at equilibrium. Without, the motions are about the undeformed crane, as in a linear frame.
+
+    Returns
+    -------
+    mass, stiffness : ndarray, shape (coordinates + axes - 1, coordinates + axes - 1)
+        The last coordinates are the load's horizontal way from the point it hangs from [m].
+    """
+    inputs = np.zeros((len(model.channels), 3))
+    inputs[:, 0] = np.ravel(np.asarray(drives, dtype=float))
+    n, sways, load = model.coordinates, model.axes - 1, model.load.mass
+    work = model.at_rest(np.zeros(n) if about is None else about, inputs)
+    lower = np.tril(work[MASS : MASS + n, :n])
+    columns = work[JACOBIAN : JACOBIAN + model.axes, :n]
+    mass = np.zeros((n + sways, n + sways))
+    mass[:n, :n] = lower + np.tril(lower, -1).T + load * columns.T @ columns
+    mass[n:, :n] = load * columns[:sways]
+    mass[:n, n:] = mass[n:, :n].T
+    mass[n:, n:] = load * np.eye(sways)
+    stiffness = np.zeros_like(mass)
+    if about is None:
+        stiffness[:n, :n] = model.system.matrices[layout.STIFFNESS]
+    elif n:
+        slope, _ = jacobian(lambda q: -model.static_force(q, inputs), about, model.system.scale[:n])
+        stiffness[:n, :n] = 0.5 * (slope + slope.T)
+    stiffness[n:, n:] = load * model.crane.gravity / inputs[1, 0] * np.eye(sways)
+    return mass, stiffness
+
+
+def fastest_vibration(model: FlexibleModel) -> float:
+    """Highest angular frequency of a crane without load, its trolley at the tower, its drive at its stiffest [rad/s].
+
+    A load can only lower it, by its inertia along the rope, and so does the trolley further out, but for one per
+    cent where that hardly moves.
+    """
+    from scipy.linalg import eigh
+
+    if not model.coordinates:
+        return 0.0
+    inputs = np.zeros((len(model.channels), 3))
+    inputs[1, 0] = 1.0
+    n = model.coordinates
+    # Only the lower triangle is there, and read.
+    mass = model.at_rest(np.zeros(n), inputs)[MASS : MASS + n, :n]
+    stiffness = model.system.matrices[layout.STIFFNESS].copy()
+    if model.drive is not None:
+        turned = model.parts["slewing"].start
+        stiffness[turned, turned] += max(model.drive.soft, model.drive.stiff)
+    return float(np.sqrt(max(eigh(stiffness, mass, eigvals_only=True)[-1], 0.0)))
+
+
+def reciprocal_modes(model: FlexibleModel, mass: Floats, stiffness: Floats) -> tuple[Floats, Floats]:
+    """Angular frequencies, ascending [rad/s], and shapes of unit elastic energy in the columns.
+
+    Raises
+    ------
+    NoEquilibrium
+        If the stiffness is not positive definite.
+    """
+    from scipy.linalg import eigh
+
+    from towercrane.cranes.tower.model import TOWER_BUCKLED
+
+    if np.linalg.eigvalsh(stiffness).min() <= 0.0:
+        raise NoEquilibrium(TOWER_BUCKLED, model.buckling_message())
+    # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is.
+    reciprocal, vectors = eigh(mass, stiffness)
+    return 1.0 / np.sqrt(reciprocal[::-1]), vectors[:, ::-1]
+
+
+def natural_modes(
+    model: FlexibleModel, trolley_position: float, rope_length: float, slewing_angle: float = 0.0
+) -> list[NaturalMode]:
+    """Small motions about the equilibrium in still air, drives held; ascending by frequency.
+
+    Parameters
+    ----------
+    model : FlexibleModel
+        With a load in space.
+    trolley_position, rope_length : float
+        [m]
+    slewing_angle : float
+        Of the head, or of the drive's shaft [rad].
+
+    Raises
+    ------
+    NoEquilibrium
+        If there is no stable equilibrium.
+    ValueError
+        If the load is confined to a plane.
+    """
+    if model.axes != 3:
+        raise ValueError("FlexibleModel.axes: wanted 3, a load in space, got 2")
+    values = {"trolley": trolley_position, "rope": rope_length, "slewing": slewing_angle, "shaft": slewing_angle}
+    drives = np.array([values.get(channel, 0.0) for channel in model.channels])
+    q = model.equilibrium(np.column_stack([drives, np.zeros((len(drives), 2))]))
+    mass, stiffness = linear_matrices(model, drives, about=q)
+    frequencies, shapes = reciprocal_modes(model, mass, stiffness)
+    heading = 0.0 if model.slewing == "fixed" else slewing_angle
+    frame = _head_frame(model, heading)
+    turned = frame @ stiffness @ frame.T
+    found = []
+    for frequency, shape in zip(frequencies, shapes.T, strict=True):
+        energy = (frame @ shape) * (turned @ frame @ shape)
+        total = energy.sum()
+        shares = {kind: float(energy[rows].sum() / total) for kind, rows in _rows(model).items()}
+        found.append(NaturalMode(float(frequency), max(shares, key=lambda kind: shares[kind]), shares, shape))
+    return found
+
+
+def _head_frame(model: FlexibleModel, heading: float) -> Floats:
+    """Orthogonal matrix that turns what is given along x and y into along and across the jib."""
+    n, parts = model.coordinates, model.parts
+    frame = np.eye(n + 2)
+    pairs = [(n, n + 1)]
+    if model.counts["tower_y"]:
+        pairs += zip(
+            range(*parts["tower_x"].indices(n)),
+            range(*parts["tower_y"].indices(n)),
+            strict=True,
+        )
+    c, s = np.cos(heading), np.sin(heading)
+    for x, y in pairs:
+        frame[np.ix_([x, y], [x, y])] = [[c, s], [-s, c]]
+    return frame
+
+
+def _rows(model: FlexibleModel) -> dict[str, list[int]]:
+    n = model.coordinates
+    at = {kind: list(range(*rows.indices(n))) for kind, rows in model.parts.items()}
+    groups = (
+        at["tower_x"] + at["jib_vertical"],
+        at["tower_y"] + at["jib_lateral"],
+        at["torsion"] + at["slewing"],
+        [n],
+        [n + 1],
+    )
+    return dict(zip(KINDS, groups, strict=True))

@@ -1,0 +1,86 @@
+"""Natural frequencies that a drive excites: what moves along the jib for trolley and hoist, across it for slewing."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cranes.tower.small_motions import natural_modes
+
+if TYPE_CHECKING:
+    from towercrane.cranes.tower.planar import RadialModel
+
+TURNS = ("slewing", "shaft")
+"""Channels that turn the jib."""
+
+ACROSS = ("lateral", "torsion", "lateral sway")
+"""Kinds of mode that turning excites."""
+
+LATERAL_PAIR = 2
+"""Modes that turning excites: torsion of the tower and lateral sway are near each other and share both motions."""
+
+
+@dataclass(frozen=True, eq=False)
+class SwayFrequencies:
+    """Frequencies of a flexible crane's sway, by drive and place.
+
+    Parameters
+    ----------
+    model : FlexibleModel or RadialModel
+    """
+
+    model: FlexibleModel | RadialModel
+    _known: dict[tuple[bool, float, float], tuple[float, ...]] = field(default_factory=dict, init=False, repr=False)
+
+    def __call__(self, channel: str, trolley: float, rope: float) -> tuple[float, ...]:
+        """Frequencies that a drive excites, ascending [Hz]: two across the jib, one along it.
+
+        Parameters
+        ----------
+        channel : str
+            Of the model: what is driven.
+        trolley, rope : float
+            Trolley position and rope length [m].
+
+        Raises
+        ------
+        NoEquilibrium
+            If the crane cannot stand there.
+        """
+        key = (channel in TURNS, trolley, rope)
+        if key not in self._known:
+            self._known[key] = self._found(*key)
+        return self._known[key]
+
+    def _found(self, turns: bool, trolley: float, rope: float) -> tuple[float, ...]:
+        modes = natural_modes(self._scene(), trolley, rope)
+        if turns:
+            across = [m for m in modes if sum(m.shares[kind] for kind in ACROSS) > 0.5]
+            return tuple(m.frequency_hz for m in across[:LATERAL_PAIR])
+        return (max(modes, key=lambda m: m.shares["radial sway"]).frequency_hz,)
+
+    def _scene(self) -> FlexibleModel:
+        """The crane with a load that may swing to all sides."""
+        model = self.model if self.model.axes == 3 else dataclasses.replace(self.model, axes=3)
+        return model if isinstance(model, FlexibleModel) else model.scene
+
+
+@dataclass(frozen=True, slots=True)
+class PendulumFrequencies:
+    """Frequency of a load on a crane that does not give, sqrt(g / l) / 2 pi.
+
+    Parameters
+    ----------
+    gravity : float
+        [m/s^2]
+    """
+
+    gravity: float
+
+    def __call__(self, channel: str, trolley: float, rope: float) -> tuple[float, ...]:
+        """The pendulum's frequency [Hz], whatever is driven and wherever the trolley is."""
+        return (float(np.sqrt(self.gravity / rope) / (2.0 * np.pi)),)

@@ -1,0 +1,1 @@
+"""Small departures of any system from a state. Never imports a crane or a case."""

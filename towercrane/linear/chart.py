@@ -1,0 +1,170 @@
+"""Minimal coordinates of a crane's state about an operating point.
+
+The rope's unit vector n and its rate p have more components than freedom. They give way to sway coordinates s on
+the plane that touches the unit sphere at the operating point: n = E s + sqrt(1 - s.s) n0 with the tangent unit
+vectors E, so s = E' n and s'' = E' p' hold without approximation, and s is the sway angle to first order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from towercrane.linear.statespace import RATE, Signal
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from towercrane.simulation.system import Model
+
+    Floats = NDArray[np.float64]
+    Turning = tuple[Literal["coordinate", "channel"], int]
+
+SWAY, FIXED_SWAY = ("sway_outward", "sway_sideways"), ("sway_x", "sway_y")
+"""Names of the sways in axes that turn with the crane, or of one that does not turn, and in fixed ones."""
+
+TURNING = ("platform_angle", "slewing_angle", "slewing", "slew")
+"""Coordinates and channels that are the angle of a crane's jib about the vertical."""
+
+
+@dataclass(frozen=True, eq=False)
+class Chart:
+    """Minimal state (q, s, q', s') beside a model's state (q, n, q', p, work).
+
+    Parameters
+    ----------
+    names : tuple of Signal
+        Names and units of the minimal state.
+    scale, at : ndarray, shape (size,)
+        A large change of each entry, and the operating point.
+    direction : ndarray, shape (axes,)
+        The rope at the operating point, seen from the turning frame if there is one.
+    basis : ndarray, shape (axes, axes - 1)
+        Its tangent unit vectors.
+    turning : tuple, optional
+        The coordinate or channel that the frame turns with, by index.
+    """
+
+    names: tuple[Signal, ...]
+    scale: Floats
+    at: Floats
+    direction: Floats
+    basis: Floats
+    turning: Turning | None
+
+    @property
+    def inclination(self) -> float:
+        """Angle of the rope from the vertical at the operating point [rad]."""
+        return float(np.arctan2(np.linalg.norm(self.direction[:-1]), -self.direction[-1]))
+
+    @classmethod
+    def about(cls, model: Model, state: Floats, drives: Floats, turning: str | None) -> Chart:
+        """Chart of a model about its state.
+
+        Parameters
+        ----------
+        drives : ndarray, shape (3, channels)
+            Values, rates and accelerations of the channels.
+        turning : str, optional
+            Name of the angle about the vertical that the frame turns with.
+
+        Raises
+        ------
+        ValueError
+            If there is no such angle, or the model's names do not fit its coordinates.
+        """
+        axes = int(getattr(model, "axes", 3))
+        n = (model.system.size - 1) // 2 - axes
+        named: dict[str, str] = dict(getattr(model, "state_names", {f"coordinate_{i + 1}": "" for i in range(n)}))
+        if len(named) == n:
+            turns = turning is None and any(name in TURNING for name in (*named, *model.channels))
+            named |= dict.fromkeys((FIXED_SWAY if turns else SWAY)[: axes - 1], "rad")
+        if len(named) != n + axes - 1:
+            raise ValueError(f"state_names: wanted {n} coordinates, with sways {n + axes - 1}, got {len(named)}")
+        angle = None if turning is None else _find(turning, list(named)[:n], model.channels, axes)
+        names = [Signal(*item) for item in named.items()]
+        rates = [Signal(f"{name}{RATE}", per_second(units)) for name, units in names]
+        scale, sways = model.system.scale, np.ones(axes - 1)
+        scale = np.concatenate([scale[:n], sways, scale[n + axes : 2 * n + axes], sways])
+        q, direction, rate, swing = np.split(state[:-1], [n, n + axes, 2 * n + axes])
+        if angle is not None:
+            phi, spin, _ = _turn(angle, q, rate, rate, drives)
+            direction, swing = _rotation(phi).T @ direction, _rotation(phi).T @ swing
+            swing = swing - _cross(spin, direction)
+        direction = direction / np.linalg.norm(direction)
+        basis = _tangents(direction)
+        at = np.concatenate([q, np.zeros(axes - 1), rate, basis.T @ swing])
+        return cls((*names, *rates), np.where(np.isfinite(scale), scale, 1.0), at, direction, basis, angle)
+
+    def full(self, minimal: Floats, drives: Floats) -> Floats:
+        """State of the model; its work is zero."""
+        q, direction, rate, swing = self._rope(minimal)
+        if self.turning is not None:
+            phi, spin, _ = _turn(self.turning, q, rate, rate, drives)
+            swing = _rotation(phi) @ (swing + _cross(spin, direction))
+            direction = _rotation(phi) @ direction
+        return np.concatenate([q, direction, rate, swing, [0.0]])
+
+    def slope(self, minimal: Floats, slope: Floats, drives: Floats) -> Floats:
+        """Slope of the minimal state from that of the model's state."""
+        q, direction, rate, swing = self._rope(minimal)
+        n, axes = len(q), len(direction)
+        velocity, _, acceleration, pull = np.split(slope[:-1], [n, n + axes, 2 * n + axes])
+        if self.turning is not None:
+            phi, spin, spin_up = _turn(self.turning, q, rate, acceleration, drives)
+            pull = _rotation(phi).T @ pull - _cross(spin_up, direction)
+            pull = pull - _cross(spin, 2.0 * swing + _cross(spin, direction))
+        return np.concatenate([velocity, self.basis.T @ swing, acceleration, self.basis.T @ pull])
+
+    def _rope(self, minimal: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+        """Coordinates, rope, rates and rate of the rope, the rope's as the turning frame sees them."""
+        half, sways = len(minimal) // 2, len(self.direction) - 1
+        q, s, rate, s_rate = np.split(minimal, [half - sways, half, 2 * half - sways])
+        along = np.sqrt(1.0 - s @ s)
+        direction = along * self.direction + self.basis @ s
+        return q, direction, rate, self.basis @ s_rate - (s @ s_rate) / along * self.direction
+
+
+def per_second(units: str) -> str:
+    """Units of a rate; none where a quantity's are not known."""
+    return f"{units}/s" if units else ""
+
+
+def _find(name: str, coordinates: Sequence[str], channels: tuple[str, ...], axes: int) -> Turning:
+    if axes != 3:
+        raise ValueError("turning: wanted a load that swings in space, got one in a plane")
+    if name in coordinates:
+        return "coordinate", coordinates.index(name)
+    if name in channels:
+        return "channel", channels.index(name)
+    raise ValueError(f"turning: wanted one of {', '.join([*coordinates, *channels])}, got {name!r}")
+
+
+def _turn(turning: Turning, q: Floats, rate: Floats, acceleration: Floats, drives: Floats) -> Floats:
+    """Angle, rate and acceleration of the turning frame."""
+    kind, index = turning
+    return np.array([q[index], rate[index], acceleration[index]]) if kind == "coordinate" else drives[:, index]
+
+
+def _rotation(angle: float) -> Floats:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _cross(spin: float, vector: Floats) -> Floats:
+    """Product of a rate about the vertical and a vector."""
+    return spin * np.array([-vector[1], vector[0], 0.0])
+
+
+def _tangents(direction: Floats) -> Floats:
+    """Outward and sideways, carried along by the shortest turn from hanging to ``direction``."""
+    if len(direction) == 2:
+        return np.array([[-direction[1]], [direction[0]]])
+    across, drop = direction[:2], 1.0 - direction[2]
+    if drop < 1e-12:
+        return np.array([[-1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
+    return np.vstack([np.eye(2) - np.outer(across, across) / drop, across])

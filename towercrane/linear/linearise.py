@@ -1,0 +1,198 @@
+"""Linear state-space model of any crane about an equilibrium or another state."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from towercrane.linear.chart import Chart, per_second
+from towercrane.linear.statespace import RATE, OperatingPoint, Signal, StateSpace
+from towercrane.motions.motion import Motion
+from towercrane.simulation.differences import jacobian
+from towercrane.simulation.system import start_inputs
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from towercrane.results.recording import Quantity
+    from towercrane.simulation.system import Model
+
+    Floats = NDArray[np.float64]
+
+NOTHING = 1e-12
+"""Entries of the matrices smaller than this, relative to the largest of their row, are differences' rounding."""
+
+
+def linearise(
+    model: Model,
+    motions: Mapping[str, Motion] | Floats,
+    *,
+    time: float = 0.0,
+    state: Floats | None = None,
+    outputs: Sequence[str] | None = None,
+    inputs: Literal["acceleration", "motion"] = "acceleration",
+    turning: str | None = None,
+) -> StateSpace:
+    """Linear model of small departures from an operating point.
+
+    Parameters
+    ----------
+    model : Model
+        The crane; its state is (q, n, q', p, work). Optional attributes: ``axes`` (2 or 3, default 3),
+        ``state_names`` (a dict from the name of each coordinate q, and of the sways if they have other names, to its
+        units), ``channel_units`` and ``value_channels`` (those that act by their value alone, such as a wind).
+    motions : dict of str to Motion, or ndarray
+        One for each channel; or, for each channel, ascending coefficients of a polynomial in time.
+    time : float
+        Where on the motions [s].
+    state : ndarray, shape (size,), optional
+        State of the model. Without it, the equilibrium with every drive at rest at its value at ``time`` and the
+        wind at its mean (see :func:`towercrane.simulation.system.start_inputs`); with it, all is as it is at
+        ``time``.
+    outputs : sequence of str, optional
+        Names of what the model observes, by default every number but energies. A vector becomes one output for each
+        component.
+    inputs : {"acceleration", "motion"}
+        "acceleration": a channel's value and rate are states and its acceleration is the input, as drives are
+        controlled. "motion": value, rate and acceleration are three inputs; they must be consistent. A channel that
+        acts by its value alone is an input by its value, either way.
+    turning : str, optional
+        Coordinate or channel that is an angle about the vertical: direction of the rope and its rate are then seen
+        from a frame that turns with it, "outward" along its first axis, so a steady rotation is an equilibrium (but
+        for the angles themselves). Without it sways are along fixed axes, of a crane that turns called x and y.
+
+    Returns
+    -------
+    StateSpace
+        States: coordinates and sways, their rates, then values and rates of the drives.
+
+    Raises
+    ------
+    NoEquilibrium
+        If there is none to start from.
+    ValueError
+        If an argument does not fit the model.
+    """
+    if inputs not in ("acceleration", "motion"):
+        raise ValueError(f"inputs: wanted 'acceleration' or 'motion', got {inputs!r}")
+    drives = _drives(model, motions, time)
+    if state is None:
+        drives[1:] = 0.0
+        if not isinstance(motions, np.ndarray):
+            drives[0] = start_inputs(model, motions, _polynomials(drives))[:, 0]
+        state = model.start(_polynomials(drives), "equilibrium", 0.0)
+    elif np.shape(state) != (model.system.size,):
+        raise ValueError(f"state: wanted shape ({model.system.size},), got {np.shape(state)}")
+    state = np.array(state, dtype=float)
+    chart = Chart.about(model, state, drives, turning)
+    quantities = _observed(model, state, drives)
+    if outputs is None:
+        outputs = [name for name, q in quantities.items() if q.dims == ("time",) and q.units != "J"]
+    if unknown := [name for name in outputs if name not in quantities]:
+        raise ValueError(f"outputs: {unknown[0]!r} is none of {', '.join(quantities)}")
+    seen = tuple(signal for name in outputs for signal in _components(name, quantities[name]))
+
+    size, channels = len(chart.at), len(model.channels)
+
+    def respond(arguments: Floats) -> Floats:
+        """Slope of the minimal state, then outputs, from the minimal state and the drives."""
+        moving = arguments[size:].reshape(3, channels)
+        y = chart.full(arguments[:size], moving)
+        slope, guards = model.system.slope(0.0, y, _polynomials(moving))
+        # A guard may be an output too, such as the tension.
+        values = _observed(model, y, moving, guards) if outputs else {}
+        parts = [np.ravel(values[name].values) for name in outputs]
+        return np.concatenate([chart.slope(arguments[:size], slope, moving), *parts])
+
+    arguments = np.concatenate([chart.at, drives.ravel()])
+    matrix, errors = jacobian(respond, arguments, scale := np.concatenate([chart.scale, np.ones(3 * channels)]))
+    largest = np.max(abs(matrix) * scale, axis=1, initial=0.0)[:, None]
+    matrix[abs(matrix) * scale < NOTHING * largest] = 0.0
+    relative = errors * scale / np.where(largest > 0.0, largest, 1.0)
+    here = respond(arguments)
+    by_value = np.isin(model.channels, getattr(model, "value_channels", ()))
+    states, given = _roles(size, by_value, inputs)
+    driven, count = np.flatnonzero(~by_value), channels - int(np.count_nonzero(by_value))
+    a, b, slope = matrix[:size, states], matrix[:size, given], here[:size]
+    if len(states) > size:
+        # The drives integrate: values grow by rates, rates by the inputs, which come last.
+        rows = np.zeros((2 * count, len(states) + len(given)))
+        rows[:count, size + count : size + 2 * count] = rows[count:, -count:] = np.eye(count)
+        a, b = np.vstack([a, rows[:, : len(states)]]), np.vstack([b, rows[:, len(states) :]])
+        slope = np.concatenate([slope, *drives[1:, driven]])
+    signals = (*chart.names, *_drive_signals(model))
+    return StateSpace(
+        a=a,
+        b=b,
+        c=matrix[size:, states],
+        d=matrix[size:, given],
+        states=tuple(signals[k] for k in states),
+        inputs=tuple(signals[k] for k in given),
+        outputs=seen,
+        point=OperatingPoint(arguments[states], arguments[given], here[size:], slope, state, chart.inclination),
+        error=float(np.max(relative[:size], initial=0.0)),
+    )
+
+
+def _roles(size: int, by_value: NDArray[np.bool_], inputs: str) -> tuple[list[int], list[int]]:
+    """Which of minimal state and of the channels' values, rates and accelerations are states and which are inputs."""
+    channels = len(by_value)
+    blown, driven = np.flatnonzero(by_value), np.flatnonzero(~by_value)
+    values, rates, accelerations = (size + k * channels + driven for k in range(3))
+    states, given = [np.arange(size)], [size + blown]
+    if inputs == "motion":
+        given += [values, rates, accelerations]
+    else:
+        states += [values, rates]
+        given += [accelerations]
+    return np.concatenate(states).tolist(), np.concatenate(given).tolist()
+
+
+def _drive_signals(model: Model) -> list[Signal]:
+    """Values, rates and accelerations of the channels."""
+    units: Sequence[str] = getattr(model, "channel_units", ("",) * len(model.channels))
+    pairs = list(zip(model.channels, units, strict=True))
+    return [
+        *(Signal(name, unit) for name, unit in pairs),
+        *(Signal(f"{name}{RATE}", per_second(unit)) for name, unit in pairs),
+        *(Signal(f"{name}_acceleration", f"{unit}/s^2" if unit else "") for name, unit in pairs),
+    ]
+
+
+def _drives(model: Model, motions: Mapping[str, Motion] | Floats, time: float) -> Floats:
+    """Value, rate and acceleration of every channel; shape (3, channels)."""
+    channels = model.channels
+    if isinstance(motions, np.ndarray):
+        if motions.ndim != 2 or len(motions) != len(channels):
+            raise ValueError(f"motions: wanted a row for each of {channels}, got shape {motions.shape}")
+        rows = np.polynomial.polynomial.Polynomial
+        return np.array([[rows(row).deriv(k)(time) if k else rows(row)(time) for row in motions] for k in range(3)])
+    if missing := [channel for channel in channels if channel not in motions]:
+        raise ValueError(f"motions: wanted {', '.join(channels)}; {missing[0]!r} is missing")
+    return np.array([[float(motions[channel](time, k)) for channel in channels] for k in range(3)])
+
+
+def _polynomials(drives: Floats) -> Floats:
+    return np.ascontiguousarray(drives.T * [1.0, 1.0, 0.5])
+
+
+def _observed(model: Model, state: Floats, drives: Floats, guards: Floats | None = None) -> dict[str, Quantity]:
+    """What the model observes at one instant."""
+    coefficients = _polynomials(drives)
+    if guards is None:
+        guards = model.system.slope(0.0, state, coefficients)[1]
+    span = np.array([0.0, 1.0])
+    motions = {channel: Motion(span, row[None]) for channel, row in zip(model.channels, coefficients, strict=True)}
+    return model.observe(motions, np.zeros(1), state[None], guards[None])
+
+
+def _components(name: str, quantity: Quantity) -> list[Signal]:
+    from towercrane.results.recording import labels
+
+    if len(quantity.dims) == 1:
+        return [Signal(name, quantity.units)]
+    ends = labels(quantity.dims[1], quantity.values.shape[1])
+    return [Signal(f"{name}_{end}", quantity.units) for end in ends]

@@ -1,0 +1,1 @@
+"""What drives do over time, and how they are shaped. Imports nothing else of towercrane."""

@@ -1,0 +1,1 @@
+"""Tables, plots, films and folders of results. Computes no physics; never imports commands."""

@@ -1,0 +1,149 @@
+"""Runs, what they promise and what a richer model says of them, as tables on the terminal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from towercrane.report.tables.layout import assumed_values as _assumed
+from towercrane.report.tables.layout import console_of_reports as _console
+from towercrane.report.tables.layout import report_table as _table
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def run_tables(summary: dict[str, Any]) -> None:
+    """Summary of a run, as :func:`towercrane.runs.summary.summarise` gives it."""
+    console = _console()
+    table = _table(
+        summary["title"]
+        if summary["title"].startswith(summary["crane"])
+        else f"{summary['crane']}: {summary['title']}",
+        "variable",
+        "maximum",
+        "at [s]",
+        "minimum",
+        "at [s]",
+        "unit",
+    )
+    for name, peak in summary["peaks"].items():
+        table.add_row(
+            name.replace("_", " "),
+            f"{peak['maximum']:.5g}",
+            f"{peak['maximum_time_s']:.2f}",
+            f"{peak['minimum']:.5g}",
+            f"{peak['minimum_time_s']:.2f}",
+            peak["units"],
+        )
+    console.print(table)
+    console.print(f"extremes are those of looks every {summary['look_step_s']:g} s")
+    for change in summary["changes"]:
+        console.print(f"changed               {change}")
+    period = summary["swing_period_s"]
+    console.print(
+        f"swing period          {f'{period:.4f} s' if period else 'none: no regular swing after the drives stopped'}"
+    )
+    _spectrum(console, summary)
+    frequencies, kinds = summary["natural_frequencies_hz"], summary.get("natural_kinds")
+    named = [f"{f:.4f}" + (f" {kinds[i]}" if kinds else "") for i, f in enumerate(frequencies[:5])]
+    natural = ", ".join(named) or "none"
+    console.print(f"natural frequencies   {natural} Hz where the run ended")
+    balance, solver = summary["energy_balance"], summary["solver"]
+    console.print(
+        f"energy balance        {balance['largest_gap_j']:.2g} J off, {balance['relative_gap']:.1e} of the change"
+    )
+    console.print(
+        f"solver                {solver['method']}, rtol {solver['rtol']:g}, {solver['evaluations']} evaluations, "
+        f"{solver['solver_wall_seconds']:.3f} s of {summary['wall_seconds']:.3f} s wall"
+    )
+    if expected := summary["expected"]:
+        for miss in expected["misses"] or ["met"]:
+            console.print(f"expected by the case  {miss}", style="bold" if expected["misses"] else None)
+    if "accuracy" in summary:
+        _accuracy(console, summary["accuracy"])
+    for notice in summary["notices"]:
+        console.print(f"note     {notice}", style="bold")
+    if summary["idle"]:
+        console.print(f"idle     {', '.join(summary['idle'])}: in the crane file, of no use to this run")
+    _assumed(console, summary["assumed"])
+
+
+def _spectrum(console: Console, summary: dict[str, Any]) -> None:
+    """Peaks at frequencies of the crane, others, and how far the spectrum reaches."""
+
+    def listed(key: str) -> str:
+        return ", ".join(f"{f:.4f}" for f in summary[key])
+
+    highest = summary["spectrum_to_hz"]
+    reach = f", up to {highest:.4g} Hz" if highest else ""
+    peaks = listed("spectrum_peaks_hz") or "none"
+    console.print(f"spectrum peaks        {peaks} Hz in {summary['spectrum_of'].replace('_', ' ')}{reach}")
+    if summary["spectrum_other_hz"]:
+        console.print(
+            f"                      {listed('spectrum_other_hz')} Hz as well, none of the crane's own: "
+            "lines of drives, wind or a wide swing"
+        )
+    if highest and (beyond := summary["spectrum_beyond_hz"]):
+        last = f" to {beyond[-1]:.4g}" if len(beyond) > 1 else ""
+        console.print(f"                      out of its sight: the crane's {beyond[0]:.4g}{last} Hz")
+
+
+def _accuracy(console: Console, promised: dict[str, Any]) -> None:
+    """What was asked for, chosen and is expected, as :func:`towercrane.accuracy.promise.promise` gives it."""
+    title = f"Error asked for: {promised['outcome']}"
+    table = _table(title, "output", "allowed", "expected", "peak", "expected / peak", "unit")
+    for name, found in promised["outputs"].items():
+        expected = found["estimated"]
+        table.add_row(
+            name.replace("_", " "),
+            f"{found['allowed']:.2g}",
+            "unknown" if expected is None else f"{expected:.2g}",
+            f"{found['peak']:.4g}",
+            "" if expected is None or not found["peak"] else f"{expected / found['peak']:.1e}",
+            found["units"],
+        )
+    console.print(table)
+    console.print(f"chosen                {setting_words(promised['setting'])}")
+    if promised["stated"]:
+        keys = ", ".join(promised["stated"]).replace("_", " ")
+        console.print(f"stated by the case    {keys}; what a case leaves out is chosen")
+    for reason in promised["left_out"]:
+        console.print(f"left out              {reason}")
+    console.print(
+        f"choice                {promised['tried']} settings looked at, {1e3 * promised['choice_cpu_seconds']:.0f} ms"
+    )
+
+
+def setting_words(setting: dict[str, Any]) -> str:
+    """Model and solver of a run in words, as :func:`towercrane.accuracy.scene.provenance` gives them."""
+    counts = {key.removesuffix("_modes").replace("_", " "): n for key, n in setting.items() if key.endswith("_modes")}
+    modes = ", ".join(f"{count} {kind}" for kind, count in counts.items())
+    cap = f" capped at {setting['cap']:.3g} Hz" if setting.get("cap") else ""
+    planar = " in the plane," if setting.get("planar") else ""
+    softening = "with" if setting["weight_softening"] else "without"
+    return (
+        f"{modes} modes{cap},{planar} {softening} the weight's "
+        f"softening, {setting['method']} at rtol {setting['rtol']:.1e}, atol {setting['atol']:.1e}"
+    )
+
+
+def verification_tables(report: dict[str, Any]) -> None:
+    """Expected beside actual errors, as :func:`towercrane.accuracy.promise.verification` gives them."""
+    console = _console()
+    columns = ("output", "expected error", "difference", "difference / peak", "unit")
+    table = _table("Run beside a richer model", *columns)
+    for name, found in report["outputs"].items():
+        expected, peak = found["estimated"], found["peak"]
+        table.add_row(
+            name.replace("_", " "),
+            "unknown" if expected is None else f"{expected:.2g}",
+            f"{found['actual']:.2g}" + (" (!)" if expected is not None and found["actual"] > expected else ""),
+            f"{found['actual'] / peak:.1e}" if peak else "",
+            found["units"],
+        )
+    console.print(table)
+    console.print(f"run                   {setting_words(report['setting'])}")
+    ended = "" if report["outcome"] == "finished" else f"; it ended early: {report['outcome']}"
+    console.print(f"richer                {setting_words(report['finer'])}{ended}")
+    for doubt in report["doubts"]:
+        console.print(f"note     the expected error may not hold: {doubt}", style="bold")

@@ -1,0 +1,1 @@
+"""Recordings, their files, and what is measured in them. Imports no crane, no case and no solver."""

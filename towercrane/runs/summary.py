@@ -1,0 +1,280 @@
+"""Summary of a run: peaks, periods, spectrum, balance, and what deserves a second look."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from towercrane.accuracy.promise import AS_ASKED
+from towercrane.cases.kinds import TOWER_CRANES
+from towercrane.cases.models import model_of, radial_model, space_model
+from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.results.measures import picked_in
+from towercrane.runs.vibration import vibration
+from towercrane.simulation import drift
+from towercrane.simulation.arguments import TIGHTEST
+from towercrane.simulation.energy_balance import NOT_CONSERVED
+from towercrane.simulation.integrate import FINISHED
+from towercrane.simulation.system import NoEquilibrium
+
+if TYPE_CHECKING:
+    from towercrane.cases.case import Case
+    from towercrane.cranes.tower.small_motions import NaturalMode
+    from towercrane.results.recording import Result
+
+TUNED = 0.05
+"""Structure and twice the swing count as tuned when their frequencies differ by less than this fraction."""
+
+GROWTH = 1.5
+"""Growth of the swing after the drives have stopped that is named."""
+
+LOOSE = 1e-3
+"""Gap in the energy balance, relative to the change, that is named."""
+
+SMALL = 0.1
+"""Tip deflection over length beyond which slopes are not small."""
+
+
+class Natural(NamedTuple):
+    """Natural frequencies where a run ended [Hz], the kind of each where kinds are told apart, and for each output
+    that shows a swing of the load the index of its mode."""
+
+    frequencies: list[float]
+    kinds: list[str]
+    swings: dict[str, int]
+
+    @property
+    def swing_mode(self) -> int | None:
+        """Which of them is the load's swing, of several the one along the jib, counted from 1."""
+        return next(iter(self.swings.values())) + 1 if self.swings else None
+
+
+def summarise(case: Case, result: Result) -> dict[str, Any]:
+    """Summary of a run of a case, ready for JSON.
+
+    Returns
+    -------
+    dict
+        ``outcome``, ``end_time_s``, ``peaks`` per variable (maximum, maximum_time_s, minimum, minimum_time_s,
+        units) among the looks ``look_step_s`` apart, ``spectrum_peaks_hz`` of the structure (of its free vibration
+        where that is long enough) at frequencies of the crane, ``spectrum_other_hz`` (at none of them),
+        ``spectrum_to_hz`` (None without a spectrum), ``spectrum_beyond_hz`` (natural frequencies out of its sight),
+        ``swing_period_s`` after the drives have stopped (None without a regular swing),
+        ``natural_frequencies_hz`` where the run ended, in space their ``natural_kinds``, ``energy_balance``,
+        ``expected``, ``notices``, ``assumed``, ``idle`` (what the crane file holds for other cases), ``solver``,
+        ``wall_seconds``; ``accuracy`` where the case asks for an error, see
+        :func:`towercrane.accuracy.promise.promise`.
+    """
+    attributes = result.attrs
+    free = _after_the_drives(case, result["time"].values)
+    natural = _natural(case, result, float(attributes["end_time"]))
+    frequencies = natural.frequencies
+    swings = [frequencies[index] for index in natural.swings.values()]
+    shown = vibration(case.kind, result, free, swings, frequencies, lambda: _at_the_start(case, result, natural))
+    return {
+        "case": case.name,
+        "title": case.title,
+        "changes": list(case.changes),
+        "crane": attributes["crane"],
+        "outcome": attributes["outcome"],
+        "message": attributes["message"],
+        "end_time_s": float(attributes["end_time"]),
+        "output_step_s": float(attributes["output_step"]),
+        "look_step_s": shown.step,
+        "peaks": peaks(result),
+        **shown.report(),
+        "natural_frequencies_hz": frequencies,
+        **({"natural_kinds": natural.kinds} if natural.kinds else {}),
+        "swing_mode": natural.swing_mode,
+        "energy_balance": energy_balance(result),
+        "expected": expected(case, result),
+        "notices": [*notices(case, result, natural, free), *shown.unseen],
+        "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(result)],
+        "idle": list(case.idle),
+        "solver": {
+            key: attributes[key]
+            for key in (
+                "method", "rtol", "atol", "evaluations", "steps_accepted", "steps_rejected", "smallest_step",
+                "solver_cpu_seconds", "solver_wall_seconds",
+            )
+        },
+        "versions": json.loads(attributes["versions"]),
+        "wall_seconds": attributes["wall_seconds"],
+        **({"accuracy": promised} if (promised := accuracy(result)) else {}),
+    }  # fmt: skip
+
+
+def accuracy(result: Result) -> dict[str, Any] | None:
+    """What a run promises of its errors; None where none was asked for."""
+    found: dict[str, Any] | None = json.loads(result.attrs.get("accuracy", "null"))
+    return found
+
+
+def assumed(result: Result) -> list[tuple[str, str, str]]:
+    """Key, value and reason of every value that no source gives."""
+    return [tuple(entry) for entry in json.loads(result.attrs.get("assumed", "[]"))]
+
+
+def peaks(result: Result) -> dict[str, dict[str, Any]]:
+    """Extremes of every variable over time alone among the looks at a run, with their times."""
+    found, times = {}, result["time"].values
+    for name, variable in result.data_vars.items():
+        if variable.dims != ("time",):
+            continue
+        values = variable.values
+        high, low = int(np.argmax(values)), int(np.argmin(values))
+        found[str(name)] = {
+            "maximum": float(values[high]),
+            "maximum_time_s": float(times[high]),
+            "minimum": float(values[low]),
+            "minimum_time_s": float(times[low]),
+            "units": variable.attrs["units"],
+        }
+    return found
+
+
+def energy_balance(result: Result) -> dict[str, float]:
+    """Gap between energy gained and work put in: the run's own check of its equations and steps."""
+    energy, work = result["total_energy"].values, result["input_work"].values
+    gap = abs(energy - energy[0] - work)
+    # Where nothing is put in, the load's height and speed still exchange energy. A crane at rest exchanges none; its
+    # gap is judged by the load's energy at a small swing.
+    weight = result.attrs["payload_mass"] * result.attrs["gravity"]
+    lifted = weight * float(np.ptp(result["payload_position"].values[:, -1]))
+    pendulum = 1e-3 * weight * float(result["rope_length"].values[0])
+    scale = max(float(np.ptp(energy)), float(np.ptp(work)), lifted, pendulum)
+    return {
+        "largest_gap_j": float(gap.max()),
+        "relative_gap": float(gap.max() / scale),
+        "energy_change_j": float(energy[-1] - energy[0]),
+        "input_work_j": float(work[-1]),
+    }
+
+
+def expected(case: Case, result: Result) -> dict[str, Any] | None:
+    """What the case expects beside what the run came to; None for a case that expects nothing.
+
+    Returns
+    -------
+    dict
+        ``met``, and ``misses``, a sentence for each expectation that was not met.
+    """
+    if case.expect is None:
+        return None
+    misses = []
+    if result.attrs["outcome"] != case.expect.outcome:
+        misses.append(f'expected the outcome "{case.expect.outcome}", got "{result.attrs["outcome"]}"')
+    gap, most = energy_balance(result)["relative_gap"], case.expect.energy_gap
+    if most is not None and not gap <= most:
+        misses.append(f"expected an energy balance within {most:g}, got {gap:.2g}")
+    return {"met": not misses, "misses": misses}
+
+
+def notices(case: Case, result: Result, natural: Natural, free: slice) -> list[str]:
+    """What deserves a second look, in sentences."""
+    found = []
+    if result.attrs["outcome"] != FINISHED:
+        reason = f": {result.attrs['message']}" if result.attrs["message"] else ""
+        found.append(f"ended at {result.attrs['end_time']:.6g} s: {result.attrs['outcome']}{reason}")
+    if (promised := accuracy(result)) and promised["reasons"]:
+        found.append(f"the error asked for is {promised['outcome']}: {'; '.join(promised['reasons'])}")
+    found += case.notices
+    tension = result["rope_tension"].values
+    if case.rope.slack == "rod" and tension.min() < 0.0:
+        first = float(result["time"].values[int(np.argmax(tension < 0.0))])
+        found.append(
+            f"the rope pushes from {first:.2f} s on (down to {tension.min():.0f} N): "
+            "a real rope would be slack there; this case takes it as a rod"
+        )
+    said = drift.notice(*(result.attrs[name] for name in ("method", "rtol", "atol")))
+    # A promised error holds what the solver damps.
+    if said and (accuracy(result) or {}).get("outcome") not in AS_ASKED:
+        found.append(said)
+    gap = energy_balance(result)["relative_gap"]
+    if gap > LOOSE and result.attrs["outcome"] != NOT_CONSERVED:
+        tight = [max(result.attrs[name] * LOOSE / gap, TIGHTEST) for name in ("rtol", "atol")]
+        remedy = "with solver.rtol {:.0e} and solver.atol {:.0e} it would be about a thousandth".format(*tight)
+        found.append(f"the energy balance is off by {gap:.1e} of the change: {remedy}")
+    lengths: tuple[tuple[str, float], ...] = ()
+    if case.kind in TOWER_CRANES:
+        crane = case.radial_crane()
+        lengths = (("tower_tip_displacement", crane.tower.length), ("jib_tip_deflection", crane.jib.length))
+    if case.kind == "space":
+        lengths += tuple((f"{name}_sideways", length) for name, length in lengths)
+    for name, length in lengths:
+        share = float(abs(result[name].values).max()) / length
+        if share > SMALL:
+            what = name.replace("_", " ")
+            found.append(f"{what} reaches {share:.0%} of the beam's length: beyond the small slopes of the model")
+    for signal, swing in natural.swings.items():
+        found += _parametric(result, natural.frequencies, signal, swing, free)
+    return found
+
+
+def _parametric(result: Result, frequencies: list[float], signal: str, swing: int, free: slice) -> list[str]:
+    """Structure at twice the swing frequency: a small ringing then pumps the swing."""
+    own = frequencies[swing]
+    tuned = [f for f in frequencies if abs(f / (2.0 * own) - 1.0) < TUNED]
+    if not tuned:
+        return []
+    ratio = f"structure at {tuned[0]:.3f} Hz, twice the swing's {own:.3f} Hz within {TUNED:.0%}"
+    angle, times = abs(result[signal].values[free]), result["time"].values[free]
+    first = angle[: max(1, int(np.sum(times < times[:1] + 1.0 / own)))]
+    before, after = float(first.max(initial=0.0)), float(angle.max(initial=0.0))
+    if before > 0.0 and after > GROWTH * before:
+        return [
+            f"parametric resonance ({ratio}): the swing grew from {before:.4f} to {after:.4f} rad "
+            "after the drives had stopped"
+        ]
+    return [f"2:1 tuning ({ratio}): a ringing structure can pump the swing; in this run it did not"]
+
+
+def _natural(case: Case, result: Result, at: float) -> Natural:
+    """Natural frequencies where the drives are at a time of a run [s]; nothing for a tower that buckles."""
+    picked = picked_in(result)
+    try:
+        if case.kind not in TOWER_CRANES:
+            return Natural(_linearised(case, at), [], {})
+        drives = {channel: float(motion(at)) for channel, motion in case.motions.items()}
+        position, length = drives["trolley"], drives["rope"]
+        if case.kind == "space":
+            angle = drives["shaft" if "shaft" in drives else "slewing"]
+            # A load that only swings along the jib may swing across it.
+            model = space_model(case, **{**picked, "planar": False})
+            return _in_space(natural_modes(model, position, length, angle))
+        chosen = {key: picked[key] for key in ("tower_modes", "jib_modes", "weight_softening") if key in picked}
+        frequencies, swing = radial_model(case, **chosen).natural_modes(position, length)
+    except NoEquilibrium:
+        return Natural([], [], {})
+    return Natural((frequencies / (2 * np.pi)).tolist(), [], {"swing_angle": swing})
+
+
+def _at_the_start(case: Case, result: Result, at_the_end: Natural) -> list[float]:
+    """Natural frequencies [Hz] where the run began."""
+    ways = [result[name].values for name in ("trolley_position", "rope_length") if name in result]
+    if case.kind not in TOWER_CRANES or all(way[0] == way[-1] for way in ways):
+        return at_the_end.frequencies
+    return _natural(case, result, 0.0).frequencies
+
+
+def _in_space(modes: list[NaturalMode]) -> Natural:
+    kinds = [mode.kind for mode in modes]
+    sways = {"sway_radial": "radial sway", "sway_tangential": "lateral sway"}
+    swings = {signal: kinds.index(kind) for signal, kind in sways.items() if kind in kinds}
+    return Natural([mode.frequency_hz for mode in modes], kinds, swings)
+
+
+def _linearised(case: Case, at: float) -> list[float]:
+    """Frequencies [Hz] about the equilibrium with the drives where they are at a time [s]."""
+    from towercrane.linear.linearise import linearise
+
+    found = linearise(model_of(case), case.motions, time=at, outputs=[]).eigenvalues()
+    return sorted(e.frequency for e in found if e.value.imag > 0.0)
+
+
+def _after_the_drives(case: Case, times: Any) -> slice:
+    """Rows after the last drive has stopped."""
+    stop = max(motion.duration for motion in case.motions.values())
+    return slice(int(np.searchsorted(times, stop)), None)

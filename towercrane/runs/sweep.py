@@ -1,0 +1,205 @@
+"""Many runs of one case in which some of its values vary: extremes of the outputs, run by run.
+
+Cranes in radial motion run side by side in vector lanes, all others one after the other; the answer is the same.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.cases.case import Case, load_case
+from towercrane.cases.kinds import knows, plain_key, unit_of
+from towercrane.runs.summary import accuracy, peaks
+from towercrane.runs.sweep_data import RADIAL_OUTPUTS, Found, dataset
+from towercrane.runs.variants import Variants, change
+from towercrane.schema.faults import CaseError
+from towercrane.schema.units import UnitError, to_si
+from towercrane.simulation.integrate import INTERRUPTED
+from towercrane.simulation.simulate import looks_per_row, record_case, rows_of
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Mapping, Sequence
+
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from towercrane.results.recording import Recording
+    from towercrane.runs.variants import Variant
+
+    Floats = NDArray[np.float64]
+    Value = float | int | str
+    Progress = Callable[[int], None]
+
+
+def grid(vary: Mapping[str, Sequence[Value]]) -> dict[str, list[Value]]:
+    """All combinations of the keys' values, the last key changing fastest."""
+    combinations = list(itertools.product(*vary.values()))
+    return {key: [combination[i] for combination in combinations] for i, key in enumerate(vary)}
+
+
+def sweep(
+    case: Case | str | os.PathLike[str],
+    vary: Mapping[str, Sequence[Value] | Floats],
+    *,
+    threads: int | None = None,
+    series: bool = False,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Run a case many times with varied values.
+
+    Parameters
+    ----------
+    case : Case, str or path-like
+        Case, or what :func:`towercrane.load_case` takes.
+    vary : mapping of str to sequence
+        For each key of the case file as many values as there are runs: numbers in SI, or text with units. For all
+        combinations of a few values see :func:`grid`.
+    threads : int, optional
+        Threads for cranes in radial motion; all cores by default.
+    series : bool
+        Keep the outputs over time as well; for cranes in radial motion.
+    progress : callable, optional
+        Called with the number of runs that have ended.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``run``: the varied values as coordinates, ``outcome``, ``end_time``, ``evaluations``, and of every
+        output ``<output>_max``, ``_max_time``, ``_min`` and ``_min_time`` among the looks at a single run. A run that
+        a single run would refuse has the outcome "bad input", and ``fault`` says why. After Ctrl-C the runs that had
+        not ended are "interrupted", and nothing is known of them.
+
+    Raises
+    ------
+    CaseError
+        If a key does not fit the case, a value has another unit than its key, or every run is bad input.
+    ValueError
+        If the values are not equally many, or series are wanted that cannot be kept.
+    """
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: wanted one or more, got {threads!r}")
+    loaded = case if isinstance(case, Case) else load_case(case)
+    values = _read(loaded, vary)
+    found = Found(len(next(iter(values.values()))))
+    waiting = _one_by_one(Variants(loaded, values), found, series, progress)
+    _side_by_side(waiting, found, threads, series, progress)
+    if len(found.faults) == found.count:
+        raise CaseError(found.faults[0].faults)
+    return dataset(loaded, values, found)
+
+
+def _read(case: Case, vary: Mapping[str, Sequence[Value] | Floats]) -> dict[str, list[Value]]:
+    """The varied values in SI, all keys known."""
+    counts = {key: len(given) for key, given in vary.items()}
+    if not counts or len(set(counts.values())) != 1 or 0 in counts.values():
+        raise ValueError(f"vary: wanted keys with equally many values, one or more, got {counts}")
+    values: dict[str, list[Value]] = {}
+    for key, given in vary.items():
+        plain = [value.item() if isinstance(value, np.generic) else value for value in given]
+        if not knows(case.kind, plain_key(key)):
+            # The message is the case's own.
+            load_case(case.path, [*case.changes, change(key, plain[0])])
+        unit = unit_of(case.kind, key)
+        values[key] = plain if unit is None else [_in_si(case, key, value, unit) for value in plain]
+    return values
+
+
+def _in_si(case: Case, key: str, value: Value, unit: str) -> float:
+    """A value in SI; what is no number of a float is the fault of its run alone."""
+    if isinstance(value, float) and not np.isfinite(value):
+        return value
+    try:
+        return to_si(value, unit)
+    except UnitError:
+        load_case(case.path, [*case.changes, change(key, value)])
+        raise
+
+
+def _one_by_one(
+    variants: Variants, found: Found, series: bool, progress: Progress | None
+) -> dict[tuple[Any, ...], dict[int, Variant]]:
+    """Build every run and let those that fit no lanes run at once; the others by their company."""
+    waiting: dict[tuple[Any, ...], dict[int, Variant]] = {}
+    met: Case | None = None
+    for run in range(found.count):
+        try:
+            variant = variants[run]
+            if variant.case is not met:
+                met = variant.case
+                found.met(met)
+            if variant.lane is not None:
+                waiting.setdefault(variant.company, {})[run] = variant
+                continue
+            if series:
+                raise ValueError(
+                    "series: wanted a crane in radial motion and a compiled method, got another; see run_case"
+                )
+            result = record_case(variant.case)
+            if result.attrs["outcome"] == INTERRUPTED:
+                raise KeyboardInterrupt
+            _note(found, run, variant.case, result)
+        except CaseError as refused:
+            found.faults[run] = refused
+        except KeyboardInterrupt:
+            return {}
+        if progress is not None:
+            progress(len(found.rows) + len(found.faults))
+    return waiting
+
+
+def _note(found: Found, run: int, case: Case, result: Recording) -> None:
+    """Keep the extremes of a run that was recorded."""
+    extremes = peaks(result)
+    names = RADIAL_OUTPUTS if case.kind == "radial" else extremes
+    found.outputs |= {name: (result[name].attrs["units"], result[name].attrs["long_name"]) for name in names}
+    ways = ("maximum", "maximum_time_s", "minimum", "minimum_time_s")
+    kept = {name: [extremes[name][way] for way in ways] for name in names}
+    attributes = result.attrs
+    found.rows[run] = attributes["outcome"], attributes["end_time"], attributes["evaluations"], kept
+    if promised := accuracy(result):
+        found.promises[run] = promised["outcome"]
+
+
+def _side_by_side(
+    waiting: dict[tuple[Any, ...], dict[int, Variant]],
+    found: Found,
+    threads: int | None,
+    series: bool,
+    progress: Progress | None,
+) -> None:
+    """Run in vector lanes, those together that can share them."""
+    from towercrane.simulation.lanes.many import integrate_many
+
+    if not waiting:
+        return
+    if series and len({company[:2] for company in waiting}) > 1:
+        raise ValueError("series: wanted the same duration and output step in all runs, got different ones")
+    found.outputs |= RADIAL_OUTPUTS
+    for (duration, output_step, method, rtol, atol, *_), members in waiting.items():
+        looks = looks_per_row(duration, output_step)
+        times = rows_of(duration, output_step, looks)
+        found.times = times[::looks]
+        answers = integrate_many(
+            [variant.lane for variant in members.values() if variant.lane is not None],
+            times, method=method, rtol=rtol, atol=atol, threads=threads, series=series,
+            progress=_counted(progress, len(found.rows) + len(found.faults)),
+        )  # fmt: skip
+        for place, run in enumerate(members):
+            if answers.outcomes[place] == INTERRUPTED:
+                continue
+            extremes = dict(zip(RADIAL_OUTPUTS, answers.extremes[place], strict=True))
+            ended = float(answers.end_times[place]), int(answers.evaluations[place])
+            found.rows[run] = answers.outcomes[place], *ended, extremes
+            if series:
+                found.series[run] = answers.series[place][::looks]
+        if INTERRUPTED in answers.outcomes:
+            break
+
+
+def _counted(progress: Progress | None, before: int) -> Progress | None:
+    """Progress of a group of runs after others."""
+    return None if progress is None else lambda done: progress(before + done)

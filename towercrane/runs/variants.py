@@ -1,0 +1,167 @@
+"""The runs of a sweep, each built as a single run builds it: its checked case, its model and its motions."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.cases.case import load_case
+from towercrane.cases.models import radial_model
+from towercrane.motions.motion import phases
+from towercrane.schema.faults import CaseError
+from towercrane.simulation.tableaus import TABLEAUS
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from towercrane.cases.case import Case
+    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.simulation.lanes.many import LaneRun
+
+    Value = float | int | str
+
+LOAD, ROPE = "payload.mass", "rope.length"
+"""Keys of which a plain case needs no reading for every value, see :meth:`Variants.plain`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """One run of a sweep.
+
+    Parameters
+    ----------
+    case : Case
+        Its case; of runs that differ in load and rope alone the same one may stand for all.
+    lane : LaneRun, optional
+        Its model and motions, where it can run in vector lanes.
+    """
+
+    case: Case
+    lane: LaneRun | None
+
+    @property
+    def company(self) -> tuple[Any, ...]:
+        """What runs that share lanes have in common."""
+        assert self.lane is not None, "only runs in lanes have company"
+        run, solver, system = self.case.run, self.case.solver, self.lane.model.system
+        steps = run.duration, run.output_step, solver.method, solver.rtol, solver.atol
+        return (*steps, system.size, system.tables.shape, system.tables.tobytes())
+
+
+class Variants:
+    """The runs of a sweep by number.
+
+    A key that varies may change anything: modes, shaped ramps, what a tolerance leaves out, what is checked. So every
+    run is read and built from its own case. Only what equal data give is shared.
+
+    Parameters
+    ----------
+    case : Case
+    values : mapping of str to sequence
+        For every key as many values as there are runs.
+    """
+
+    def __init__(self, case: Case, values: Mapping[str, Sequence[Value]]) -> None:
+        self._case, self._values = case, values
+        self._quick = [key for key in (LOAD, ROPE) if key in values]
+        self._slow = [key for key in values if key not in self._quick]
+        self._members: dict[tuple[Value, ...], list[int]] = {}
+        for run in range(len(self)):
+            self._members.setdefault(self._combination(run), []).append(run)
+        self._plain: dict[tuple[Value, ...], Variant | None] = {}
+        self._models: dict[str, RadialModel] = {}
+
+    def __len__(self) -> int:
+        return len(next(iter(self._values.values())))
+
+    def __getitem__(self, run: int) -> Variant:
+        """A run's case and model.
+
+        Raises
+        ------
+        CaseError
+            If it is one that a single run refuses.
+        """
+        combination = self._combination(run)
+        if combination not in self._plain:
+            self._plain[combination] = self._plain_one(self._members[combination])
+        plain = self._plain[combination]
+        return self._read(self._changes(run, self._values)) if plain is None else self._altered(plain, run)
+
+    def _combination(self, run: int) -> tuple[Value, ...]:
+        return tuple(self._values[key][run] for key in self._slow)
+
+    def _changes(self, run: int, keys: Mapping[str, Any] | Sequence[str]) -> list[str]:
+        return [change(key, self._values[key][run]) for key in keys]
+
+    def _read(self, changes: list[str]) -> Variant:
+        case = load_case(self._case.path, [*self._case.changes, *changes])
+        return Variant(case, self._lane(case) if _fits_lanes(case) else None)
+
+    def _lane(self, case: Case) -> LaneRun:
+        from towercrane.simulation.lanes.many import LaneRun
+
+        model = radial_model(case)
+        # Written out, floats to the last digit: equal text is equal data.
+        crane = repr([getattr(model, f.name) for f in dataclasses.fields(model) if f.name != "load"])
+        model = self._models.setdefault(crane, model).with_load(model.load)
+        cut = phases((case.trolley_motion(), case.rope_motion()), case.run.duration)
+        state = "equilibrium" if case.start.state == "equilibrium" else "zero"
+        return LaneRun(model, cut, state, case.start.swing_angle)
+
+    def _plain_one(self, runs: list[int]) -> Variant | None:
+        """A run that differs from these in its load and its resting rope alone; None if they differ in more.
+
+        Loads and lengths that a case allows lie between two bounds: where the corners of a box are allowed, so is
+        all within.
+        """
+        if not self._quick or len(runs) <= 2 ** len(self._quick):
+            return None
+        columns = (np.array([self._values[key][run] for run in runs], dtype=float) for key in self._quick)
+        bounds = [(float(column.min()), float(column.max())) for column in columns]
+        fixed, found = self._changes(runs[0], self._slow), None
+        for corner in itertools.product(*bounds):
+            settings = [change(key, value) for key, value in zip(self._quick, corner, strict=True)]
+            try:
+                found = self._read([*fixed, *settings])
+            except CaseError:
+                return None
+            if found.lane is None or not _is_plain(found.case):
+                return None
+        return found
+
+    def _altered(self, plain: Variant, run: int) -> Variant:
+        """The plain variant with a run's own load and rope."""
+        lane = plain.lane
+        assert lane is not None, "what is plain runs in lanes"
+        model, cut = lane.model, lane.phases
+        if LOAD in self._quick:
+            model = model.with_load(dataclasses.replace(model.load, mass=float(self._values[LOAD][run])))
+        if ROPE in self._quick:
+            cut = cut.moved(model.channels.index("rope"), float(self._values[ROPE][run]))
+        return Variant(plain.case, dataclasses.replace(lane, model=model, phases=cut))
+
+
+def change(key: str, value: Value) -> str:
+    """Override that sets a key."""
+    return f"{key}={value if isinstance(value, str) else json.dumps(value)}"
+
+
+def _fits_lanes(case: Case) -> bool:
+    """Whether a run can share lanes; one that chooses its own model and tolerance for an error cannot."""
+    return case.kind == "radial" and case.solver.method in TABLEAUS and not case.accuracy.targets
+
+
+def _is_plain(case: Case) -> bool:
+    """Whether another load, and another rope that rests, change nothing else of a run.
+
+    A hauled rope begins its motion at its length; a ramp may be shaped for the model's frequencies; and what a
+    tolerance of frequencies leaves out hangs on the load.
+    """
+    shaped = any(plan.needs_model for plan in case.plans.values())
+    return case.checked.motion.hoist is None and not shaped and case.frequency_tolerance is None

@@ -1,0 +1,297 @@
+"""Motions as case files describe them: lengths and positions in metres, turns in radians."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from towercrane.schema.fields import (
+    MODEL,
+    Acceleration,
+    Angle,
+    AngularAcceleration,
+    AngularJerk,
+    EitherSpeed,
+    EitherTurning,
+    Frequencies,
+    Jerk,
+    Position,
+    Speed,
+    Table,
+    Time,
+    Turning,
+    Wait,
+)
+
+
+class Begin(Table):
+    """Where a motion begins."""
+
+    start: Position
+
+
+class Delayed(Table):
+    """Wait before a motion begins."""
+
+    delay: Wait = 0.0
+
+
+class Rest(Delayed):
+    """No motion."""
+
+    shape: Literal["rest"]
+    duration: Wait = 0.0
+
+
+class Trapezoid(Delayed):
+    """Constant acceleration, speed, deceleration."""
+
+    shape: Literal["trapezoid"]
+    end: Position
+    speed: Speed
+    acceleration: Acceleration
+
+
+class SCurve(Delayed):
+    """Limited jerk."""
+
+    shape: Literal["s-curve"]
+    end: Position
+    speed: Speed
+    acceleration: Acceleration
+    jerk: Jerk
+
+
+class SpeedTrapezoid(Delayed):
+    """Speed that rises linearly, holds and falls; its sign is the direction."""
+
+    shape: Literal["speed-trapezoid"]
+    speed: EitherSpeed
+    ramp: Time
+    hold: Wait
+
+
+class SmoothRamps(Delayed):
+    """Speed that rises smoothly, holds and falls; its sign is the direction."""
+
+    shape: Literal["smooth"]
+    speed: EitherSpeed
+    ramp: Time
+    hold: Wait
+
+
+class Shaped(Delayed):
+    """Trapezoid whose ramps are spread so that they cancel the load's sway."""
+
+    shape: Literal["zv", "zvd", "ei", "boxes"]
+    end: Position
+    speed: Speed
+    acceleration: Acceleration
+    frequencies: Frequencies = MODEL
+
+
+class MinimumJerk(Delayed):
+    """Smoothest motion within a time."""
+
+    shape: Literal["minimum-jerk"]
+    end: Position
+    duration: Time
+
+
+Step = Annotated[
+    Trapezoid | SCurve | SpeedTrapezoid | SmoothRamps | Shaped | MinimumJerk | Rest, Field(discriminator="shape")
+]
+
+
+class Sequence(Delayed):
+    """Steps, each from where the one before ends."""
+
+    shape: Literal["sequence"]
+    steps: Annotated[tuple[Step, ...], Field(min_length=1)]
+
+
+class Points(Delayed):
+    """Smooth motion through the points of a CSV file."""
+
+    shape: Literal["table"]
+    file: str
+
+
+class TrolleyRest(Begin, Rest):
+    """Trolley at rest."""
+
+
+class TrolleyTrapezoid(Begin, Trapezoid):
+    """Trolley on a trapezoid."""
+
+
+class TrolleySCurve(Begin, SCurve):
+    """Trolley on an s-curve."""
+
+
+class TrolleySpeedTrapezoid(Begin, SpeedTrapezoid):
+    """Trolley on a trapezoid of speed."""
+
+
+class TrolleySmoothRamps(Begin, SmoothRamps):
+    """Trolley on smooth ramps."""
+
+
+class TrolleyShaped(Begin, Shaped):
+    """Trolley on a shaped trapezoid."""
+
+
+class TrolleyMinimumJerk(Begin, MinimumJerk):
+    """Trolley on the smoothest motion."""
+
+
+class TrolleySequence(Begin, Sequence):
+    """Trolley in steps."""
+
+
+class Turned(Table):
+    """Where a turn begins."""
+
+    start: Angle = 0.0
+
+
+class Turn(Trapezoid):
+    """Turn on a trapezoid."""
+
+    end: Angle
+    speed: Turning
+    acceleration: AngularAcceleration
+
+
+class TurnSCurve(SCurve):
+    """Turn with limited jerk."""
+
+    end: Angle
+    speed: Turning
+    acceleration: AngularAcceleration
+    jerk: AngularJerk
+
+
+class TurnSpeedTrapezoid(SpeedTrapezoid):
+    """Turn on a trapezoid of speed."""
+
+    speed: EitherTurning
+
+
+class TurnSmoothRamps(SmoothRamps):
+    """Turn on smooth ramps."""
+
+    speed: EitherTurning
+
+
+class TurnShaped(Shaped):
+    """Turn on a shaped trapezoid."""
+
+    end: Angle
+    speed: Turning
+    acceleration: AngularAcceleration
+
+
+class TurnMinimumJerk(MinimumJerk):
+    """Turn on the smoothest motion."""
+
+    end: Angle
+
+
+TurnStep = Annotated[
+    Turn | TurnSCurve | TurnSpeedTrapezoid | TurnSmoothRamps | TurnShaped | TurnMinimumJerk | Rest,
+    Field(discriminator="shape"),
+]
+
+
+class JointRest(Turned, Rest):
+    """Joint at rest."""
+
+
+class JointTrapezoid(Turned, Turn):
+    """Joint on a trapezoid."""
+
+
+class JointSCurve(Turned, TurnSCurve):
+    """Joint with limited jerk."""
+
+
+class JointSpeedTrapezoid(Turned, TurnSpeedTrapezoid):
+    """Joint on a trapezoid of speed."""
+
+
+class JointSmoothRamps(Turned, TurnSmoothRamps):
+    """Joint on smooth ramps."""
+
+
+class JointShaped(Turned, TurnShaped):
+    """Joint on a shaped trapezoid."""
+
+
+class JointMinimumJerk(Turned, TurnMinimumJerk):
+    """Joint on the smoothest motion."""
+
+
+class JointSequence(Turned, Sequence):
+    """Joint in steps."""
+
+    steps: Annotated[tuple[TurnStep, ...], Field(min_length=1)]
+
+
+AnyMotion = Rest | Trapezoid | SCurve | SpeedTrapezoid | SmoothRamps | Shaped | MinimumJerk | Sequence | Points
+HoistMotion = Annotated[AnyMotion, Field(discriminator="shape")]
+TrolleyMotion = Annotated[
+    TrolleyRest
+    | TrolleyTrapezoid
+    | TrolleySCurve
+    | TrolleySpeedTrapezoid
+    | TrolleySmoothRamps
+    | TrolleyShaped
+    | TrolleyMinimumJerk
+    | TrolleySequence
+    | Points,
+    Field(discriminator="shape"),
+]
+JointMotion = Annotated[
+    JointRest
+    | JointTrapezoid
+    | JointSCurve
+    | JointSpeedTrapezoid
+    | JointSmoothRamps
+    | JointShaped
+    | JointMinimumJerk
+    | JointSequence
+    | Points,
+    Field(discriminator="shape"),
+]
+
+
+class Motions(Table):
+    """What the drives of a crane in radial motion do."""
+
+    trolley: TrolleyMotion
+    hoist: HoistMotion | None = None
+
+
+class SpaceMotions(Motions):
+    """What the drives of a tower crane in space do; the head's angle, or that of its drive's shaft."""
+
+    slewing: JointMotion | None = None
+    shaft: JointMotion | None = None
+
+
+class SlewingMotions(Table):
+    """What the drives of a slewing crane do; the shaft's angle is referred to the platform."""
+
+    shaft: JointMotion
+    hoist: HoistMotion | None = None
+
+
+class JibMotions(Table):
+    """What the joints and the winch of a jib crane do; the fold counts from the primary boom's line."""
+
+    slew: JointMotion | None = None
+    luff: JointMotion
+    fold: JointMotion
+    hoist: HoistMotion | None = None

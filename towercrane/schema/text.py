@@ -1,0 +1,338 @@
+"""Text of a case: TOML files, overrides and the provenance of single values, before anything is checked."""
+
+from __future__ import annotations
+
+import os
+import re
+import tomllib
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from towercrane.schema.faults import CaseError, Fault, did_you_mean, shown
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+ABOUT = ("assumed", "source")
+"""What may stand beside `value` in a table that says where a value is from."""
+
+
+DEEPEST = 20
+"""Tables and lists within each other; a case has a handful."""
+
+LARGEST = 4 * 2**20
+"""Bytes of a case or a crane file; those that ship with the program have a few thousand."""
+
+
+@dataclass(frozen=True, slots=True)
+class Assumption:
+    """A value that no source gives.
+
+    Parameters
+    ----------
+    key : str
+        Dotted key from the case's root.
+    value : object
+        The value as written.
+    why : str
+        Why this value was taken.
+    """
+
+    key: str
+    value: object
+    why: str
+
+
+@dataclass
+class CaseText:
+    """A case as written, with its crane in place and overrides applied.
+
+    Parameters
+    ----------
+    path : Path
+        Case file.
+    tree : dict
+        Merged TOML.
+    crane_path : Path or None
+        File that the crane came from; None for an inline crane.
+    origins : dict
+        Override that set a key or created a table, by dotted key.
+    faults : list of Fault
+        What went wrong on the way.
+    """
+
+    path: Path
+    tree: dict[str, Any]
+    crane_path: Path | None = None
+    origins: dict[str, str] = field(default_factory=dict)
+    faults: list[Fault] = field(default_factory=list)
+
+    def located(self, fault: Fault) -> Fault:
+        """The fault with the file it is in, and its key as seen from there."""
+        if fault.file:
+            return fault
+        parts = fault.key.split(".")
+        for count in range(len(parts), 0, -1):
+            origin = self.origins.get(".".join(parts[:count]))
+            if origin:
+                return replace(fault, file=f"--set {origin}")
+        if self.crane_path and fault.key.startswith("crane."):
+            key, named = fault.key.removeprefix("crane."), fault.wanted.replace("[crane.", "[")
+            return replace(fault, file=str(self.crane_path), key=key, wanted=named)
+        return replace(fault, file=str(self.path))
+
+
+def read_case(path: Path, overrides: Sequence[str] = ()) -> CaseText:
+    """Read a case file, the crane file it names and the overrides ``key=value``.
+
+    Raises
+    ------
+    CaseError
+        If the case file cannot be read at all; lesser faults are collected in the result.
+    """
+    text = CaseText(path, read_toml(path))
+    if not text.tree:
+        sections = "crane, [payload], [rope], [motion.trolley], [run]"
+        raise CaseError([Fault(str(path), "", f"a case: {sections}", "an empty file")])
+    from towercrane.cases.kinds import known_to
+
+    if "crane" not in text.tree and {"tower", "jib"} & set(text.tree):
+        hint = 'a case names its crane: crane = "crane.toml"'
+        raise CaseError([Fault(str(path), "", "a case: crane, [payload], [rope], ...", "a crane file", hint)])
+    if not any(map(known_to, text.tree)):
+        # This is some other file, of which nothing is shown.
+        wanted = "a case: crane, [payload], [rope], [motion.trolley], [run]"
+        raise CaseError([Fault(str(path), "", wanted, "a file without any of its keys")])
+    settings = [s for s in (_setting(text, o) for o in overrides) if s]
+    if any(is_deep(value) for _, value, _ in settings) or is_deep(text.tree):
+        wanted, hint = f"tables and lists up to {DEEPEST} within each other", "no key of a case lies so deep"
+        raise CaseError([Fault(str(path), "", wanted, "deeper ones", hint)])
+    for key, value, origin in settings:
+        if not key.startswith("crane."):
+            _put(text, key, value, origin)
+    _read_crane(text)
+    for key, value, origin in settings:
+        if key.startswith("crane."):
+            _put(text, key, value, origin)
+    return text
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Parse a TOML file.
+
+    Raises
+    ------
+    CaseError
+        If the file cannot be opened, is not UTF-8 or not TOML.
+    """
+    wanted = "a TOML file"
+    try:
+        with path.open("rb") as file:
+            data = file.read(LARGEST + 1)
+        if len(data) > LARGEST:
+            raise CaseError([Fault(str(path), "", f"{wanted} of at most {LARGEST} bytes", "a larger one")])
+        content = data.decode("utf-8-sig")
+    except OSError as error:
+        raise CaseError([Fault(str(path), "", wanted, (error.strerror or "no file").lower())]) from None
+    except UnicodeDecodeError as error:
+        got = f"a byte that is not UTF-8 at position {error.start}"
+        raise CaseError([Fault(str(path), "", wanted, got, "save the file with the encoding UTF-8")]) from None
+    try:
+        return tomllib.loads(content)
+    except (ValueError, RecursionError) as error:
+        raise CaseError([_syntax_fault(path, content, error)]) from None
+
+
+def in_utf8(override: str) -> str:
+    """An override whose bytes were no text where the terminal's encoding is another.
+
+    Raises
+    ------
+    CaseError
+        If it is not UTF-8 either.
+    """
+    try:
+        override.encode()
+    except UnicodeEncodeError:
+        with suppress(UnicodeError):
+            return os.fsencode(override).decode()
+        raise CaseError([Fault(f"--set {override}", "", "text in UTF-8", shown(override))]) from None
+    return override
+
+
+def is_deep(tree: Any) -> bool:
+    """Whether tables and lists lie so deep within each other that a walk through them would not end well."""
+    level = [tree] if isinstance(tree, dict | list) else []
+    for _ in range(DEEPEST):
+        level = [item for node in level for item in (node.values() if isinstance(node, dict) else node)]
+        level = [item for item in level if isinstance(item, dict | list)]
+    return bool(level)
+
+
+def is_file(path: Path) -> bool:
+    """Whether a file is there; a name that no file can have is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def _syntax_fault(path: Path, content: str, error: Exception) -> Fault:
+    message = str(error)
+    at = re.search(r"\s*\(at line (\d+), column (\d+)\)", message)
+    if not at:
+        where = "end of file" if "end of document" in message else ""
+        return Fault(str(path), where, "TOML", message.split(" (at")[0] or "unreadable text")
+    line = content.splitlines()[int(at[1]) - 1 : int(at[1])]
+    written = line[0].strip() if line else ""
+    hint = ""
+    if re.search(r"=\s*[-+.\d]+\s*[A-Za-z°%]", written) or re.search(r"=\s*[A-Za-z]", written):
+        hint = 'text and quantities with a unit stand in quotes: mass = "800 kg"'
+    elif "Cannot overwrite" in message or "Cannot declare" in message:
+        hint = "the same key or table stands in the file twice"
+    said = message[: at.start()]
+    if _is_ours(content):
+        said = f"{said}: {shown(written)}"
+    else:
+        # Any file that the program can read may have been named: neither its lines nor its keys are shown.
+        said = re.sub(r"\s+(\(.*\)|'[^='\]\\]+')", "", said)
+    return Fault(str(path), f"line {at[1]}, column {at[2]}", "TOML", said, hint)
+
+
+def _is_ours(content: str) -> bool:
+    """Whether all tables of a text that cannot be parsed are those of a case or a crane."""
+    from towercrane.cases.kinds import known_keys
+
+    known = {name for key in known_keys() for name in (key, key.removeprefix("crane."))}
+    headings = re.findall(r"^\s*\[+\s*([^\[\]]*?)\s*\]+", content, re.MULTILINE)
+    return bool(headings) and known.issuperset(headings)
+
+
+def _setting(text: CaseText, override: str) -> tuple[str, Any, str] | None:
+    """Key, value and wording of an override."""
+    key, sign, written = override.partition("=")
+    key, written = key.strip(), written.strip()
+    if not (sign and key and all(key.split(".")) and key.count(".") < DEEPEST):
+        hint = 'for example payload.mass="1200 kg"'
+        text.faults.append(Fault(f"--set {override}", "", "key=value", shown(override), hint))
+        return None
+    try:
+        value = tomllib.loads(f"value = {written}")
+    except (ValueError, RecursionError):
+        value = {}
+    return key, value["value"] if set(value) == {"value"} else written, f"{key}={written}"
+
+
+def _put(text: CaseText, key: str, value: Any, origin: str) -> None:
+    """Set a dotted key, creating tables on the way."""
+    *parents, last = key.split(".")
+    place: Any = text.tree
+    for depth, name in enumerate(parents, start=1):
+        if isinstance(place, list) and (index := _index(name, place)) is not None:
+            place = place[index]
+        elif isinstance(place, dict):
+            if name not in place:
+                place[name] = {}
+                text.origins[".".join(parents[:depth])] = origin
+            place = place[name]
+        if not isinstance(place, dict | list):
+            path = ".".join(parents[:depth])
+            if path != "crane":  # a crane file that could not be read has its own fault
+                text.faults.append(Fault(f"--set {origin}", path, "a table", shown(place)))
+            return
+    if isinstance(place, dict):
+        place[last] = value
+        text.origins[key] = origin
+    elif (index := _index(last, place)) is not None:
+        place[index] = value
+        text.origins[key] = origin
+    else:
+        wanted = f"an index below {len(place)}"
+        text.faults.append(Fault(f"--set {origin}", key, wanted, shown(last), "the first has index 0"))
+
+
+def _index(name: str, items: list[Any]) -> int | None:
+    """Place in a list that a part of a key names; None if there is none."""
+    # Python refuses to read numbers of more than 4300 digits.
+    index = int(name) if name.isdecimal() and len(name) < 10 else len(items)
+    return index if index < len(items) else None
+
+
+def _read_crane(text: CaseText) -> None:
+    """Put the crane file's content in place of its name."""
+    name = text.tree.get("crane")
+    if name is None or isinstance(name, dict):
+        return
+    if not isinstance(name, str):
+        text.faults.append(Fault("", "crane", 'a file name, such as "crane.toml", or a table', shown(name)))
+        return
+    path = text.path.parent / name
+    if not is_file(path):
+        files = sorted(p.name for p in text.path.parent.glob("*.toml") if p != text.path)
+        hint = did_you_mean(name, files, "the path is relative to the case file")
+        got = f"{shown(name)}: {'no regular file' if os.path.lexists(path) else 'no such file'}"
+        text.faults.append(Fault("", "crane", "the name of a crane file", got, hint))
+        return
+    try:
+        crane = read_toml(path)
+    except CaseError as error:
+        text.faults += error.faults
+        return
+    if not crane:
+        wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
+        text.faults.append(Fault(str(path), "", wanted, "an empty file"))
+        return
+    from towercrane.cases.kinds import known_to
+
+    if not any(known_to(f"crane.{key}") for key in crane):
+        # This is some other file, of which nothing is shown.
+        wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
+        text.faults.append(Fault(str(path), "", wanted, "a file without any table of a crane"))
+        return
+    if "crane" in crane:
+        wanted, hint = "a crane file: name, [tower], [jib], ...", "the case itself goes to the command line"
+        text.faults.append(Fault(str(path), "", wanted, "a case file, which names a crane itself", hint))
+        return
+    text.tree["crane"], text.crane_path = crane, path
+
+
+def split_provenance(tree: dict[str, Any]) -> tuple[dict[str, Any], list[Assumption], list[Fault]]:
+    """Replace each table ``{value = ..., assumed = "why"}`` by its value; list assumptions, crane's first."""
+    found: list[Assumption] = []
+    faults: list[Fault] = []
+
+    def plain(node: Any, key: str) -> Any:
+        if isinstance(node, list):
+            return [plain(item, f"{key}.{i}") for i, item in enumerate(node)]
+        if not isinstance(node, dict):
+            return node
+        if "value" not in node:
+            return {name: plain(item, f"{key}.{name}" if key else name) for name, item in node.items()}
+        for name, why in node.items():
+            if name != "value" and name not in ABOUT:
+                hint = did_you_mean(name, ABOUT)
+                got = f'the unknown key "{name}"'
+                faults.append(Fault("", f"{key}.{name}", "beside value: assumed or source", got, hint))
+            elif name in ABOUT and not (isinstance(why, str) and why.strip()):
+                faults.append(Fault("", f"{key}.{name}", "a text that says why or where from", shown(why)))
+            elif name == "assumed":
+                found.append(Assumption(key, node["value"], why))
+        return node["value"]
+
+    result = plain(tree, "")
+    found.sort(key=lambda a: not a.key.startswith("crane."))
+    return (result if isinstance(result, dict) else {}), found, faults
+
+
+def leaves(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    """Dotted key and value of everything that is neither table nor list."""
+    if isinstance(node, dict):
+        for name, item in node.items():
+            yield from leaves(item, f"{key}.{name}" if key else name)
+    elif isinstance(node, list):
+        for index, item in enumerate(node):
+            yield from leaves(item, f"{key}.{index}")
+    else:
+        yield key, node

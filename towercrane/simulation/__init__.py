@@ -1,0 +1,1 @@
+"""Solves any system over time. Never imports a crane or a case."""

@@ -1,0 +1,97 @@
+"""Guards: values that must not fall below their floors, and how a solver looks for their falls inside its steps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modal.compiler.compiled import kernel
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+NEAR = 0.5
+"""A guard is near its floor where it comes closer to it than this part of its range in a step, as the stages see it.
+
+Between two stages, at most 0.3 of a step apart, a parabola falls by 0.09 of its range below what they see, and a
+vibration of which the whole step is one period by 0.21.
+"""
+
+LOOKS = 32
+"""Points of a step at which the guards are looked at once one of them is near its floor.
+
+What dips between two of them is at most 0.001 of a parabola's range deep, 0.0025 of a vibration's.
+"""
+
+FEW_LOOKS = 8
+"""Points of a step that show whether a guard is near its floor, where a solver's stages are its own."""
+
+NARROWEST = 1e-12
+"""Part of a step within which a fall is found."""
+
+
+@kernel()
+def fallen(guards: Any, floors: Any) -> int:
+    """Index of the first guard below its floor, or -1."""
+    for g in range(guards.size):
+        if guards[g] < floors[g]:
+            return g
+    return -1
+
+
+@kernel()
+def widen(lowest: Any, highest: Any, guards: Any) -> None:
+    """Let the guards' ranges contain what they are now."""
+    for g in range(guards.size):
+        lowest[g] = min(lowest[g], guards[g])
+        highest[g] = max(highest[g], guards[g])
+
+
+@kernel()
+def is_near(lowest: float, highest: float, floor: float) -> bool:
+    """Whether a guard with this range in a step has fallen below its floor, or may have between two stages."""
+    return bool(lowest < floor or lowest - floor < NEAR * (highest - lowest))
+
+
+def first_fall(
+    begin: float, end: float, dense: Callable[[Any], Floats], margins: Callable[[float, Floats], Floats]
+) -> tuple[float, int] | None:
+    """Time at which a guard first falls inside a step, and its index; None if none does.
+
+    Parameters
+    ----------
+    begin, end : float
+        Times between which the step goes [s].
+    dense : callable
+        State at a time, or states at several as columns.
+    margins : callable
+        How far the guards that have floors are above them at a time and state.
+    """
+
+    def seen(looks: int) -> tuple[Floats, Floats]:
+        times = np.linspace(begin, end, looks + 1)[1:]
+        return times, np.array([margins(time, state) for time, state in zip(times, dense(times).T, strict=True)])
+
+    _, found = seen(FEW_LOOKS)
+    lowest, highest = found.min(axis=0), found.max(axis=0)
+    if not any(is_near(low, high, 0.0) for low, high in zip(lowest, highest, strict=True)):
+        return None
+    times, found = seen(LOOKS)
+    below = np.flatnonzero((found < 0.0).any(axis=1))
+    if len(below) == 0:
+        return None
+    high, fallen_there = float(times[below[0]]), found[below[0]] < 0.0
+    low = high - (end - begin) / LOOKS
+    while high - low > NARROWEST * (end - begin):
+        middle = 0.5 * (low + high)
+        there = margins(middle, dense(middle)) < 0.0
+        if there.any():
+            high, fallen_there = middle, there
+        else:
+            low = middle
+    return high, int(np.argmax(fallen_there))

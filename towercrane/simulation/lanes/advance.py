@@ -1,0 +1,242 @@
+"""Compiled runs of the crane in radial motion side by side.
+
+The steps are put together from :mod:`towercrane.simulation.lanes.stepper` and
+:mod:`towercrane.simulation.lanes.dense_output`; the equations come as a function pointer, which is compiled by
+itself.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import types
+
+from modal.compiler.compiled import kernel
+from towercrane.cranes.tower.kernels import layout
+from towercrane.kernels.arrays import in_lanes, lane_rhs_signature, lent
+from towercrane.kernels.choices import choose
+from towercrane.kernels.vector import LANES
+from towercrane.simulation.directions import restore
+from towercrane.simulation.guards import LOOKS, widen
+from towercrane.simulation.lanes import dense_output as looks
+from towercrane.simulation.lanes import queue as lane_queue
+from towercrane.simulation.lanes import stepper as lane_stepper
+from towercrane.simulation.lanes.queue import (
+    ACCEPTED_STEP,
+    COLLAPSED,
+    CROSSED,
+    END,
+    FINISHED,
+    FIRST_GUARD,
+    FRACTION,
+    FRESH,
+    HIGH,
+    MOMENT,
+    PHASE,
+    RUN,
+    TIME,
+    TRIAL,
+    answers_type,
+    lanes_type,
+    queue_type,
+)
+from towercrane.simulation.stepper import stage_state
+
+TOWER_TIP, JIB_TIP, SWING, TENSION = range(4)
+"""Outputs: the two linear ones, then swing angle and rope tension."""
+
+OUTPUTS = ("tower_tip_displacement", "jib_tip_deflection", "swing_angle", "rope_tension")
+"""Their names."""
+
+
+@kernel()
+def _take_stages(
+    rhs: Any, first: int, last: int, a: Any, c: Any, y: Any, trial: Any, slope: Any, k: Any, clocks: Any, inputs: Any,
+    numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any, guards: Any, lowest: Any, highest: Any,
+) -> None:  # fmt: skip
+    """Slopes of the stages from first to last in every lane, and the range of every guard."""
+    step, time = clocks[TRIAL], clocks[TIME]
+    for i in range(first, last + 1):
+        stage_state(y, a, i, k, step, trial)
+        rhs(time + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+        widen(lowest, highest, guards)
+        for m in range(y.size):
+            k[i, m] = slope[m]
+
+
+@kernel()
+def _observe(
+    states: Any, lane_states: Any, guards: Any, watched: Any, outputs: Any, lane_outputs: Any, n: int
+) -> None:
+    """Outputs of every lane in these states."""
+    for output in (TOWER_TIP, JIB_TIP):
+        value = guards[0] * 0.0
+        for i in range(n):
+            value += watched[output, i] * states[i]
+        outputs[output] = value
+    outputs[TENSION] = guards[layout.TENSION]
+    for lane in range(LANES):
+        lane_outputs[SWING, lane] = np.arctan2(lane_states[n, lane], -lane_states[n + 1, lane])
+
+
+@kernel(
+    types.boolean(
+        types.FunctionType(lane_rhs_signature()), queue_type(), answers_type(), lanes_type(),
+        types.int64, types.float64[:, ::1], types.float64[::1], types.float64[:, ::1], types.float64[:, ::1],
+        types.int64, types.float64, types.int64,
+    ),
+    parallel_calls=True,
+)  # fmt: skip
+def advance(
+    rhs: Any,
+    queue: Any,
+    answers: Any,
+    lanes: Any,
+    stages: int,
+    a: Any,
+    c: Any,
+    error: Any,
+    dense: Any,
+    error_order: int,
+    rtol: float,
+    most_steps: int,
+) -> bool:
+    """Carry all lanes on by at most so many steps each.
+
+    Parameters
+    ----------
+    rhs : compiled function
+        As in :func:`towercrane.kernels.arrays.lane_rhs_signature`.
+    queue, answers, lanes
+        See :mod:`towercrane.simulation.lanes.queue`.
+    stages, a, c, error, dense, error_order
+        As in :class:`towercrane.simulation.tableaus.Tableau`.
+    rtol : float
+        Relative tolerance per step.
+    most_steps : int
+        Steps tried in each lane before this returns.
+
+    Returns
+    -------
+    bool
+        Whether runs are left.
+    """
+    # What handles all lanes takes arrays: the tuples that hold them would cost time at every call.
+    places, clock, clocks = lent(lanes.places), lent(lanes.clock), in_lanes(lanes.clock)
+    lane_floors, lane_guards, guards = lent(lanes.floors), lent(lanes.guards), in_lanes(lanes.guards)
+    lane_lowest, lowest = lent(lanes.lowest), in_lanes(lanes.lowest)
+    lane_highest, highest = lent(lanes.highest), in_lanes(lanes.highest)
+    lane_norms, norms, atol = lent(lanes.norms), in_lanes(lanes.norms), in_lanes(lanes.atol)
+    lane_trial, lane_new, lane_outputs = lent(lanes.trial), lent(lanes.new), lent(lanes.outputs)
+    y, new, trial, slope, k = (
+        in_lanes(lanes.y), in_lanes(lanes.new), in_lanes(lanes.trial), in_lanes(lanes.slope), in_lanes(lanes.k),
+    )  # fmt: skip
+    inputs, numbers, vectors, matrices, tables, work = (
+        in_lanes(lanes.inputs), in_lanes(lanes.numbers), in_lanes(lanes.vectors), in_lanes(lanes.matrices),
+        lent(queue.tables), in_lanes(lanes.work),
+    )  # fmt: skip
+    watched, outputs, sample_times = in_lanes(lanes.watched), in_lanes(lanes.outputs), lent(queue.sample_times)
+    directions = lent(queue.directions)
+    counts, smallest_steps, extremes, series = (
+        lent(answers.counts), lent(answers.smallest_steps), lent(answers.extremes), lent(answers.series),
+    )  # fmt: skip
+    a, c, error, dense = lent(a), lent(c), lent(error), lent(dense)
+    size, n, rows = y.size, vectors.shape[1], error.shape[0]
+    # The same state steers no step in every run: the work done.
+    limits, active = queue.atol[0], 0
+    for m in range(size):
+        active += not np.isinf(limits[m])
+    for _ in range(most_steps):
+        if lane_stepper.wants_entry(places, queue.waiting.size - lanes.next_run[0]):
+            for lane in range(LANES):
+                if places[RUN, lane] < 0 and lanes.next_run[0] < queue.waiting.size:
+                    lane_queue.fill(queue, lanes, lane)
+                    lane_queue.begin_phase(queue, lanes, lane)
+            rhs(clocks[TIME], y, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+            for lane in range(LANES):
+                if places[FRESH, lane]:
+                    lane_stepper.enter_phase(answers, lanes, lane, rtol)
+        idle = 0
+        for lane in range(LANES):
+            idle += places[RUN, lane] < 0
+        if idle == LANES:
+            return bool(lanes.next_run[0] < queue.waiting.size)
+        if lane_stepper.choose_steps(places, clock):
+            for lane in range(LANES):
+                if places[RUN, lane] >= 0 and clock[TRIAL, lane] == 0.0:
+                    lane_queue.end_run(answers, lanes, lane, COLLAPSED)
+
+        for g in range(guards.size):
+            lowest[g] = np.inf
+            highest[g] = -np.inf
+        _take_stages(
+            rhs,
+            1,
+            stages,
+            a,
+            c,
+            y,
+            trial,
+            slope,
+            k,
+            clocks,
+            inputs,
+            numbers,
+            vectors,
+            matrices,
+            tables,
+            work,
+            guards,
+            lowest,
+            highest,
+        )
+        for m in range(size):
+            new[m] = trial[m]
+        lane_stepper.error_parts(error, k, y, new, rtol, atol, limits, norms)
+        looking = lane_stepper.judge_steps(
+            places, clock, lane_norms, lane_lowest, lane_highest, lane_floors, counts, smallest_steps, sample_times,
+            stages, rows, error_order, active,
+        )  # fmt: skip
+        if looking:
+            _take_stages(
+                rhs, stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices,
+                tables, work, guards, lowest, highest,
+            )  # fmt: skip
+            lane_stepper.count(looking, places, counts, a.shape[0] - 1 - stages)
+            # A stage is only an estimate of the state there, and blind beside it; the dense output decides.
+            suspect, looking = False, looks.look_for_falls(places, clock, LOOKS)
+            while looking:
+                looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
+                rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                lane_stepper.count(looking, places, counts, 1)
+                looks.note_looks(looking, places, clock, lane_guards, lane_floors, LOOKS)
+                suspect, looking = True, looks.look_for_falls(places, clock, LOOKS)
+            if suspect:
+                looks.dense_states(y, dense, k, clocks[TRIAL], clocks[HIGH], trial)
+                looks.cut_steps(places, clock, lane_trial, lane_new)
+            wanted = looks.wanted_samples(places, clock, sample_times)
+            while wanted:
+                looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
+                rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                _observe(trial, lane_trial, guards, watched, outputs, lane_outputs, n)
+                looks.record(lane_outputs, wanted, places, counts, sample_times, extremes, series)
+                wanted = looks.wanted_samples(places, clock, sample_times)
+        accepted = clocks[ACCEPTED_STEP]
+        restore(new, k, stages, directions)
+        for m in range(size):
+            y[m] = choose(accepted, new[m], y[m])
+            k[0, m] = choose(accepted, k[stages, m], k[0, m])
+        if lane_stepper.move_on(places, clock):
+            for lane in range(LANES):
+                if places[RUN, lane] < 0 or not clock[ACCEPTED_STEP, lane]:
+                    continue
+                if places[CROSSED, lane] >= 0:
+                    lane_queue.end_run(answers, lanes, lane, FIRST_GUARD + places[CROSSED, lane])
+                elif clock[TIME, lane] >= clock[END, lane]:
+                    places[PHASE, lane] += 1
+                    if places[PHASE, lane] == queue.phase_counts[places[RUN, lane]]:
+                        lane_queue.end_run(answers, lanes, lane, FINISHED)
+                    else:
+                        lane_queue.begin_phase(queue, lanes, lane)
+    return True

@@ -1,0 +1,174 @@
+"""Looks inside the steps of many runs side by side: samples, and guards that have fallen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from modal.compiler.compiled import kernel
+from towercrane.kernels.vector import LANES
+from towercrane.simulation.guards import NARROWEST, is_near
+from towercrane.simulation.lanes.queue import (
+    ACCEPTED_STEP,
+    BEGIN,
+    CROSSED,
+    END,
+    FRACTION,
+    HIGH,
+    LARGEST,
+    LARGEST_TIME,
+    LOW,
+    MOMENT,
+    RUN,
+    SAMPLE,
+    SAMPLES_END,
+    SMALLEST,
+    SMALLEST_TIME,
+    STOP,
+    SUSPECT,
+    TIME,
+    TRIAL,
+    WRITTEN,
+)
+
+
+@kernel()
+def fallen(guards: Any, floors: Any, lane: int) -> int:
+    """Index of a lane's first guard below its floor, or -1."""
+    for g in range(guards.shape[0]):
+        if guards[g, lane] < floors[g, lane]:
+            return g
+    return -1
+
+
+@kernel()
+def near(lowest: Any, highest: Any, floors: Any, lane: int) -> int:
+    """Index of a lane's first guard that has been near its floor, or -1."""
+    for g in range(floors.shape[0]):
+        if is_near(lowest[g, lane], highest[g, lane], floors[g, lane]):
+            return g
+    return -1
+
+
+@kernel()
+def wants_sample(places: Any, clock: Any, sample_times: Any, lane: int) -> bool:
+    """Whether a lane's accepted step reaches its next sample; if so, where in the step that is."""
+    clock[FRACTION, lane] = 0.0
+    sample = places[SAMPLE, lane]
+    if clock[ACCEPTED_STEP, lane] == 0.0 or sample >= places[SAMPLES_END, lane]:
+        return False
+    moment = min(sample_times[sample] - clock[BEGIN, lane], clock[END, lane])
+    if moment > clock[STOP, lane]:
+        return False
+    clock[FRACTION, lane] = (moment - clock[TIME, lane]) / clock[TRIAL, lane]
+    clock[MOMENT, lane] = moment
+    return True
+
+
+@kernel()
+def wanted_samples(places: Any, clock: Any, sample_times: Any) -> int:
+    """Lanes whose steps reach another sample, as bits."""
+    wanted = 0
+    for lane in range(LANES):
+        if wants_sample(places, clock, sample_times, lane):
+            wanted |= 1 << lane
+    return wanted
+
+
+@kernel()
+def record(
+    lane_values: Any, wanted: int, places: Any, counts: Any, sample_times: Any, extremes: Any, series: Any
+) -> None:
+    """Keep the wanted lanes' outputs where they are extremes of their runs so far; go to the next samples.
+
+    ``lane_values`` has a row per output.
+    """
+    for lane in range(LANES):
+        if not wanted >> lane & 1:
+            continue
+        run, sample = places[RUN, lane], places[SAMPLE, lane]
+        places[SAMPLE, lane] += 1
+        counts[run, WRITTEN] += 1
+        time = sample_times[sample]
+        for output in range(extremes.shape[1]):
+            value = lane_values[output, lane]
+            if value > extremes[run, output, LARGEST]:
+                extremes[run, output, LARGEST] = value
+                extremes[run, output, LARGEST_TIME] = time
+            if value < extremes[run, output, SMALLEST]:
+                extremes[run, output, SMALLEST] = value
+                extremes[run, output, SMALLEST_TIME] = time
+            if series.shape[0]:
+                series[run, sample, output] = value
+
+
+@kernel()
+def dense_states(y: Any, dense: Any, k: Any, h: Any, x: Any, out: Any) -> None:
+    """State of every lane at its own fraction x of its step h; all of lane vectors but ``dense``."""
+    for m in range(y.size):
+        out[m] = 0.0
+    for i in range(dense.shape[0]):
+        used = False
+        for d in range(dense.shape[1]):
+            used = used or dense[i, d] != 0.0
+        if used:
+            weight = x * 0.0
+            for d in range(dense.shape[1] - 1, -1, -1):
+                weight = (weight + dense[i, d]) * x
+            for m in range(y.size):
+                out[m] += weight * k[i, m]
+    for m in range(y.size):
+        out[m] = y[m] + h * out[m]
+
+
+@kernel()
+def look_for_falls(places: Any, clock: Any, looks: int) -> int:
+    """Lanes that have to look once more for the fall of a guard near its floor, as bits, and where in their steps.
+
+    The bracket is empty before the first look. It moves along the step, and is halved once a guard has fallen at
+    its upper end.
+    """
+    looking = 0
+    for lane in range(LANES):
+        clock[FRACTION, lane] = 0.0
+        if clock[ACCEPTED_STEP, lane] == 0.0 or not places[SUSPECT, lane]:
+            continue
+        if places[CROSSED, lane] < 0:
+            part = round(clock[HIGH, lane] * looks) + 1
+            if part > looks:
+                continue
+            clock[FRACTION, lane] = part / looks
+        elif clock[HIGH, lane] - clock[LOW, lane] > NARROWEST:
+            clock[FRACTION, lane] = 0.5 * (clock[LOW, lane] + clock[HIGH, lane])
+        else:
+            continue
+        clock[MOMENT, lane] = clock[TIME, lane] + clock[FRACTION, lane] * clock[TRIAL, lane]
+        looking |= 1 << lane
+    return looking
+
+
+@kernel()
+def note_looks(looking: int, places: Any, clock: Any, guards: Any, floors: Any, looks: int) -> None:
+    """Narrow or move the brackets of the looking lanes by what their guards were."""
+    for lane in range(LANES):
+        if not looking >> lane & 1:
+            continue
+        guard, at = fallen(guards, floors, lane), clock[FRACTION, lane]
+        if guard >= 0:
+            if places[CROSSED, lane] < 0:
+                clock[LOW, lane] = (round(at * looks) - 1.0) / looks
+            clock[HIGH, lane] = at
+            places[CROSSED, lane] = guard
+        elif places[CROSSED, lane] < 0:
+            clock[HIGH, lane] = at
+        else:
+            clock[LOW, lane] = at
+
+
+@kernel()
+def cut_steps(places: Any, clock: Any, states: Any, new: Any) -> None:
+    """Let the steps in which a guard fell end there, in these states."""
+    for lane in range(LANES):
+        if clock[ACCEPTED_STEP, lane] and places[CROSSED, lane] >= 0:
+            clock[STOP, lane] = clock[TIME, lane] + clock[HIGH, lane] * clock[TRIAL, lane]
+            for m in range(new.shape[0]):
+                new[m, lane] = states[m, lane]

@@ -1,0 +1,324 @@
+"""Many runs of a crane in radial motion at once: vector lanes inside, threads on top.
+
+Every run takes the steps that :func:`towercrane.simulation.integrate.integrate` would take for it alone, to the last
+bit; what shares a lane or a thread with it changes nothing.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.cranes.tower.kernels.lane_rhs import rhs
+from towercrane.cranes.tower.kernels.layout import TENSION as TENSION_GUARD
+from towercrane.cranes.tower.planar import TOWER_BUCKLED
+from towercrane.kernels.vector import LANES
+from towercrane.simulation.arguments import check_times, check_tolerances
+from towercrane.simulation.directions import restore_rows
+from towercrane.simulation.energy_balance import NOT_CONSERVED
+from towercrane.simulation.integrate import (
+    COLLAPSED,
+    FINISHED,
+    INTERRUPTED,
+    NOT_FINITE,
+    evaluate,
+    phase_of,
+)
+from towercrane.simulation.lanes.advance import OUTPUTS, advance
+from towercrane.simulation.lanes.energy import off_balance
+from towercrane.simulation.lanes.queue import (
+    ACCEPTED,
+    EVALUATIONS,
+    FIRST_GUARD,
+    LARGEST,
+    NO_START,
+    OFF_BALANCE,
+    REJECTED,
+    SMALLEST,
+    WAITING,
+    WRITTEN,
+    Answers,
+    Queue,
+    lanes_for,
+)
+from towercrane.simulation.lanes.queue import COLLAPSED as COLLAPSED_CODE
+from towercrane.simulation.lanes.queue import FINISHED as FINISHED_CODE
+from towercrane.simulation.lanes.queue import NOT_FINITE as NOT_FINITE_CODE
+from towercrane.simulation.system import NoEquilibrium
+from towercrane.simulation.tableaus import TABLEAUS, Tableau
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.motions.motion import Phases
+    from towercrane.simulation.system import System
+
+    Floats = NDArray[np.float64]
+
+STEPS_PER_CALL = 2_000
+"""Steps of each lane between two looks at progress and the keyboard."""
+
+RUNS_PER_TASK = 256
+"""Largest number of runs that a thread takes at a time."""
+
+
+@dataclass(frozen=True, eq=False)
+class LaneRun:
+    """One run that waits for a lane.
+
+    Parameters
+    ----------
+    model : RadialModel
+        Moving in the plane of its jib.
+    phases : Phases
+        Its motions.
+    state : str
+        "equilibrium" or "zero", as in :meth:`towercrane.cranes.tower.planar.RadialModel.start`.
+    swing_angle : float
+        Rope's angle from the vertical at the start [rad].
+    """
+
+    model: RadialModel
+    phases: Phases
+    state: str = "equilibrium"
+    swing_angle: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class LaneAnswers:
+    """How many runs ended.
+
+    Parameters
+    ----------
+    outcomes : list of str
+        As a single run names them; "energy not conserved" where the balance is off at the end.
+    end_times, smallest_steps : ndarray, shape (runs,)
+        [s]
+    end_states : ndarray, shape (runs, size)
+    evaluations, accepted, rejected : ndarray of int, shape (runs,)
+    extremes : ndarray, shape (runs, 4, 4)
+        Of each output in the order of :data:`towercrane.simulation.lanes.advance.OUTPUTS`: largest value, its time,
+        smallest value, its time; among the sample times and the end of a run that ended early. Not a number where
+        a run was interrupted.
+    series : ndarray, shape (runs or 0, samples, 4)
+        The outputs at the sample times; not a number after a run's end.
+    """
+
+    outcomes: list[str]
+    end_times: Floats
+    smallest_steps: Floats
+    end_states: Floats
+    evaluations: NDArray[np.int64]
+    accepted: NDArray[np.int64]
+    rejected: NDArray[np.int64]
+    extremes: Floats
+    series: Floats
+
+
+def integrate_many(
+    runs: Sequence[LaneRun],
+    sample_times: Floats,
+    *,
+    method: str = "dop853",
+    rtol: float = 1e-8,
+    atol: float = 1e-10,
+    threads: int | None = None,
+    series: bool = False,
+    progress: Callable[[int], None] | None = None,
+) -> LaneAnswers:
+    """Solve many runs side by side.
+
+    Parameters
+    ----------
+    runs : sequence of LaneRun
+        With the same numbers of modes and the same shapes of the jib's modes.
+    sample_times : ndarray, shape (p,)
+        Increasing times at which the outputs are looked at [s].
+    method : {"dop853", "dopri5"}
+    rtol, atol : float
+        Tolerances, as in :func:`towercrane.simulation.integrate.integrate`.
+    threads : int, optional
+        Threads; all cores by default.
+    series : bool
+        Keep the outputs over time.
+    progress : callable, optional
+        Called with the number of runs that have ended.
+
+    Raises
+    ------
+    ValueError
+        If the runs cannot share lanes, or an argument is out of its range.
+    """
+    if method not in TABLEAUS:
+        raise ValueError(f"method: wanted one of {', '.join(TABLEAUS)}, got {method!r}")
+    check_tolerances(rtol, atol)
+    check_times(sample_times)
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: wanted one or more, got {threads!r}")
+    if not runs:
+        raise ValueError("runs: wanted one or more, got none")
+    tableau, system = TABLEAUS[method], runs[0].model.system
+    if any(not _alike(run.model.system, system) for run in runs):
+        raise ValueError("runs: wanted the same numbers and shapes of modes in all, got different ones")
+    answers = _answers(len(runs), system, len(sample_times) if series else 0)
+    workers = threads or available_cores()
+    share = min(RUNS_PER_TASK, max(LANES, -(-len(runs) // (4 * workers))))
+    stop = threading.Event()
+
+    def work(first: int) -> None:
+        task = slice(first, first + share)
+        mine = Answers(*(array[task] for array in answers))
+        queue = _queue(runs[task], mine, sample_times, atol, tableau)
+        lanes = lanes_for(queue, len(tableau.a), system.work_shape, len(OUTPUTS))
+        left = True
+        while left and not stop.is_set():
+            left = advance(
+                rhs, queue, mine, lanes, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
+                tableau.error_order, rtol, STEPS_PER_CALL,
+            )  # fmt: skip
+        mine.outcomes[(mine.outcomes > NO_START) & off_balance(runs[task], queue, mine, rtol, atol)] = OFF_BALANCE
+
+    with ThreadPoolExecutor(workers) as pool:
+        futures = [pool.submit(work, first) for first in range(0, len(runs), share)]
+        try:
+            # A wait without end could not be interrupted everywhere.
+            while wait(futures, timeout=0.1).not_done:
+                if progress is not None:
+                    progress(int(np.count_nonzero(answers.outcomes)))
+        except KeyboardInterrupt:
+            pool.shutdown(wait=False, cancel_futures=True)
+        finally:
+            stop.set()
+        for future in futures:
+            if not future.cancelled():
+                future.result()
+    return _told(runs, answers, sample_times)
+
+
+def available_cores() -> int:
+    """Cores that this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
+
+
+def _alike(one: System, other: System) -> bool:
+    """Whether two systems can share lanes."""
+    if one.size != other.size or one.tables.shape != other.tables.shape:
+        return False
+    return one.tables is other.tables or np.array_equal(one.tables, other.tables)
+
+
+def _start(run: LaneRun) -> tuple[Floats, int]:
+    """State at the start of a run, and whether it waits for a lane or has no equilibrium to start from."""
+    inputs = run.phases.inputs[0]
+    try:
+        return run.model.start(inputs, run.state, run.swing_angle), WAITING
+    except NoEquilibrium:
+        return run.model.start(inputs, "zero", run.swing_angle), NO_START
+
+
+def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, tableau: Tableau) -> Queue:
+    """The runs' data as the compiled steps want them; runs with fewer phases are padded."""
+    systems = [run.model.system for run in runs]
+    starts = np.empty((len(runs), systems[0].size))
+    for number, run in enumerate(runs):
+        starts[number], answers.outcomes[number] = _start(run)
+    restore_rows(starts, systems[0].directions)
+    # Those without a start end in it.
+    answers.end_states[:] = starts
+    most = max(len(run.phases.inputs) for run in runs)
+    powers = max(run.phases.inputs.shape[2] for run in runs)
+    times = np.full((len(runs), most + 1), np.inf)
+    inputs = np.zeros((len(runs), most, runs[0].phases.inputs.shape[1], powers))
+    first_samples = np.full((len(runs), most + 1), len(sample_times))
+    for number, run in enumerate(runs):
+        cut = run.phases
+        count, _, width = cut.inputs.shape
+        times[number, : count + 1] = cut.times
+        inputs[number, :count, :, :width] = cut.inputs
+        owner = phase_of(sample_times, cut)
+        first_samples[number, : count + 1] = np.searchsorted(owner, np.arange(count + 1))
+    return Queue(
+        waiting=np.flatnonzero(answers.outcomes == WAITING),
+        starts=starts,
+        atol=atol * np.array([system.scale for system in systems]),
+        longest_steps=np.array([tableau.longest_step(system.fastest) for system in systems]),
+        numbers=np.array([system.numbers for system in systems]),
+        vectors=np.array([system.vectors for system in systems]),
+        matrices=np.array([system.matrices for system in systems]),
+        floors=np.array([system.floors for system in systems]),
+        watched=np.array([run.model.tip_shapes for run in runs]),
+        phase_counts=np.array([len(run.phases.inputs) for run in runs]),
+        phase_times=times,
+        inputs=inputs,
+        first_samples=first_samples,
+        sample_times=np.array(sample_times, dtype=float),
+        tables=systems[0].tables,
+        directions=systems[0].directions,
+    )
+
+
+def _answers(count: int, system: System, samples: int) -> Answers:
+    extremes = np.zeros((count, len(OUTPUTS), 4))
+    extremes[..., LARGEST], extremes[..., SMALLEST] = -np.inf, np.inf
+    return Answers(
+        outcomes=np.zeros(count, dtype=np.int64),
+        end_times=np.zeros(count),
+        smallest_steps=np.full(count, np.inf),
+        end_states=np.zeros((count, system.size)),
+        counts=np.zeros((count, 4), dtype=np.int64),
+        extremes=extremes,
+        series=np.full((count if samples else 0, samples, len(OUTPUTS)), np.nan),
+    )
+
+
+def _told(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats) -> LaneAnswers:
+    """Outcomes by name; the last row of runs that ended early; nothing of those that were interrupted."""
+    # A crane without a stable equilibrium has buckled under its weights.
+    names = {
+        WAITING: INTERRUPTED, NO_START: TOWER_BUCKLED, FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED,
+        NOT_FINITE_CODE: NOT_FINITE, OFF_BALANCE: NOT_CONSERVED,
+    }  # fmt: skip
+    outcomes = []
+    for number, (run, code) in enumerate(zip(runs, answers.outcomes.tolist(), strict=True)):
+        outcomes.append(names[code] if code in names else run.model.system.guards[code - FIRST_GUARD])
+        if code == WAITING:
+            answers.extremes[number] = np.nan
+            continue
+        written, end = answers.counts[number, WRITTEN], float(answers.end_times[number])
+        if outcomes[-1] == FINISHED:
+            # The row at the end belongs to no phase.
+            for sample in range(written, len(sample_times)):
+                values = _record_end(run, answers, number, float(sample_times[sample]))
+                if len(answers.series):
+                    answers.series[number, sample] = values
+        elif written == 0 or sample_times[written - 1] < end:
+            _record_end(run, answers, number, end)
+    counts = answers.counts
+    return LaneAnswers(
+        outcomes, answers.end_times, answers.smallest_steps, answers.end_states,
+        counts[:, EVALUATIONS], counts[:, ACCEPTED], counts[:, REJECTED], answers.extremes, answers.series,
+    )  # fmt: skip
+
+
+def _record_end(run: LaneRun, answers: Answers, number: int, end: float) -> tuple[float, ...]:
+    """Let a run's end state count among its extremes, as it does in the rows of a single run; its outputs."""
+    model, state = run.model, answers.end_states[number]
+    _, guards = evaluate(model.system, run.phases, np.array([end]), state[None])
+    n = model.coordinates
+    linear = model.tip_shapes @ state[:n]
+    values = (*linear, np.arctan2(state[n], -state[n + 1]), guards[0, TENSION_GUARD])
+    for output, value in zip(answers.extremes[number], values, strict=True):
+        if value > output[LARGEST]:
+            output[LARGEST], output[LARGEST + 1] = value, end
+        if value < output[SMALLEST]:
+            output[SMALLEST], output[SMALLEST + 1] = value, end
+    return values

@@ -1,0 +1,271 @@
+"""Runs that wait for a lane, runs under way, and what has become of them.
+
+Arrays of runs have the run as their first axis, arrays of lanes the lane as their last.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import types
+
+from modal.compiler.compiled import kernel
+from towercrane.kernels.vector import LANES
+from towercrane.simulation.stepper import GROW
+
+RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED = range(7)
+"""Rows of a lane's places: run (-1: idle), phase, next sample, first sample of the next phase, whether the slope at
+the start is wanted, whether a guard has been near its floor, and the guard that fell (-1: none)."""
+
+BEGIN, END, TIME, STEP, LONGEST, GROWTH, TRIAL, ACCEPTED_STEP, STOP, FRACTION, MOMENT, LOW, HIGH = range(13)
+"""Rows of a lane's clock: start of the phase, its length, time since it began, next step, longest step allowed,
+largest growth, step that is tried, 1 where it was accepted, time it reaches, and for a look inside the step its
+fraction, its time and the bracket of a guard's fall."""
+
+ACCEPTED, REJECTED, EVALUATIONS, WRITTEN = range(4)
+"""Columns of a run's counts."""
+
+WAITING, NO_START, FINISHED, COLLAPSED, NOT_FINITE, OFF_BALANCE, FIRST_GUARD = range(7)
+"""Codes of outcomes; NO_START is for runs that never came to a lane, OFF_BALANCE is found
+afterwards, those from FIRST_GUARD on are the guards'."""
+
+LARGEST, LARGEST_TIME, SMALLEST, SMALLEST_TIME = range(4)
+"""Columns of an output's extremes."""
+
+
+class Queue(NamedTuple):
+    """Runs that wait for a lane; the first axis counts the runs.
+
+    Parameters
+    ----------
+    waiting : ndarray of int, shape (up to runs,)
+        The runs to take, in this order.
+    starts, atol : ndarray, shapes (runs, size)
+    longest_steps : ndarray, shape (runs,)
+    numbers, vectors, matrices : ndarray, shapes (runs, ...)
+        Constants of each run, as its system has them.
+    floors : ndarray, shape (runs, guards)
+    watched : ndarray, shape (runs, linear outputs, coordinates)
+        Outputs that are linear in the coordinates.
+    phase_counts : ndarray of int, shape (runs,)
+    phase_times : ndarray, shape (runs, phases + 1)
+    inputs : ndarray, shape (runs, phases, channels, k)
+    first_samples : ndarray of int, shape (runs, phases + 1)
+        First sample of each phase.
+    sample_times : ndarray, shape (samples,)
+    tables : ndarray, shape (cells, modes, powers)
+        The same for all runs, as are
+    directions : ndarray of int, shape (count, 3)
+    """
+
+    waiting: Any
+    starts: Any
+    atol: Any
+    longest_steps: Any
+    numbers: Any
+    vectors: Any
+    matrices: Any
+    floors: Any
+    watched: Any
+    phase_counts: Any
+    phase_times: Any
+    inputs: Any
+    first_samples: Any
+    sample_times: Any
+    tables: Any
+    directions: Any
+
+
+class Answers(NamedTuple):
+    """What the runs have come to.
+
+    Parameters
+    ----------
+    outcomes : ndarray of int, shape (runs,)
+    end_times, smallest_steps : ndarray, shape (runs,)
+    end_states : ndarray, shape (runs, size)
+    counts : ndarray of int, shape (runs, 4)
+    extremes : ndarray, shape (runs, outputs, 4)
+    series : ndarray, shape (runs or 0, samples, outputs)
+    """
+
+    outcomes: Any
+    end_times: Any
+    smallest_steps: Any
+    end_states: Any
+    counts: Any
+    extremes: Any
+    series: Any
+
+
+class Lanes(NamedTuple):
+    """Runs under way, and scratch.
+
+    Parameters
+    ----------
+    next_run : ndarray of int, shape (1,)
+        Place in ``waiting`` of the first run that no lane has taken.
+    places : ndarray of int, shape (7, lanes)
+    clock : ndarray, shape (13, lanes)
+    y, new, trial, slope, atol : ndarray, shape (size, lanes)
+    k : ndarray, shape (m, size, lanes)
+    guards, lowest, highest, floors : ndarray, shape (guards, lanes)
+    inputs, numbers, vectors, matrices, watched : ndarray, shapes (..., lanes)
+        Of the run in each lane.
+    work : ndarray, shape (rows, columns, lanes)
+    norms : ndarray, shape (2, lanes)
+    outputs : ndarray, shape (outputs, lanes)
+    """
+
+    next_run: Any
+    places: Any
+    clock: Any
+    y: Any
+    new: Any
+    trial: Any
+    slope: Any
+    atol: Any
+    k: Any
+    guards: Any
+    lowest: Any
+    highest: Any
+    floors: Any
+    inputs: Any
+    numbers: Any
+    vectors: Any
+    matrices: Any
+    watched: Any
+    work: Any
+    norms: Any
+    outputs: Any
+
+
+def queue_type() -> Any:
+    """Numba type of a :class:`Queue`."""
+    one, two, three, four = (types.Array(types.float64, axes, "C") for axes in (1, 2, 3, 4))
+    integers = types.Array(types.int64, 1, "C")
+    fields = [
+        integers,
+        two,
+        two,
+        one,
+        two,
+        three,
+        four,
+        two,
+        three,
+        integers,
+        two,
+        four,
+        types.int64[:, ::1],
+        one,
+        three,
+        types.int64[:, ::1],
+    ]
+    return types.NamedTuple(fields, Queue)
+
+
+def answers_type() -> Any:
+    """Numba type of :class:`Answers`."""
+    one, two, three = (types.Array(types.float64, axes, "C") for axes in (1, 2, 3))
+    integers = types.Array(types.int64, 1, "C")
+    return types.NamedTuple([integers, one, one, two, types.int64[:, ::1], three, three], Answers)
+
+
+def lanes_type() -> Any:
+    """Numba type of :class:`Lanes`."""
+    two, three, four = (types.Array(types.float64, axes, "C") for axes in (2, 3, 4))
+    states, guards = [two] * 5, [two] * 4
+    constants = [three, two, three, four, three]
+    fields = [types.int64[::1], types.int64[:, ::1], two, *states, three, *guards, *constants, three, two, two]
+    return types.NamedTuple(fields, Lanes)
+
+
+def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int], outputs: int) -> Lanes:
+    """Idle lanes for the runs of a queue."""
+    size, guards = queue.starts.shape[1], queue.floors.shape[1]
+
+    def lanes(*shape: int) -> Any:
+        return np.zeros((*shape, LANES))
+
+    places = np.zeros((7, LANES), dtype=np.int64)
+    places[RUN] = -1
+    return Lanes(
+        next_run=np.zeros(1, dtype=np.int64),
+        places=places,
+        clock=lanes(13),
+        y=lanes(size),
+        new=lanes(size),
+        trial=lanes(size),
+        slope=lanes(size),
+        atol=lanes(size),
+        k=lanes(stages, size),
+        guards=lanes(guards),
+        lowest=lanes(guards),
+        highest=lanes(guards),
+        floors=lanes(guards),
+        # Before its first run a lane computes with ones: zeros would divide by zero.
+        inputs=lanes(*queue.inputs.shape[2:]) + 1.0,
+        numbers=lanes(queue.numbers.shape[1]) + 1.0,
+        vectors=lanes(*queue.vectors.shape[1:]),
+        matrices=lanes(*queue.matrices.shape[1:]),
+        watched=lanes(*queue.watched.shape[1:]),
+        work=lanes(*work_shape),
+        norms=lanes(2),
+        outputs=lanes(outputs),
+    )
+
+
+@kernel()
+def fill(queue: Any, lanes: Any, lane: int) -> None:
+    """Put the queue's next run into a lane."""
+    run = queue.waiting[lanes.next_run[0]]
+    lanes.next_run[0] += 1
+    lanes.places[RUN, lane] = run
+    lanes.places[PHASE, lane] = 0
+    lanes.clock[STEP, lane] = 0.0
+    lanes.clock[LONGEST, lane] = queue.longest_steps[run]
+    for m in range(lanes.y.shape[0]):
+        lanes.y[m, lane] = queue.starts[run, m]
+        lanes.atol[m, lane] = queue.atol[run, m]
+    for i in range(lanes.numbers.shape[0]):
+        lanes.numbers[i, lane] = queue.numbers[run, i]
+    for g in range(lanes.floors.shape[0]):
+        lanes.floors[g, lane] = queue.floors[run, g]
+    for j in range(lanes.vectors.shape[1]):
+        for i in range(lanes.vectors.shape[0]):
+            lanes.vectors[i, j, lane] = queue.vectors[run, i, j]
+        for i in range(lanes.watched.shape[0]):
+            lanes.watched[i, j, lane] = queue.watched[run, i, j]
+        for b in range(lanes.matrices.shape[0]):
+            for i in range(lanes.matrices.shape[1]):
+                lanes.matrices[b, i, j, lane] = queue.matrices[run, b, i, j]
+
+
+@kernel()
+def begin_phase(queue: Any, lanes: Any, lane: int) -> None:
+    """Let a lane's run enter its phase."""
+    run, phase = lanes.places[RUN, lane], lanes.places[PHASE, lane]
+    begin = queue.phase_times[run, phase]
+    lanes.clock[BEGIN, lane] = begin
+    lanes.clock[END, lane] = queue.phase_times[run, phase + 1] - begin
+    lanes.clock[TIME, lane] = 0.0
+    lanes.clock[GROWTH, lane] = GROW
+    lanes.places[SAMPLE, lane] = queue.first_samples[run, phase]
+    lanes.places[SAMPLES_END, lane] = queue.first_samples[run, phase + 1]
+    lanes.places[FRESH, lane] = 1
+    for channel in range(lanes.inputs.shape[0]):
+        for c in range(lanes.inputs.shape[1]):
+            lanes.inputs[channel, c, lane] = queue.inputs[run, phase, channel, c]
+
+
+@kernel()
+def end_run(answers: Any, lanes: Any, lane: int, outcome: int) -> None:
+    """Write down how a lane's run ended, and leave the lane idle."""
+    run = lanes.places[RUN, lane]
+    answers.outcomes[run] = outcome
+    answers.end_times[run] = lanes.clock[BEGIN, lane] + lanes.clock[TIME, lane]
+    for m in range(lanes.y.shape[0]):
+        answers.end_states[run, m] = lanes.y[m, lane]
+    lanes.places[RUN, lane] = -1

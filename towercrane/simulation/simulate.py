@@ -1,0 +1,267 @@
+"""From a model, its motions and a duration to a labelled result."""
+
+from __future__ import annotations
+
+import inspect
+import json
+import platform
+import time
+import warnings
+from dataclasses import replace
+from functools import wraps
+from typing import TYPE_CHECKING, Any, ParamSpec
+
+import numpy as np
+
+from modal.checks import check_positive, number_in
+from towercrane import __version__
+from towercrane.cases.assumptions import as_attribute
+from towercrane.cases.kinds import TOWER_CRANES
+from towercrane.cases.models import flexible_model, model_of
+from towercrane.motions.motion import Motion, phases
+from towercrane.results.recording import Recording
+from towercrane.simulation import drift, energy_balance
+from towercrane.simulation.arguments import check_tolerances
+from towercrane.simulation.integrate import FINISHED, INTERRUPTED, Trajectory, evaluate, integrate
+from towercrane.simulation.system import Model, NoEquilibrium, start_inputs
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+
+    from towercrane.cases.case import Case
+    from towercrane.simulation.integrate import Progress
+
+Arguments = ParamSpec("Arguments")
+
+LOOK = 0.05
+"""Time between two looks at a case's run, however far apart its rows are [s]."""
+
+MOST_LOOKS = 200_000
+"""Looks at a run whose rows are fewer; beyond them memory runs short, and it is looked at less often."""
+
+
+def record(
+    model: Model,
+    motions: dict[str, Motion],
+    duration: float,
+    *,
+    output_step: float = 0.05,
+    state: str = "equilibrium",
+    swing_angle: float = 0.0,
+    method: str = "dop853",
+    rtol: float = 1e-8,
+    atol: float = 1e-10,
+    split: bool = True,
+    progress: Progress | None = None,
+    looks: int = 1,
+) -> Recording:
+    """Simulate a crane: a `Recording`, from :func:`simulate` an `xarray.Dataset`.
+
+    Parameters
+    ----------
+    model : Model
+        The crane, such as a :class:`towercrane.cranes.tower.planar.RadialModel`.
+    motions : dict of str to Motion
+        One for each of the model's channels, such as "trolley" and "rope" [m].
+    duration : float
+        Simulated time [s].
+    output_step : float
+        Time between two rows of the result [s].
+    state : {"equilibrium", "zero"}
+        Start from the static solution, where a wind blows in its mean, or undeformed with all weights on.
+    swing_angle : float
+        Rope's angle at the start from where it hangs at rest, positive outward [rad].
+    method, rtol, atol, split, progress
+        As in :func:`towercrane.simulation.integrate.integrate`.
+    looks : int
+        Times per row at which a `Recording` has the outputs, see :func:`looks_per_row`; a data set has the rows only.
+
+    Returns
+    -------
+    Recording, xarray.Dataset
+        Variables over ``time`` with units; the attribute ``outcome`` is "finished" or names what ended the run,
+        with ``end_time`` [s]. Rows of an outcome "energy not conserved" end where the balance is off, see
+        :mod:`towercrane.simulation.energy_balance`.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or the method feeds free vibration at these tolerances.
+
+    Warns
+    -----
+    EnergyDriftWarning
+        If a free vibration would gain or lose more than one per cent of its energy in 600 s.
+    """
+    check_positive("output_step", output_step)
+    check_positive("duration", duration)
+    if output_step > duration:
+        raise ValueError(f"output_step, duration: wanted 0 < step <= duration, got {output_step}, {duration}")
+    check_tolerances(rtol, atol)
+    number_in("swing_angle", swing_angle, "a finite number")
+    if method in drift.ENERGY_DRIFT:
+        if reason := drift.refusal(method, rtol, atol):
+            raise ValueError(f"rtol, atol: {reason}, got {rtol:g}, {atol:g}")
+        if said := drift.notice(method, rtol, atol):
+            warnings.warn(said, drift.EnergyDriftWarning, stacklevel=3)
+    began = time.perf_counter()
+    cut = phases(tuple(_motion(motions, channel) for channel in model.channels), duration)
+    if "rope" in model.channels and (shortest := float(cut.inputs[:, model.channels.index("rope"), 0].min())) <= 0.0:
+        raise ValueError(f"motions: wanted a rope longer than 0 m, got {shortest:g} m")
+    sample_times = rows_of(duration, output_step, looks)
+    message, inputs = "", start_inputs(model, motions, cut.inputs[0])
+    try:
+        start = model.start(inputs, state, swing_angle)
+    except NoEquilibrium as failure:
+        message = str(failure)
+        run = _nothing(model.start(inputs, "zero", swing_angle), failure.outcome)
+    else:
+        run = integrate(
+            model.system, cut, start, sample_times,
+            method=method, rtol=rtol, atol=atol, split=split, progress=progress,
+        )  # fmt: skip
+    times, states = run.times, run.states
+    if run.outcome != FINISHED and (len(times) == 0 or times[-1] < run.end_time):
+        # What ended the run shows in its last row.
+        times, states = np.append(times, run.end_time), np.vstack([states, run.end_state])
+    _, guards = evaluate(model.system, cut, times, states)
+    quantities, about = model.observe(motions, times, states, guards), model.provenance()
+    outcome, end_time, end_state = run.outcome, run.end_time, run.end_state
+    # A linear model keeps no account of its energy.
+    if outcome != INTERRUPTED and "total_energy" in quantities:
+        values = {name: quantity.values for name, quantity in quantities.items()}
+        weight = about["payload_mass"] * about["gravity"]
+        row, off = energy_balance.first_off(values, weight, run.accepted, rtol, atol)
+        if off:
+            # Whatever a guard says of such a state is no news of the crane.
+            outcome, message = energy_balance.NOT_CONSERVED, off
+            end_time, end_state = float(times[row]), states[row]
+            times = times[: row + 1]
+            quantities = {name: replace(q, values=q.values[: row + 1]) for name, q in quantities.items()}
+    provenance = {
+        **about,
+        "outcome": outcome,
+        "message": message,
+        "end_time": end_time,
+        "end_state": end_state,
+        "output_step": output_step,
+        "method": method,
+        "rtol": rtol,
+        "atol": atol,
+        "evaluations": run.evaluations,
+        "steps_accepted": run.accepted,
+        "steps_rejected": run.rejected,
+        "smallest_step": run.smallest_step if np.isfinite(run.smallest_step) else 0.0,
+        "solver_cpu_seconds": run.cpu_seconds,
+        "solver_wall_seconds": run.wall_seconds,
+        "wall_seconds": time.perf_counter() - began,
+        "versions": json.dumps(versions()),
+    }
+    return Recording(times, quantities, provenance, looks)
+
+
+def _motion(motions: dict[str, Motion], channel: str) -> Motion:
+    """What drives a channel."""
+    found = motions.get(channel)
+    if not isinstance(found, Motion):
+        raise ValueError(f"motions: wanted a Motion for {channel!r}, got {found!r}")
+    return found
+
+
+def record_case(case: Case, *, model: Model | None = None, progress: Progress | None = None) -> Recording:
+    """Simulate a case, or another model of its crane: a `Recording`, from :func:`run_case` an `xarray.Dataset`.
+
+    Text and assumed values go into the result's attributes.
+    Where the case asks for an error, model and solver are chosen by it, and the attribute ``accuracy`` says how.
+    """
+    with warnings.catch_warnings():
+        # The summary says it.
+        warnings.simplefilter("ignore", drift.EnergyDriftWarning)
+        chosen = None
+        if model is None:
+            try:
+                chosen = _to_target(case, progress)
+            except NoEquilibrium:
+                # Nothing can be chosen for a tower that its weight buckles; the run says so at its start.
+                model = flexible_model(case, weight_softening=True)
+        result = chosen or record(
+            model_of(case) if model is None else model,
+            case.motions,
+            case.run.duration,
+            output_step=case.run.output_step,
+            looks=looks_per_row(case.run.duration, case.run.output_step),
+            state="equilibrium" if case.start.state == "equilibrium" else "zero",
+            swing_angle=case.start.swing_angle,
+            method=case.solver.method,
+            rtol=case.solver.rtol,
+            atol=case.solver.atol,
+            progress=progress,
+        )
+    result.attrs["title"] = case.title
+    result.attrs["case"] = case.name
+    result.attrs["changes"] = json.dumps(case.changes)
+    result.attrs["case_text"] = json.dumps(case.as_written)
+    result.attrs["notices"] = json.dumps(case.notices)
+    result.attrs["assumed"] = as_attribute(case.rests_on)
+    return result
+
+
+def _to_target(case: Case, progress: Progress | None) -> Recording | None:
+    """The run of a case that asks for an error; None for one that does not."""
+    if case.kind not in TOWER_CRANES or not case.accuracy.targets:
+        return None
+    from towercrane.accuracy.promise import chosen, promise
+
+    choice, result = chosen(case, progress)
+    result.attrs["accuracy"] = json.dumps(promise(case, choice, result))
+    return result
+
+
+def _labelled(name: str, recorded: Callable[Arguments, Recording]) -> Callable[Arguments, xr.Dataset]:
+    """The same simulation, under its own name, with a labelled data set as its result."""
+
+    @wraps(recorded)
+    def labelled(*args: Arguments.args, **kwargs: Arguments.kwargs) -> xr.Dataset:
+        return recorded(*args, **kwargs).rows.dataset()
+
+    labelled.__name__ = labelled.__qualname__ = name
+    returns = inspect.signature(recorded).replace(return_annotation="xr.Dataset")
+    labelled.__signature__ = returns  # type: ignore[attr-defined]
+    return labelled
+
+
+simulate = _labelled("simulate", record)
+run_case = _labelled("run_case", record_case)
+
+
+def rows_of(duration: float, output_step: float, looks: int = 1) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Times of a result's rows [s], or of so many looks per row, every ``looks``-th of them a row; shape (times,)."""
+    count = int(np.floor(duration / output_step * looks * (1.0 + 1e-12))) + 1
+    return np.asarray(np.minimum(np.arange(count) / looks * output_step, duration))
+
+
+def looks_per_row(duration: float, output_step: float) -> int:
+    """Looks per row that leave at most `LOOK` between two, or that make `MOST_LOOKS` of a long run."""
+    wanted = int(np.ceil(output_step / LOOK * (1.0 - 1e-12)))
+    return max(1, min(wanted, int(MOST_LOOKS * output_step / duration)))
+
+
+def versions() -> dict[str, str]:
+    """Versions of this package and of what its numbers rest on."""
+    import numba
+    import scipy
+
+    return {
+        "towercrane": __version__,
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "numba": numba.__version__,
+        "scipy": scipy.__version__,
+    }
+
+
+def _nothing(start: np.ndarray[Any, np.dtype[np.float64]], outcome: str) -> Trajectory:
+    """Run that ended before its first step."""
+    return Trajectory(np.zeros(1), start[None], outcome, 0.0, start, 0, 0, 0, np.inf, 0.0, 0.0)

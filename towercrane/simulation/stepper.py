@@ -1,0 +1,289 @@
+"""The compiled loop of steps: one explicit Runge-Kutta pair with step control, dense output and guards.
+
+It works through one phase, inside which the inputs are smooth, and allocates nothing. The step control is
+that of Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I (1993), section II.4.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import types
+
+from modal.compiler.compiled import kernel
+from towercrane.simulation.directions import restore
+from towercrane.simulation.guards import LOOKS, NARROWEST, fallen, is_near, widen
+from towercrane.simulation.system import rhs_signature
+
+FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
+"""How far a phase has come."""
+
+TIME, STEP, SMALLEST, LONGEST = range(4)
+"""Entries of its clock: time since the phase began, next step, smallest step taken, longest step allowed [s]."""
+
+ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
+"""Entries of its counts."""
+
+SAFETY, SHRINK, GROW = 0.9, 0.2, 10.0
+
+SHORTEST = 16.0 * float(np.finfo(np.float64).eps)
+"""Part of a phase that is the shortest step."""
+
+_one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+_rhs = types.FunctionType(rhs_signature())
+_constants = (_two, _one, _two, _three, _three, _two)
+
+
+@kernel(inline=True)
+def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, atol: Any) -> float:
+    """Norm of the error estimate; at most 1 is accepted. Two rows are combined as in dop853.f."""
+    first, second, active = 0.0, 0.0, 0
+    rows, stages = error.shape
+    for m in range(y.size):
+        if np.isinf(atol[m]):
+            continue
+        active += 1
+        scale = atol[m] + rtol * max(abs(y[m]), abs(new[m]))
+        estimate = 0.0
+        for i in range(stages):
+            estimate += error[0, i] * k[i, m]
+        first += (estimate / scale) * (estimate / scale)
+        if rows == 2:
+            estimate = 0.0
+            for i in range(stages):
+                estimate += error[1, i] * k[i, m]
+            second += (estimate / scale) * (estimate / scale)
+    if first == 0.0:
+        return 0.0
+    if rows == 2:
+        return h * first / np.sqrt((first + 0.01 * second) * active)
+    return h * np.sqrt(first / active)
+
+
+@kernel()
+def _near(lowest: Any, highest: Any, floors: Any) -> int:
+    """Index of the first guard with these ranges in a step that is near its floor, or -1."""
+    for g in range(floors.size):
+        if is_near(lowest[g], highest[g], floors[g]):
+            return g
+    return -1
+
+
+@kernel()
+def stage_state(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
+    """State of stage ``row``: out = y + h sum_j a[row, j] k[j]."""
+    for m in range(y.size):
+        out[m] = 0.0
+    for j in range(row):
+        weight = a[row, j]
+        if weight != 0.0:
+            for m in range(y.size):
+                out[m] += weight * k[j, m]
+    for m in range(y.size):
+        out[m] = y[m] + h * out[m]
+
+
+@kernel()
+def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
+    """State at the fraction x of the step that began at y."""
+    for m in range(y.size):
+        out[m] = 0.0
+    for i in range(dense.shape[0]):
+        weight = 0.0
+        for d in range(dense.shape[1] - 1, -1, -1):
+            weight = (weight + dense[i, d]) * x
+        if weight != 0.0:
+            for m in range(y.size):
+                out[m] += weight * k[i, m]
+    for m in range(y.size):
+        out[m] = y[m] + h * out[m]
+
+
+@kernel()
+def first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> float:
+    """First guess of a step, from the size of state and slope."""
+    size, speed = 0.0, 0.0
+    for m in range(y.size):
+        if not np.isinf(atol[m]):
+            scale = atol[m] + rtol * abs(y[m])
+            size += (y[m] / scale) * (y[m] / scale)
+            speed += (slope[m] / scale) * (slope[m] / scale)
+    if speed == 0.0:
+        return limit
+    # A state at the origin says nothing of its scale: begin small, the control grows it tenfold a step.
+    guess = 0.01 * np.sqrt(size / speed) if size > 1e-10 else 0.0
+    guess = guess if guess > 1e-6 * limit else 1e-6 * limit
+    return guess if guess < limit else limit
+
+
+@kernel(
+    types.int64(
+        _rhs, types.int64, _two, _one, _two, _two, types.int64, types.float64, _one, types.int64[::1],
+        types.float64, _one, _one, types.int64[:, ::1], _two, _two, _one, _two, types.int64, *_constants, _one, _two,
+        _one,
+    )
+)  # fmt: skip
+def advance(
+    rhs: Any,
+    stages: int,
+    a: Any,
+    c: Any,
+    error: Any,
+    dense: Any,
+    error_order: int,
+    t_end: float,
+    clock: Any,
+    counts: Any,
+    rtol: float,
+    atol: Any,
+    y: Any,
+    directions: Any,
+    k: Any,
+    scratch: Any,
+    sample_times: Any,
+    samples: Any,
+    max_steps: int,
+    inputs: Any,
+    numbers: Any,
+    vectors: Any,
+    matrices: Any,
+    tables: Any,
+    work: Any,
+    guards: Any,
+    ranges: Any,
+    floors: Any,
+) -> int:
+    """Carry y from clock[TIME] towards t_end, at most max_steps accepted steps.
+
+    Parameters
+    ----------
+    rhs, inputs, numbers, vectors, matrices, tables, work
+        As in :func:`towercrane.simulation.system.rhs_signature`.
+    stages, a, c, error, dense, error_order
+        As in :class:`towercrane.simulation.tableaus.Tableau`.
+    clock, counts : ndarray, shapes (4,) and (5,)
+        Read and written.
+    y : ndarray, shape (size,)
+        State, carried on in place.
+    directions : ndarray of int, shape (count, 3)
+        As in :class:`towercrane.simulation.system.System`; every accepted step ends with them restored.
+    k, scratch : ndarray, shapes (m, size) and (3, size)
+        Stages, of which the first is the slope at the start; they must not be touched between two calls of one phase.
+    sample_times, samples : ndarray, shapes (p,) and (p, size)
+        Times since the phase began at which the state is wanted, increasing; the states.
+    guards, ranges : ndarray, shapes (g,) and (2, g)
+        Scratch for the guards, and for the least and largest of each in a step.
+    floors : ndarray, shape (g,)
+        Values that the guards must not fall below.
+
+    Returns
+    -------
+    int
+        One of FINISHED, PAUSED, GUARD, COLLAPSED.
+    """
+    new, trial, slope = scratch[0], scratch[1], scratch[2]
+    lowest, highest = ranges[0], ranges[1]
+    t, h = clock[TIME], clock[STEP]
+    shortest = SHORTEST * t_end
+    taken, grow = 0, GROW
+    while t < t_end:
+        if taken == max_steps or h < shortest:
+            clock[TIME], clock[STEP] = t, h
+            return PAUSED if taken == max_steps else COLLAPSED
+        h = h if h < clock[LONGEST] else clock[LONGEST]
+        last = t + h >= t_end - shortest
+        step = t_end - t if last else h
+        t_new = t_end if last else t + step
+        suspect, norm = False, 0.0
+        for g in range(guards.size):
+            lowest[g], highest[g] = np.inf, -np.inf
+        for i in range(1, a.shape[0]):
+            stage_state(y, a, i, k, step, trial)
+            # The slopes go through a fixed array: a view of k per stage would cost a tenth of the right-hand side.
+            rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+            counts[EVALUATIONS] += 1
+            for m in range(y.size):
+                k[i, m] = slope[m]
+            if i > stages:
+                continue
+            widen(lowest, highest, guards)
+            if i == stages:
+                for m in range(y.size):
+                    new[m] = trial[m]
+                norm = _error_norm(error, k, y, new, step, rtol, atol)
+                suspect = _near(lowest, highest, floors) >= 0
+                wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
+                # The stages beyond are for the dense output alone.
+                if not (norm <= 1.0 and (suspect or wanted)):
+                    break
+        if not norm <= 1.0:
+            counts[REJECTED] += 1
+            # A norm that is not a number (a trial left the model's domain) shrinks the step as far as allowed.
+            factor = SAFETY * norm ** (-1.0 / (error_order + 1)) if np.isfinite(norm) else SHRINK
+            h = step * max(SHRINK, factor)
+            grow = 1.0
+            continue
+
+        # A stage is only an estimate of the state there, and blind beside it; the dense output decides.
+        low, high, crossed = 0.0, 1.0 / LOOKS, -1
+        while suspect:
+            x = high if crossed < 0 else 0.5 * (low + high)
+            _dense(y, dense, k, step, x, trial)
+            rhs(t + x * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+            counts[EVALUATIONS] += 1
+            guard = fallen(guards, floors)
+            if guard >= 0:
+                high, crossed = x, guard
+                for m in range(y.size):
+                    new[m] = trial[m]
+            elif crossed >= 0:
+                low = x
+            else:
+                low, high = x, x + 1.0 / LOOKS
+            suspect = high <= 1.0 if crossed < 0 else high - low > NARROWEST
+        stop = t_new if crossed < 0 else t + high * step
+        while counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= stop:
+            row = counts[WRITTEN]
+            _dense(y, dense, k, step, (sample_times[row] - t) / step, samples[row])
+            counts[WRITTEN] += 1
+        restore(new, k, stages, directions)
+        for m in range(y.size):
+            y[m] = new[m]
+            k[0, m] = k[stages, m]
+        t = stop
+        taken += 1
+        counts[ACCEPTED] += 1
+        clock[SMALLEST] = min(clock[SMALLEST], step)
+        if crossed >= 0:
+            clock[TIME], clock[STEP] = t, step
+            counts[GUARD_INDEX] = crossed
+            return GUARD
+        factor = GROW if norm == 0.0 else SAFETY * norm ** (-1.0 / (error_order + 1))
+        # The cut last step of a phase says nothing about the next one's length.
+        h = max(h, step * min(grow, factor)) if last else step * min(grow, max(SHRINK, factor))
+        grow = GROW
+    clock[TIME], clock[STEP] = t, h
+    return FINISHED
+
+
+@kernel(types.void(_rhs, _one, _two, _two, _two, *_constants))
+def evaluate(
+    rhs: Any,
+    times: Any,
+    states: Any,
+    slopes: Any,
+    guards: Any,
+    inputs: Any,
+    numbers: Any,
+    vectors: Any,
+    matrices: Any,
+    tables: Any,
+    work: Any,
+) -> None:
+    """Right-hand side and guards at many states of one phase; slopes and guards have a row per state."""
+    for row in range(times.size):
+        rhs(
+            times[row], states[row], slopes[row], inputs,
+            numbers, vectors, matrices, tables, work, guards[row],
+        )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Frequencies, maps, comparisons, shaped motions, sensitivity. Never imports reports."""

@@ -1,0 +1,255 @@
+"""A case in models from rigid to rich: what each kind of modes that is left out costs, and which kinds are needed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.cases.assumptions import as_entries, rests_on
+from towercrane.cases.models import flexible_model
+from towercrane.results.measures import PLACE, peak
+from towercrane.simulation.integrate import FINISHED, INTERRUPTED
+from towercrane.simulation.simulate import record_case
+from towercrane.simulation.system import NoEquilibrium
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from towercrane.cases.case import Case
+    from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.planar import RadialModel
+
+    Floats = NDArray[np.float64]
+
+TARGET = 1e-2
+"""Error that is asked for where neither the case nor the user does."""
+
+KINDS = {
+    "space": {
+        "tower_modes": "tower",
+        "torsion_modes": "torsion",
+        "jib_lateral_modes": "lateral",
+        "jib_vertical_modes": "vertical",
+    },
+    "radial": {"tower_modes": "tower", "jib_modes": "jib"},
+}
+"""Kinds of modes that a case counts: tower bending, its torsion, bending of the jib, to its sides and up."""
+
+RICHER = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2, "jib_modes": 2}
+"""More modes of each kind in the richest model."""
+
+MOST = 14
+"""Modes of a kind that a case may have."""
+
+SWAYS = {
+    "space": {"sway_radial": "along the jib", "sway_tangential": "across the jib"},
+    "radial": {"swing_angle": "swing"},
+}
+"""Outputs that show the load's swing."""
+
+ONE_OF_EACH, OWN, RICHEST = "one mode of each", "the case's own", "richest"
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A model of a case.
+
+    Parameters
+    ----------
+    name : str
+    counts : dict of str to int
+        Number of modes by the case's key.
+    """
+
+    name: str
+    counts: dict[str, int]
+
+    @property
+    def kinds(self) -> frozenset[str]:
+        """Keys of the kinds of modes that it keeps."""
+        return frozenset(key for key, count in self.counts.items() if count)
+
+    def model(self, case: Case) -> FlexibleModel | RadialModel:
+        """The model."""
+        return flexible_model(case, **self.counts)
+
+
+def variants(case: Case) -> list[Variant]:
+    """Models from rigid to rich: every choice of the kinds that the case includes, the richest last."""
+    names = KINDS[case.kind]
+    own = {key: int(getattr(case.checked.model, key)) for key in names}  # type: ignore[union-attr]
+    kept = [key for key, count in own.items() if count]
+    rigid = dict.fromkeys(own, 0)
+    found = []
+    for size in range(len(kept) + 1):
+        for chosen in combinations(kept, size):
+            name = " + ".join(names[key] for key in chosen) or "rigid"
+            whole = OWN if size == len(kept) and kept else name
+            found.append(Variant(whole, rigid | {key: own[key] for key in chosen}))
+    single = rigid | dict.fromkeys(kept, 1)
+    if kept and single != own:
+        found.insert(-1, Variant(ONE_OF_EACH, single))
+    return [*found, Variant(RICHEST, rigid | {key: min(own[key] + RICHER[key], MOST) for key in kept})]
+
+
+def compare(
+    case: Case, target: float, *, progress: Callable[[float], None] | None = None
+) -> tuple[dict[str, Any], dict[str, xr.Dataset]]:
+    """Run a case in all its `variants`.
+
+    Parameters
+    ----------
+    case : Case
+        In space or in the plane.
+    target : float
+        Largest error of the load's place that is accepted, relative to how far the load departs from where it would
+        hang on a rigid crane at rest.
+    progress : callable, optional
+        Called with the part that is done.
+
+    Returns
+    -------
+    report : dict
+        ``rows`` (a dict for each variant, see :func:`_row`), ``departure_m`` (what errors are relative to),
+        ``target``, ``recommended`` (the cheapest row within the target, None without one), ``needed`` kinds of modes
+        and ``reasons``, ``assumed``. Ready for JSON.
+    results : dict of str to Dataset
+        Looks at the runs by the variant's name.
+
+    Raises
+    ------
+    ValueError
+        If the crane is of another kind, or the model has no modes at all.
+    """
+    if case.kind not in KINDS:
+        raise ValueError(f"case: wanted a case of kind {' or '.join(KINDS)}, got {case.kind!r}")
+    chosen = variants(case)
+    if len(chosen[-1].kinds) == 0:
+        raise ValueError("case: wanted one mode or more to compare with a rigid crane, got none")
+    results = {}
+    for number, variant in enumerate(chosen):
+        results[variant.name] = record_case(case, model=variant.model(case)).dataset()
+        if results[variant.name].attrs["outcome"] == INTERRUPTED:
+            raise KeyboardInterrupt
+        if progress is not None:
+            progress((number + 1) / len(chosen))
+    richest = results[RICHEST]
+    departure = peak(richest, PLACE)
+    rows = [_row(case, variant, results[variant.name], richest, departure) for variant in chosen]
+    report: dict[str, Any] = {
+        "case": case.name,
+        "title": case.title,
+        "crane": case.crane.name,
+        "kind": case.kind,
+        "target": target,
+        "departure_m": departure,
+        "kinds_of_modes": list(KINDS[case.kind].values()),
+        "rows": rows,
+        **_needed(case, rows, chosen, target),
+        "assumed": as_entries(rests_on(case, all_modes=True)),
+    }
+    return report, results
+
+
+def gaps(result: xr.Dataset, richest: xr.Dataset) -> Floats:
+    """Horizontal and vertical distance of the load from the richest model's [m], shape (times of both, 2)."""
+    rows = min(len(result["time"]), len(richest["time"]))
+    gap = result["payload_position"].values[:rows] - richest["payload_position"].values[:rows]
+    return np.stack([np.hypot(gap[:, 0], gap[:, 1]), abs(gap[:, 2])], axis=1)
+
+
+def _row(case: Case, variant: Variant, result: xr.Dataset, richest: xr.Dataset, departure: float) -> dict[str, Any]:
+    """One variant's sway (peak and after the drives have stopped [deg]), torque [N m], errors [m] and cost."""
+    stop = max((m.duration for name, m in case.motions.items() if not name.startswith("wind")), default=0.0)
+    free = result["time"].values >= stop
+    sway = {}
+    for name in SWAYS[case.kind]:
+        angle = np.degrees(abs(result[name].values))
+        sway[name] = {
+            "peak_deg": float(angle.max()),
+            "residual_deg": float(angle[free].max()) if free.any() else None,
+        }
+    same = result.attrs["outcome"] == richest.attrs["outcome"] == FINISHED
+    horizontal, vertical = gaps(result, richest).max(axis=0).tolist()
+    gap = float(np.linalg.norm(gaps(result, richest), axis=1).max())
+    torque = float(abs(result["slewing_torque"]).max()) if "slewing_torque" in result else None
+    return {
+        "name": variant.name,
+        "modes": variant.counts,
+        "outcome": result.attrs["outcome"],
+        "sway": sway,
+        "slewing_torque_nm": torque,
+        "tower_tip_m": float(np.ptp(result["tower_tip_displacement"].values)),
+        "horizontal_error_m": horizontal if same else None,
+        "vertical_error_m": vertical if same else None,
+        "relative_error": gap / departure if same and departure > 0.0 else None,
+        "slowest_hz": slowest(case, variant, result),
+        "evaluations": int(result.attrs["evaluations"]),
+        "cpu_seconds": float(result.attrs["solver_cpu_seconds"]),
+    }
+
+
+def slowest(case: Case, variant: Variant, result: xr.Dataset) -> dict[str, float]:
+    """Lowest natural frequency along and, in space, across the jib where a run ended [Hz]; none if it buckles."""
+    from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.small_motions import natural_modes
+
+    model = variant.model(case)
+    trolley, rope = (float(result[name][-1]) for name in ("trolley_position", "rope_length"))
+    try:
+        if not isinstance(model, FlexibleModel):
+            return {"along": float(model.natural_frequencies(trolley, rope)[0] / (2.0 * np.pi))}
+        heading = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"][-1])
+        modes = natural_modes(model, trolley, rope, heading)
+    except NoEquilibrium:
+        return {}
+    in_plane = [mode.shares["radial"] + mode.shares["radial sway"] > 0.5 for mode in modes]
+    return {
+        "along": next(mode.frequency_hz for mode, plane in zip(modes, in_plane, strict=True) if plane),
+        "across": next(mode.frequency_hz for mode, plane in zip(modes, in_plane, strict=True) if not plane),
+    }
+
+
+def _needed(case: Case, rows: list[dict[str, Any]], chosen: list[Variant], target: float) -> dict[str, Any]:
+    """The cheapest row within the target, the kinds that it keeps, and why each kind stays or goes."""
+    names, richest = KINDS[case.kind], rows[-1]
+    within = [
+        (row, variant)
+        for row, variant in zip(rows[:-1], chosen, strict=False)
+        if row["relative_error"] is not None and row["relative_error"] <= target
+    ]
+    best = min(within, key=lambda pair: (len(pair[1].kinds), pair[0]["evaluations"]), default=None)
+    kept = best[1].kinds if best else chosen[-1].kinds
+    reasons = []
+    for key in (key for key in names if key in chosen[-1].kinds):
+        without = next(i for i, v in enumerate(chosen) if v.kinds == chosen[-1].kinds - {key})
+        reasons.append(_reason(names[key], key in kept, rows[without], richest, target))
+    return {
+        "recommended": best[0]["name"] if best else None,
+        "needed": [names[key] for key in names if key in kept],
+        "reasons": reasons,
+    }
+
+
+def _reason(name: str, kept: bool, without: dict[str, Any], richest: dict[str, Any], target: float) -> str:
+    """What leaving one kind of modes out does, in words."""
+    if without["relative_error"] is None:
+        return f'{name}: {"needed" if kept else "not needed"}; without it the run ends as "{without["outcome"]}"'
+    verdict = "needed" if kept else "not needed"
+    compared = "above" if without["relative_error"] > target else "within"
+    text = (
+        f"{name}: {verdict}; without it alone the load is up to {without['horizontal_error_m']:.3g} m off "
+        f"horizontally and {without['vertical_error_m']:.3g} m vertically, {without['relative_error']:.2g}, "
+        f"{compared} the target"
+    )
+    for way, frequency in richest["slowest_hz"].items():
+        other = without["slowest_hz"].get(way)
+        if other is not None and abs(other / frequency - 1.0) > 1e-2:
+            text += f"; the slowest motion {way} the jib is then at {other:.4f} instead of {frequency:.4f} Hz"
+    return text

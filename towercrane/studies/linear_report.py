@@ -1,0 +1,74 @@
+"""Linear model of a case about its equilibrium, and its report."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.cases.assumptions import as_entries
+from towercrane.cases.models import model_of
+from towercrane.linear.chart import TURNING
+
+if TYPE_CHECKING:
+    from towercrane.cases.case import Case
+    from towercrane.linear.statespace import StateSpace
+
+
+def linear_model(case: Case, at: float) -> StateSpace:
+    """Linear model of a case about its equilibrium, the drives at rest where they are ``at`` a time [s].
+
+    A wind that blows is at its mean, as in :func:`towercrane.simulation.system.start_inputs`.
+
+    Raises
+    ------
+    NoEquilibrium
+        If the crane has none.
+    """
+    from towercrane.linear.linearise import linearise
+
+    model = model_of(case)
+    known = (*getattr(model, "state_names", ()), *model.channels)
+    # Outward is along the jib, wherever that points.
+    turning = next((angle for angle in TURNING if angle in known), None)
+    return linearise(model, case.motions, time=at, turning=turning)
+
+
+def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
+    """Linear model of a case, ready for JSON.
+
+    Returns
+    -------
+    dict
+        ``eigenvalues`` (real, imaginary, frequency_hz, damping_ratio, dominant_state; the ratio of a zero is None),
+        ``states``, ``inputs`` and ``outputs`` (name, units, value at the operating point), ``slope`` of
+        the states there and ``equilibrium`` (whether it is zero), ``rope_inclination_rad``, ``A``, ``B``, ``C``,
+        ``D``, ``differentiation_error``, ``at_s``, ``assumed``.
+    """
+    point = linear.point
+    report: dict[str, Any] = {"case": case.name, "name": case.crane.name, "at_s": at}
+    report["eigenvalues"] = [
+        {
+            "real": value.real,
+            "imaginary": value.imag,
+            "frequency_hz": frequency,
+            "damping_ratio": ratio if np.isfinite(ratio) else None,
+            "dominant_state": state,
+        }
+        for value, frequency, ratio, state in linear.eigenvalues()
+    ]
+    kinds = {
+        "states": (linear.states, point.states),
+        "inputs": (linear.inputs, point.inputs),
+        "outputs": (linear.outputs, point.outputs),
+    }
+    for kind, (signals, values) in kinds.items():
+        pairs = zip(signals, values.tolist(), strict=True)
+        report[kind] = [{"name": signal.name, "units": signal.units, "value": value} for signal, value in pairs]
+    report["slope"] = point.slope.tolist()
+    report["equilibrium"], report["rope_inclination_rad"] = linear.at_equilibrium, point.inclination
+    for name in "ABCD":
+        report[name] = getattr(linear, name.lower()).tolist()
+    report["differentiation_error"] = linear.error
+    report["assumed"] = as_entries(case.rests_on)
+    return report

@@ -1,0 +1,169 @@
+"""Natural frequencies of a case: tower, jib and the coupled crane, each beside a second way to get them."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modal.clock import timed
+from towercrane.cases.assumptions import as_entries
+from towercrane.cases.models import radial_model
+from towercrane.cranes.tower.planar import TOWER_BUCKLED
+from towercrane.simulation.system import NoEquilibrium
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from modal import Beam, Chain, EndBody, LacedColumn
+    from towercrane.cases.case import Case
+    from towercrane.cranes.tower.planar import RadialModel
+
+FRAME_MODES = 5
+"""Frequencies of the coupled crane that are shown, commonly the pendulum's and four of the structure."""
+
+
+def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
+    """Roots and frequencies of a case, ready for JSON.
+
+    Parameters
+    ----------
+    case : Case
+    actual : bool
+        Put beside every prediction what a solution gives.
+
+    Returns
+    -------
+    dict
+        ``tower`` with what the results include, see ``effects`` (frequencies_hz, method, seconds; of a uniform tower
+        without effects roots; outcome and message where it buckles), ``jib`` (roots, frequencies_hz),
+        ``finite_elements`` of the tower (frequencies_hz, relative_difference, elements, seconds), ``effects`` of
+        shear, weight, rotary inertia and foundation, see `towercrane.cranes.tower.file.effects.effects_report`,
+        ``crane`` (a list with trolley_position_m, frequencies_hz, swing_mode, exact_hz and relative_difference to the
+        exact mode of the same shape, None where there is none, predicted_difference, missing_from_the_model with
+        frequency_hz and member, exact_unlike_the_model_hz, see `towercrane.studies.mode_pairs.ModePairs`; outcome and
+        message where the tower buckles), ``buckling_factor`` on all weights, ``lattice`` where the case describes
+        one, ``assumed``.
+    """
+    from modal import Beam
+    from towercrane.cranes.tower.file.effects import effects_in, effects_report
+
+    crane, count, elements = case.radial_crane(), case.modes.count, case.modes.elements
+    jib, effects = crane.jib_modes(count), effects_in(case)
+    if isinstance(crane.tower, Beam) and not effects.kept:
+        tower, check = _uniform_tower(crane.tower, crane.end_body, count, elements)
+    else:
+        tower, check = _chain_tower(effects.results_tower, count, elements)
+    report: dict[str, Any] = {
+        "case": case.name,
+        "name": crane.name,
+        "tower": tower,
+        "jib": {"roots": jib.roots.tolist(), "frequencies_hz": jib.frequencies_hz.tolist()},
+        "finite_elements": check,
+        "effects": effects_report(effects, actual=actual),
+        "crane_model": {"tower_modes": case.model.tower_modes, "jib_modes": case.model.jib_modes},
+        "rope_length_m": case.rope.length,
+        "payload_mass_kg": case.payload.mass,
+    }
+    model = radial_model(case)
+    report["crane"] = [_coupled(case, model, position) for position in case.modes.trolley_positions]
+    report["buckling_factor"] = _buckling_factor(case)
+    if case.crane.tower.published_roots and "roots" in tower:
+        report["tower"]["published_roots"] = list(case.crane.tower.published_roots)
+    if (lattice := case.lattice()) is not None:
+        report["lattice"] = _lattice(lattice, crane.tower.length)
+    report["assumed"] = as_entries(case.assumed)
+    return report
+
+
+def _uniform_tower(tower: Beam, body: EndBody, count: int, elements: int) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Roots of a uniform tower from their closed form and its frequencies from finite elements, with their times."""
+    from modal import characteristic_roots, finite_element_frequencies
+
+    ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
+    roots, seconds = timed(lambda: characteristic_roots(*ratios, count))
+    exact = (roots / tower.length) ** 2 * np.sqrt(tower.bending_stiffness / tower.mass_per_length)
+    found = {"frequencies_hz": (exact / (2 * np.pi)).tolist(), "roots": roots.tolist()}
+    checked = _checked(lambda: finite_element_frequencies(tower, count, body, elements=elements), exact, elements)
+    return found | {"method": "closed form", "seconds": seconds}, checked
+
+
+def _chain_tower(tower: Chain, count: int, elements: int) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Frequencies of a tower with all that it carries, exact and from finite elements, with their times."""
+    from modal import chain_frequencies, chain_structure, finite_element_structure_frequencies
+    from modal.structures.structure import Unstable
+
+    found: dict[str, Any] = {"method": "dynamic stiffness"}
+    try:
+        exact, seconds = timed(lambda: chain_frequencies(tower, count))
+    except Unstable as failure:
+        nothing: dict[str, Any] = {"frequencies_hz": [], "seconds": 0.0}
+        check = nothing | {"relative_difference": [], "elements": elements}
+        return found | nothing | {"outcome": TOWER_BUCKLED, "message": str(failure)}, check
+    structure = chain_structure(tower)
+    checked = _checked(
+        lambda: finite_element_structure_frequencies(structure, count, elements=elements), exact, elements
+    )
+    return found | {"frequencies_hz": (exact / (2 * np.pi)).tolist(), "seconds": seconds}, checked
+
+
+def _checked(solve: Callable[[], Any], exact: Any, elements: int) -> dict[str, Any]:
+    frequencies, seconds = timed(solve)
+    return {
+        "frequencies_hz": (frequencies / (2 * np.pi)).tolist(),
+        "relative_difference": (frequencies / exact - 1.0).tolist(),
+        "elements": elements,
+        "seconds": seconds,
+    }
+
+
+def _coupled(case: Case, model: RadialModel, position: float) -> dict[str, Any]:
+    """Frequencies of the coupled crane with the trolley at a position [m], beside the exact ones of the frame."""
+    from towercrane.cranes.tower.file.build import crane_frame
+    from towercrane.cranes.tower.truncation import truncation_error
+    from towercrane.studies.mode_pairs import paired_modes
+    from towercrane.studies.plane_modes import PlaneCrane
+
+    row: dict[str, Any] = {"trolley_position_m": position, "frequencies_hz": []}
+    try:
+        found, swing = model.natural_modes(position, case.rope.length)
+    except NoEquilibrium as failure:
+        return row | {"outcome": failure.outcome, "message": str(failure)}
+    found = found[:FRAME_MODES]
+    row |= {"frequencies_hz": (found / (2 * np.pi)).tolist(), "swing_mode": swing + 1}
+    if model.tower_modes and model.jib_modes:
+        exact = PlaneCrane(crane_frame(case, weight=model.weight_softening))
+        pairs = paired_modes(model, exact, position, len(found))
+        row["exact_hz"] = pairs.exact_hz
+        row["relative_difference"] = [
+            None if other is None else own / other - 1.0
+            for own, other in zip(pairs.frequencies_hz, pairs.exact_hz, strict=True)
+        ]
+        row["predicted_difference"] = truncation_error(model, position, case.rope.length)[: len(found)].tolist()
+        row["missing_from_the_model"] = [{"frequency_hz": f, "member": member} for f, member in pairs.missing]
+        row["exact_unlike_the_model_hz"] = pairs.unlike
+    return row
+
+
+def _buckling_factor(case: Case) -> float | None:
+    """Factor on all weights, trolley and load included, at which the tower buckles; None: it never does."""
+    from modal import crane_structure
+    from towercrane.cranes.tower.file.build import crane_frame
+
+    frame = crane_frame(case, weight=True)
+    factor = crane_structure(frame, case.modes.trolley_positions[0]).buckling_factor()
+    return factor if np.isfinite(factor) else None
+
+
+def _lattice(column: LacedColumn, height: float) -> dict[str, dict[str, Any]]:
+    """Section properties of the lattice, each with what it may be used for."""
+    properties = {
+        "chord_second_moment_of_area": column.chord_second_moment_of_area,
+        "stiffening_factor": column.stiffening_factor,
+        "bending_stiffness": column.bending_stiffness,
+        "shear_stiffness": column.shear_stiffness,
+        "equivalent_slenderness": column.equivalent_slenderness(height),
+        "equivalent_second_moment_of_area": column.equivalent_second_moment_of_area(height),
+    }
+    return {name: dataclasses.asdict(found) for name, found in properties.items()}

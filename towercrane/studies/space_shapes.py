@@ -1,0 +1,81 @@
+"""Lines of a crane in space that moves in one of its natural modes, seen along its jib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.small_motions import NaturalMode
+    from towercrane.studies.space_modes import Place
+
+    Floats = NDArray[np.float64]
+
+POINTS = 60
+"""Points along a member."""
+
+
+def crane_lines(
+    model: FlexibleModel, mode: NaturalMode, place: Place, counter_jib: float, scale: float = 0.0
+) -> dict[str, Floats]:
+    """Tower, jib, counter-jib and rope, moved by a mode times a scale.
+
+    Parameters
+    ----------
+    model : FlexibleModel
+    mode : NaturalMode
+        Small motion about the equilibrium at ``place``.
+    place : Place
+    counter_jib : float
+        Length of the counter-jib [m].
+    scale : float
+        Zero for the undeformed crane.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (points, 3)
+        "tower", "jib", "counter-jib" and "rope" from trolley to load; along the jib, across it in the turning sense,
+        and up from the ground [m].
+    """
+    crane, parts = model.crane, model.parts
+    height, n = crane.tower_height, model.coordinates
+    heading = 0.0 if model.slewing == "fixed" else place.slewing_angle
+    turn = np.array([[np.cos(heading), np.sin(heading)], [-np.sin(heading), np.cos(heading)]])
+    bent = np.zeros((2, crane.tower.count))
+    for row, kind in enumerate(("tower_x", "tower_y")):
+        if model.counts[kind]:
+            bent[row] = mode.shape[parts[kind]]
+    bent = turn @ bent
+    top, slope = bent @ crane.tower(height), bent @ crane.top_slope
+    twist = mode.shape[parts["torsion"]] @ crane.torsion(height) + mode.shape[parts["slewing"]].sum()
+    jib = mode.shape[parts["jib_lateral"].start : n]
+    lateral = model.counts["jib_lateral"]
+
+    def on_head(along: Floats, flexible: bool) -> Floats:
+        """Displacement of points of the head on the jib's line."""
+        shapes = crane.jib_shapes(along) if flexible else np.zeros((len(jib), len(along)))
+        across, up = jib[:lateral] @ shapes[:lateral], jib[lateral:] @ shapes[lateral:]
+        moved = [np.full_like(along, top[0]), top[1] + twist * along + across, -slope[0] * along + up]
+        return np.stack(moved, axis=1)
+
+    def line(along: Floats, flexible: bool) -> Floats:
+        still = np.stack([along, np.zeros_like(along), np.full_like(along, height)], axis=1)
+        return still + scale * on_head(along, flexible)
+
+    z = np.linspace(0.0, height, POINTS)
+    tower = np.stack([np.zeros_like(z), np.zeros_like(z), z], axis=1)
+    tower[:, :2] += scale * (bent @ crane.tower(z)).T
+    at = np.array([place.trolley_position])
+    trolley = line(at, True)[0]
+    load = trolley - [0.0, 0.0, place.rope_length]
+    load[:2] += scale * (turn @ mode.shape[n:])
+    return {
+        "tower": tower,
+        "jib": line(np.linspace(0.0, crane.jib_length, POINTS), True),
+        "counter-jib": line(np.linspace(-counter_jib, 0.0, 2), False),
+        "rope": np.stack([trolley, load]),
+    }
