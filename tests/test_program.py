@@ -11,6 +11,8 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
+import modal
+import towercrane
 from towercrane.__main__ import main
 from towercrane.cli import app
 from towercrane.report.folder import write_run
@@ -35,6 +37,11 @@ def program(*arguments, **options):
         out, err = process.communicate(timeout=120)
     assert "Traceback" not in err, err
     return process.returncode, out, err
+
+
+@pytest.mark.parametrize("package", [modal, towercrane], ids=lambda package: package.__name__)
+def test_every_public_name_is_found_where_the_package_looks_for_it(package):
+    assert {name for name in package.__all__ if getattr(package, name).__name__ != name} == set()
 
 
 @posix

@@ -36,15 +36,15 @@ __all__ = [
 __version__ = "0.1.0"
 
 _HOME = {
-    "FlexibleModel": "cranes.flexible",
-    "Load": "payload",
-    "ModeCounts": "cranes.flexible_crane",
-    "RadialModel": "cranes.radial",
-    "TowerCrane": "cranes.tower_crane",
-    "flexible_crane": "cranes.flexible_crane",
-    "load_case": "case",
-    "run_case": "simulate",
-    "sweep": "variations",
+    "FlexibleModel": "cranes.tower.model",
+    "Load": "kernels.payload",
+    "ModeCounts": "cranes.tower.modal_crane",
+    "RadialModel": "cranes.tower.planar",
+    "TowerCrane": "cranes.tower.parameters",
+    "flexible_crane": "cranes.tower.modal_crane",
+    "load_case": "cases.case",
+    "run_case": "simulation.simulate",
+    "sweep": "runs.sweep",
 }
 
 
