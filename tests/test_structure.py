@@ -160,6 +160,18 @@ def test_stepwise_weight_converges_to_the_exact_linear_one():
     assert (ratios < 4.1).all()
 
 
+@pytest.mark.parametrize("softness", [1e-6, 1e-11, 1e-30])
+def test_a_column_far_too_soft_for_its_weight_is_named_without_cutting_it_to_pieces(softness):
+    segment = replace(BEAM, bending_stiffness=softness * BEAM.bending_stiffness)
+    column = chain_structure(Chain((segment,), gravity=1.0))
+    stiff = chain_structure(Chain((BEAM,), gravity=1.0)).buckling_factor()
+    np.testing.assert_allclose(column.buckling_factor(), softness * stiff, rtol=1e-12)
+    with pytest.raises(Unstable, match=f"carries only {softness * stiff:.4g} times"):
+        column.angular_frequencies(3)
+    with pytest.raises(Unstable):
+        column.displacements(np.array([1.0, 0.0]))
+
+
 def test_columns_buckle_under_their_weight_and_with_shear():
     own = chain_structure(Chain((BEAM,), gravity=1.0)).buckling_factor()
     np.testing.assert_allclose(own, 7.83734743894, rtol=1e-12)

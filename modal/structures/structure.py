@@ -243,9 +243,8 @@ class Structure:
         from modal.structures.assembly import assembly, refined
         from modal.structures.search import require_stable
 
-        ready = assembly(refined(self, 0.0), 0.0, whole=True)
-        require_stable(self, ready)
-        return ready.displacements(forces)
+        require_stable(self)
+        return assembly(refined(self, 0.0), 0.0, whole=True).displacements(forces)
 
 
 def chain_structure(chain: Chain) -> Structure:
