@@ -1,7 +1,7 @@
 """The study of motions that leave the load at rest, and its command."""
 
 import json
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ from towercrane.motions.shaping import zv
 from towercrane.report.drive_table import drive_table
 from towercrane.report.plots import shaping as pictured
 from towercrane.studies import rest_study
-from towercrane.studies.candidates import candidates
+from towercrane.studies.candidates import Candidate, candidates
 from towercrane.studies.rest_study import RestStudy, Row, Trial, attempt, report, study
 
 CASE = "qtz5613/condition-3"
@@ -88,6 +88,15 @@ def test_interrupted_run_ends_the_study(monkeypatch):
     monkeypatch.setattr(rest_study, "simulate", interrupted)
     with pytest.raises(KeyboardInterrupt):
         attempt(space.model(0, 0, 0, 0), motions)
+
+
+def test_motions_are_candidates_by_identity_and_stay_as_they_are():
+    motions = {"trolley": trapezoid(5.0, 9.0, 0.8, 0.2)}
+    one, other = Candidate("a", "b", motions), Candidate("a", "b", motions)
+    assert len({one, other}) == 2
+    assert one.within_limits
+    with pytest.raises(FrozenInstanceError):
+        one.within_limits = False
 
 
 def test_hoists_keep_their_own_shaping_and_shaped_cases_are_tried_too():

@@ -179,6 +179,7 @@ def test_a_sensitivity_study(capsys):
     assert ["7 of 10", "4.6%", "150.0%", "42%"] in rows
     assert "Reduced crane, rigid in tower x, rope, beside the full one" in lines
     assert "note     one ended" in lines
+    assert "assumed  a.key = 3 m: some reason" in lines
 
 
 def test_motions_beside_each_other(capsys):
@@ -212,21 +213,41 @@ def test_motions_beside_each_other(capsys):
     assert any(line.startswith("too fast: ") for line in lines)
 
 
-def test_a_sweep(capsys):
+def test_the_recommended_motion_alone_is_bold(capsys, monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    row = {
+        "duration_s": 10.0, "residual_m": 0.1, "within_limits": True, "peak_trolley_force_N": 1500.0,
+        "rope_residual_m": {"1": 0.1}, "torsion_residual_m": {},
+    }  # fmt: skip
+    shape_tables(
+        {
+            "crane": "Some crane", "frequencies_hz": {"trolley": {"at_start": [0.1], "at_end": [0.2]}},
+            "candidates": [{"name": name, "title": name.upper(), **row} for name in ("one", "two", "three")],
+            "recommended": "two", "reason": "some reason", "watched_s": 40.0, "damping_ratio": 0.03, "assumed": [],
+        }
+    )  # fmt: skip
+    rows = [line for line in capsys.readouterr().out.splitlines() if "10.00" in line]
+    assert ["\x1b[1m" in row for row in rows] == [False, True, False]
+
+
+def sweep_report(**changes):
     found = {
         "largest": {"value": 0.123456, "at": {"payload.mass": 700.0, "model.jib_modes": 3}},
         "smallest": {"value": -2.5, "at": {"payload.mass": 150.25, "model.jib_modes": 1}},
         "units": "rad",
     }
-    sweep_tables(
-        {
-            "crane": "Some crane", "title": "Some title", "runs": 12, "outcomes": {"finished": 11, "slack rope": 1},
-            "varied": [{"key": "payload.mass", "units": "kg"}, {"key": "model.jib_modes", "units": "1"}],
-            "extremes": {"swing_angle": found}, "seconds": 2.5, "runs_per_second": 4.8, "notices": ["look"],
-            "faults": [{"at": {"payload.mass": 2.5}, "fault": "some fault"}],
-            "assumed": ASSUMED,
-        }
-    )  # fmt: skip
+    report = {
+        "crane": "Some crane", "title": "Some title", "runs": 12, "outcomes": {"finished": 11, "slack rope": 1},
+        "varied": [{"key": "payload.mass", "units": "kg"}, {"key": "model.jib_modes", "units": "1"}],
+        "extremes": {"swing_angle": found}, "seconds": 2.5, "runs_per_second": 4.8, "notices": ["look"],
+        "faults": [{"at": {"payload.mass": 2.5}, "fault": "some fault"}],
+        "assumed": ASSUMED,
+    }  # fmt: skip
+    return {**report, **changes}
+
+
+def test_a_sweep(capsys):
+    sweep_tables(sweep_report())
     rows, lines = said(capsys)
     assert rows == [
         ["output", "", "value", "unit", "payload.mass [kg]", "model.jib_modes [1]"],
@@ -235,7 +256,16 @@ def test_a_sweep(capsys):
     ]
     assert lines[0] == "Some crane: Some title; 12 runs, 11 finished, 1 slack rope"
     assert "2.50 s, 4.8 runs per second" in lines
-    assert any("2.5" in line and line.endswith("some fault") for line in lines)
+    assert "bad input at payload.mass = 2.5: some fault" in lines
+
+
+@pytest.mark.parametrize(("bad", "more"), [(3, []), (5, ["bad input in 2 more runs: see the files"])])
+def test_three_faults_of_a_sweep_are_told_and_the_others_counted(bad, more, capsys):
+    faults = [{"at": {"payload.mass": -k, "model.jib_modes": k}, "fault": f"fault {k}"} for k in range(1, bad + 1)]
+    sweep_tables(sweep_report(faults=faults))
+    _, lines = said(capsys)
+    told = [f"bad input at payload.mass = -{k}, model.jib_modes = {k}: fault {k}" for k in (1, 2, 3)]
+    assert [line for line in lines if line.startswith("bad input")] == [*told, *more]
 
 
 def test_models_beside_each_other(capsys):

@@ -1,6 +1,7 @@
 """Peaks and periods of signals whose frequencies are known."""
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from towercrane.results.spectrum import _stands_out, amplitude_spectrum, spectrum_peaks, swing_period
@@ -14,6 +15,13 @@ def test_two_sines_on_a_drift():
     frequencies, amplitudes = amplitude_spectrum(TIMES, signal)
     assert_allclose(amplitudes.max(), 3.0, rtol=5e-3)
     assert_allclose(frequencies[np.argmax(amplitudes)], 0.3118, atol=1e-3)
+
+
+def test_a_peak_between_two_bins_is_at_worst_a_quarter_of_a_percent_low():
+    lines = np.linspace(0.5, 0.5 + 1.0 / TIMES[-1], 129)
+    heights = [amplitude_spectrum(TIMES, 2.0 * np.sin(2 * np.pi * f * TIMES))[1].max() for f in lines]
+    # Hann's lobe falls by (pi^2 / 6 - 1) x^2 at x bins from its middle, here up to half of an eighth.
+    assert_allclose(1.0 - min(heights) / 2.0, (np.pi**2 / 6 - 1) / 16**2, rtol=0.08)
 
 
 def test_two_near_lines_are_told_apart():
@@ -39,6 +47,12 @@ def test_period_of_a_swing_off_centre():
     assert swing_period(TIMES, 1e-9 * angle) is None
     two = np.sin(2 * np.pi * TIMES / 8.5) + 0.9 * np.sin(2 * np.pi * TIMES / 1.6)
     assert swing_period(TIMES, two) is None
+
+
+def test_a_swing_of_fewer_than_eight_samples_has_no_period():
+    samples = np.array([7.96, 8.04])
+    found = [swing_period(TIMES, 0.02 * np.sin(2 * np.pi * TIMES / (0.05 * n) + 1.0)) for n in samples]
+    assert found == [None, pytest.approx(0.05 * 8.04, rel=2e-3)]
 
 
 def test_a_last_row_off_the_grid_does_not_shift_the_peaks():
