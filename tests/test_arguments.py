@@ -5,7 +5,7 @@ from math import inf, nan
 
 import numpy as np
 import pytest
-from qtz5613 import model, motions
+from samples.qtz5613 import model, motions
 
 from modal import Beam
 from towercrane import Load, ModeCounts, TowerCrane, sweep

@@ -1,0 +1,304 @@
+"""The door for case files: what it reads."""
+
+import json
+import math
+import subprocess
+import sys
+import tomllib
+from functools import partial
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from samples.case_files import CASE, CRANE, only_fault, write_case
+
+from modal.beams.beam import Beam
+from towercrane.cases import shipped
+from towercrane.cases.case import Assumption, CaseError, Fault, case_folder, list_cases, load_case
+from towercrane.cases.explain import known_keys
+from towercrane.schema.faults import closest, did_you_mean, shown
+from towercrane.schema.text import leaves, split_provenance
+from towercrane.schema.units import to_si
+
+
+@pytest.fixture
+def write(tmp_path):
+    return partial(write_case, tmp_path)
+
+
+# What is read
+
+
+def test_values_are_si_and_defaults_hold(write):
+    case = load_case(write())
+    assert (case.name, case.title, case.path.name) == ("case", "A case", "case.toml")
+    assert case.crane.tower.height == 30.0
+    assert case.crane.counter_jib.counterweight == 10e3
+    assert (case.crane.gravity, case.crane.source, case.crane.tower.lattice) == (9.81, "", None)
+    assert (case.payload.mass, case.payload.rope_damping, case.payload.drag_area) == (800.0, 0.0, 0.0)
+    assert (case.model.tower_modes, case.model.jib_modes, case.model.weight_softening) == (2, 3, False)
+    assert (case.model.tower_damping_ratio, case.model.jib_damping_ratio) == (0.0, 0.0)
+    assert (case.start.state, case.start.swing_angle) == ("equilibrium", 0.0)
+    assert (case.run.duration, case.run.output_step) == (60.0, 0.05)
+    assert (case.solver.method, case.solver.rtol, case.solver.atol) == ("dop853", 1e-8, 1e-10)
+    assert (case.modes.count, case.modes.trolley_positions, case.modes.elements) == (
+        4,
+        pytest.approx((5.0, 30.0)),
+        32,
+    )
+    assert case.assumed == ()
+
+
+def test_every_optional_key_is_read(write):
+    options = """
+[model]
+tower_modes = 0
+jib_modes = 14
+weight_softening = true
+tower_damping_ratio = "2 %"
+jib_damping_ratio = 0.01
+[start]
+state = "zero"
+swing_angle = "-5 deg"
+[solver]
+method = "scipy-radau"
+rtol = 1e-5
+atol = 1e-7
+[modes]
+count = 6
+trolley_positions = ["5 m", 30]
+elements = 64
+"""
+    path = write(
+        ('mass = "800 kg"', 'mass = 800\nrope_damping = "3 N m s/rad"\ndrag_area = "2 m^2"'),
+        case_text=CASE + 'output_step = "20 ms"' + options,
+        crane=[('name = "Small"', 'name = "Small"\ngravity = "981 cm/s^2"\nsource = "mine"')],
+    )
+    case = load_case(path)
+    assert (case.payload.mass, case.payload.rope_damping, case.payload.drag_area) == (800.0, 3.0, 2.0)
+    assert (case.model.tower_modes, case.model.jib_modes, case.model.weight_softening) == (0, 14, True)
+    assert case.model.tower_damping_ratio == pytest.approx(0.02)
+    assert case.model.jib_damping_ratio == 0.01
+    assert case.start.swing_angle == pytest.approx(math.radians(-5))
+    assert case.start.state == "zero"
+    assert case.run.output_step == pytest.approx(0.02)
+    assert (case.solver.method, case.solver.rtol, case.solver.atol) == ("scipy-radau", 1e-5, 1e-7)
+    assert (case.modes.count, case.modes.trolley_positions, case.modes.elements) == (6, (5.0, 30.0), 64)
+    assert case.crane.gravity == pytest.approx(9.81)
+
+
+def test_domain_objects(write):
+    case = load_case(write())
+    crane = case.radial_crane()
+    assert crane.tower == case.tower_beam() == Beam(30.0, 300.0, to_si("210 GPa", "Pa"), 0.01)
+    assert crane.jib == case.jib_beam() == Beam(40.0, 100.0, to_si("210 GPa", "Pa"), 0.003)
+    assert (crane.counter_jib_length, crane.counter_jib_mass_per_length) == (10.0, 150.0)
+    assert (crane.name, crane.counterweight, crane.trolley_mass, crane.gravity) == (
+        "Small",
+        10e3,
+        300.0,
+        9.81,
+    )
+    assert case.load().mass == 800.0
+    trolley, rope = case.trolley_motion(), case.rope_motion()
+    assert float(trolley(0.0)) == 5.0
+    assert float(trolley(8.0, 1)) == pytest.approx(0.8)
+    assert trolley.duration == pytest.approx(25 / 0.8 + 8.0)
+    assert float(rope(17.0)) == 12.0
+    assert case.lattice() is None
+
+
+def test_an_inline_crane_needs_no_file(write):
+    inline = "[crane]\n" + CRANE.replace("[", "[crane.")
+    path = write(('crane = "crane.toml"', ""), case_text=CASE + inline)
+    (path.parent / "crane.toml").unlink()
+    assert load_case(path).crane.jib.length == 40.0
+    path.write_text(path.read_text().replace('height = "30 m"', 'heigth = "30 m"'))
+    fault = only_fault(path)
+    assert (fault.file, fault.key) == (str(path), "crane.tower.heigth")
+
+
+def test_assumed_values_are_listed_as_written_the_cranes_first(write):
+    path = write(
+        ('"800 kg"', '{ value = "800 kg", assumed = "a guess" }'),
+        crane=[
+            ('"40 m"', '{ value = "40 m", source = "data sheet" }'),
+            ('"0.003 m^4"', '{ value = 0.003, assumed = "not printed" }'),
+        ],
+    )
+    case = load_case(path)
+    assert case.assumed == (
+        Assumption("crane.jib.second_moment_of_area", 0.003, "not printed"),
+        Assumption("payload.mass", "800 kg", "a guess"),
+    )
+    assert case.crane.jib.length == 40.0
+    assert case.as_written["crane"]["jib"]["length"] == {"value": "40 m", "source": "data sheet"}
+    assert json.loads(json.dumps(case.as_written)) == case.as_written
+    # A value given on the command line is no longer the file's assumption.
+    assert [a.key for a in load_case(path, ["payload.mass=900 kg"]).assumed] == ["crane.jib.second_moment_of_area"]
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "words"),
+    [
+        ('{ value = "800 kg", asumed = "x" }', "payload.mass.asumed", ("unknown", '"assumed"')),
+        ('{ value = "800 kg", assumed = "" }', "payload.mass.assumed", ("why", '""')),
+        ('{ value = "800 kg", assumed = true }', "payload.mass.assumed", ("why", "true")),
+        ('{ assumed = "x" }', "payload.mass", ("a mass", "a table with assumed")),
+    ],
+)
+def test_provenance_faults(write, table, key, words):
+    fault = only_fault(write(('"800 kg"', table)))
+    assert fault.key == key
+    assert all(w in str(fault) for w in words)
+
+
+# Shipped cases
+
+
+def test_shipped_cases_load_anywhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    cases = list_cases()
+    names = [name for name, _ in cases]
+    for number in (1, 2, 3, 4):
+        assert {f"qtz5613/condition-{number}", f"qtz5613/condition-{number}-paper"} <= set(names)
+    assert "qtz5613/condition-4-zero" in names
+    assert names == sorted(names)
+    assert not any("crane" in name.rpartition("/")[2] for name in names)
+    for name, title in cases:
+        case = load_case(name)
+        assert case.name == name == load_case(f"{name}.toml").name
+        assert case.title == title != ""
+        assert case.path == case_folder() / f"{name}.toml"
+
+
+CONDITIONS = {1: (0.4, 400.0, 18.0), 2: (0.8, 400.0, 18.0), 3: (0.8, 800.0, 18.0), 4: (0.8, 800.0, 10.0)}
+SHIPPED = [*((n, variant) for n in CONDITIONS for variant in ("", "-paper")), (4, "-zero")]
+
+
+@pytest.mark.parametrize(("number", "variant"), SHIPPED)
+def test_shipped_conditions(number, variant):
+    speed, mass, rope = CONDITIONS[number]
+    case = load_case(f"qtz5613/condition-{number}{variant}")
+    assert case.payload.mass == mass
+    assert case.rope_motion().range() == (rope, rope)
+    assert case.trolley_motion().range() == pytest.approx((5.0, 41.0))
+    cruise = case.trolley_motion()(case.trolley_motion().duration / 2, 1)
+    assert float(cruise) == pytest.approx(speed)
+    assert float(case.trolley_motion()(0.0, 2)) == pytest.approx(0.1)
+    assert (case.run.duration, case.solver.rtol, case.solver.atol) == (120.0, 1e-8, 1e-10)
+    assert (case.model.tower_modes, case.model.jib_modes) == (2, 3)
+    states = {"": "equilibrium", "-paper": "zero-no-self-weight", "-zero": "zero"}
+    assert case.start.state == states[variant]
+    assumed = {a.key for a in case.assumed}
+    assert ("payload.mass" in assumed) == (number < 3)
+    assert {"crane.jib.second_moment_of_area", "crane.tower.lattice.lacing"} <= assumed
+
+
+def test_shipped_crane_is_the_published_one():
+    crane = load_case("qtz5613/condition-3").radial_crane()
+    assert crane.tower == Beam(23.8, 350.0, 206e9, 0.014)
+    assert crane.jib == Beam(55.6, 123.8, 206e9, 0.0035)
+    assert (crane.counter_jib_length, crane.counter_jib_mass_per_length) == (12.3, 159.3)
+    assert (crane.counterweight, crane.trolley_mass) == (15130.0, 350.0)
+    column = load_case("qtz5613/condition-3").lattice()
+    assert 4 * column.leg_area == pytest.approx(198.8e-4)
+    assert column.leg_spacing == pytest.approx(1.68)
+
+
+def test_shipped_crane_file_says_which_values_are_assumed():
+    tree = tomllib.loads((case_folder() / "qtz5613" / "crane.toml").read_text("utf-8"))
+    _, assumed, faults = split_provenance(tree)
+    assert not faults
+    assert all(len(a.why) > 10 for a in assumed)
+
+
+@pytest.mark.parametrize("name", ["qtz5613/conditon-3", "condition-3", "qtz5613/condition-3.tml"])
+def test_a_misspelt_case_name_gets_the_closest(name):
+    fault = only_fault(name)
+    assert fault.got == "no such file"
+    assert '"qtz5613/condition-3"' in fault.hint
+
+
+def test_a_name_like_no_case_lists_them():
+    assert "qtz5613/condition-1, " in only_fault("zzzzzz").hint
+
+
+def test_importing_the_door_loads_neither_units_nor_schema():
+    code = "import sys, towercrane.cases.case; print({'pint', 'pydantic', 'numpy'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
+
+
+def test_installed_cases_come_first(tmp_path, monkeypatch):
+    package = tmp_path / "towercrane"
+    (package / "_cases").mkdir(parents=True)
+    monkeypatch.setattr(shipped, "__file__", str(package / "cases" / "shipped.py"))
+    assert case_folder() == package / "_cases"
+    (package / "_cases").rmdir()
+    assert case_folder() == tmp_path / "cases"
+
+
+# Small parts
+
+
+def test_fault_reads_as_a_block():
+    fault = Fault("a.toml", "rope.length", "a length", '"3 s"', "seconds?")
+    assert str(fault) == 'a.toml: rope.length\n  wanted: a length\n  got:    "3 s"\n  hint:   seconds?'
+    assert str(Fault("a.toml", "", "x", "y")) == "a.toml\n  wanted: x\n  got:    y"
+    assert str(CaseError([fault])).startswith("1 fault in the input\n\n")
+
+
+def test_closest_ignores_case_and_gives_up():
+    assert closest("HEIGTH", ["height", "length"]) == "height"
+    assert closest("zzz", ["height"]) is None
+    assert did_you_mean("zzz", ["height"], "no") == "no"
+
+
+def test_shown_is_one_short_line():
+    assert shown("a\nb") == '"a\\nb"'
+    assert len(shown("x" * 500)) == 80
+    assert (shown({}), shown([])) == ("an empty table", "an empty list")
+    assert shown(False) == "false"
+
+
+def test_leaves_are_dotted():
+    assert dict(leaves({"a": {"b": 1, "c": [2, {"d": 3}]}})) == {"a.b": 1, "a.c.0": 2, "a.c.1.d": 3}
+
+
+VALUES = st.recursive(
+    st.one_of(
+        st.none().map(lambda _: "nan"),
+        st.booleans().map(lambda b: str(b).lower()),
+        st.integers().map(str),
+        st.floats().map(lambda x: repr(x)),
+        st.text(st.characters(codec="utf-8", exclude_categories=("C",)), max_size=8).map(
+            lambda s: json.dumps(s, ensure_ascii=False)
+        ),
+    ),
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=3).map(lambda v: f"[{', '.join(v)}]"),
+        st.dictionaries(st.sampled_from(["value", "assumed", "shape", "start", "x"]), inner, max_size=3).map(
+            lambda d: "{ " + ", ".join(f"{k} = {v}" for k, v in d.items()) + " }"
+        ),
+    ),
+    max_leaves=4,
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    st.sampled_from(["qtz5613/condition-3", "towers/tapered"]),
+    st.sampled_from([*sorted(known_keys()), "x", "crane.x.y", "motion.trolley.start.x"]),
+    VALUES,
+)
+def test_any_value_at_any_key_is_read_or_explained(name, key, value):
+    for listed in ("segments", "bodies"):
+        key = key.replace(f"tower.{listed}.", f"tower.{listed}.1.")
+    try:
+        load_case(name, [f"{key}={value}"])
+        faults = [Fault("none", "", "none", "none")]
+    except CaseError as error:
+        faults = error.faults
+    assert faults
+    assert all(f.file and f.wanted and f.got for f in faults)

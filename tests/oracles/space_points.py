@@ -1,0 +1,202 @@
+"""A flexible crane as a cloud of points whose positions follow from its coordinates: nothing else is used here.
+
+The acceleration of each point is the second derivative of its position along the motion. The virtual work of
+inertia, weight, elasticity, damping, drag and wind, for a displacement of any coordinate or drive, is what holds it.
+The load is written in two angles, the tilt as the exponential of a matrix.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from oracles.jets import Jet, rotation, total
+
+GAUSS = leggauss(40)
+DRIVES = ("slewing", "trolley", "rope")
+
+
+def on(length, begin=0.0):
+    """Gauss points and weights on [begin, begin + length]."""
+    return begin + 0.5 * length * (GAUSS[0] + 1), 0.5 * length * GAUSS[1]
+
+
+@dataclass
+class Points:
+    """Positions (3 Jets of shape (p,)) with their masses [kg] and whether gravity pulls."""
+
+    place: list
+    mass: np.ndarray
+    heavy: bool
+
+    def felt(self, gravity):
+        """Acceleration plus gravity, shape (p, 3)."""
+        rows = [np.broadcast_to(2.0 * jet.c[2], self.mass.shape) for jet in self.place]
+        felt = np.stack(rows, axis=1)
+        felt[:, 2] += gravity if self.heavy else 0.0
+        return felt
+
+    def derivative(self, order=1):
+        return np.stack([np.broadcast_to(jet.c[order], self.mass.shape) for jet in self.place], axis=1)
+
+
+class CraneCloud:
+    """Points of a crane model; ``crane`` is the TowerCrane that it was made of."""
+
+    def __init__(self, model, crane, areas=None):
+        self.model, self.crane, self.areas = model, crane, areas
+        flexible = model.crane
+        self.height, self.tower_weights = on(flexible.tower_height)
+        self.bends, self.leans = flexible.tower(self.height), flexible.tower(self.height, 1)
+        self.twists = flexible.torsion(self.height)
+        self.jib, self.jib_weights = on(flexible.jib_length)
+        self.counter, self.counter_weights = on(crane.counter_jib_length, -crane.counter_jib_length)
+
+    def split(self, q):
+        return {kind: q[part] for kind, part in self.model.parts.items()}
+
+    def points(self, q, drives, angles):
+        """Tower, jib, counter-jib, counterweight, roll body, trolley, load: Points by name; rope direction; head."""
+        crane, flexible = self.crane, self.model.crane
+        part = self.split(q)
+        own = self.model.self_weight
+
+        def shaped(shapes, amplitudes):
+            return total(s * a for s, a in zip(shapes, amplitudes, strict=True))
+
+        tip, slope = flexible.tower(flexible.tower_height), flexible.tower(flexible.tower_height, 1)
+        ux, uy = shaped(tip, part["tower_x"]), shaped(tip[: len(part["tower_y"])], part["tower_y"])
+        lean_x = shaped(slope, part["tower_x"])
+        lean_y = shaped(slope[: len(part["tower_y"])], part["tower_y"])
+        slewing = part["slewing"][0] if len(part["slewing"]) else drives[0]
+        turn = shaped(flexible.torsion(flexible.tower_height), part["torsion"]) + slewing
+        tilt = rotation(-lean_y, lean_x, Jet(0.0))
+        c, s = turn.cos(), turn.sin()
+        axes = [[row[0] * c + row[1] * s, row[1] * c - row[0] * s, row[2]] for row in tilt]
+
+        def head(x, y, z):
+            shift = (ux, uy, Jet(0.0))
+            return [a[0] * x + a[1] * y + a[2] * z + b for a, b in zip(axes, shift, strict=True)]
+
+        x, length = drives[1], drives[2]
+
+        def at_trolley(basis, amplitudes):
+            values = [basis(x.c[0], k) for k in range(3)]
+            return total(
+                x.through(values[0][i], values[1][i], values[2][i]) * a for i, a in enumerate(amplitudes)
+            )  # fmt: skip
+
+        hung = head(
+            x, at_trolley(flexible.lateral, part["jib_lateral"]), at_trolley(flexible.vertical, part["jib_vertical"])
+        )
+        theta, phi = angles
+        rope = [theta.sin() * phi.cos(), phi.sin(), -(theta.cos() * phi.cos())]
+        sides, rises = flexible.lateral(self.jib), flexible.vertical(self.jib)
+        bent = head(Jet(self.jib), shaped(sides, part["jib_lateral"]), shaped(rises, part["jib_vertical"]))
+        nothing, arm = Jet(0.0), 2.0
+        # Six masses about the tower's top, those along the jib negative, have an inertia about the jib alone.
+        roll = crane.roll_inertia / (4 * arm**2) * np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -2.0])
+        spokes = np.array([[0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1], [1, 0, 0], [-1, 0, 0], [0, 0, 0]])
+        one = np.ones(1)
+        clouds = {
+            "tower": Points(
+                [shaped(self.bends, part["tower_x"]), shaped(self.bends[: len(part["tower_y"])], part["tower_y"]),
+                 nothing],
+                crane.tower.mass_per_length * self.tower_weights, own,
+            ),
+            "jib": Points(bent, crane.jib.mass_per_length * self.jib_weights, own),
+            "counter-jib": Points(
+                head(Jet(self.counter), nothing, nothing),
+                crane.counter_jib_mass_per_length * self.counter_weights, own,
+            ),
+            "counterweight": Points(
+                head(Jet(-crane.counter_jib_length), nothing, nothing), crane.counterweight * one, own
+            ),
+            "head": Points(head(*(Jet(arm * column) for column in spokes.T)), roll, False),
+            "trolley": Points(hung, crane.trolley_mass * one, True),
+            "load": Points(
+                [a + length * n for a, n in zip(hung, rope, strict=True)], self.model.load.mass * one, True
+            ),
+        }  # fmt: skip
+        return clouds, rope, axes, (ux, uy)
+
+    def displace(self, q, drives):
+        """How points, and the rope's direction, move with each coordinate, angle and drive: a list of dicts."""
+        n, columns = self.model.coordinates, []
+        for i in range(len(q) + len(drives)):
+            unit = [Jet(a, float(k == i)) for k, a in enumerate(q)]
+            pushed = [Jet(d.c[0], float(len(q) + k == i)) for k, d in enumerate(drives)]
+            moved, turned, _, _ = self.points(unit[:n], pushed, unit[n:])
+            column = {name: cloud.derivative() for name, cloud in moved.items()}
+            columns.append(column | {"rope": np.array([jet.c[1] for jet in turned]).ravel()})
+        return columns
+
+    def left_over(self, q, rate, acceleration, drives, columns, wind):
+        """Work that inertia and all given forces leave over, per unit displacement of each of the ``columns``.
+
+        ``q`` and its derivatives end with the load's two angles; ``drives`` are Jets of DRIVES. Returns the sums and
+        the sums of absolute values. What every point resists stays in ``felt``, the points in ``now``.
+        """
+        model, load = self.model, self.model.load
+        n, gravity = model.coordinates, self.crane.gravity
+        moving = [Jet(a, b, 0.5 * c) for a, b, c in zip(q, rate, acceleration, strict=True)]
+        self.now, rope, self.axes, _ = self.points(moving[:n], drives, moving[n:])
+        self.felt = felt = {name: cloud.mass[:, None] * cloud.felt(gravity) for name, cloud in self.now.items()}
+        relative = self.now["load"].derivative() - wind
+        felt["load"] = felt["load"] + load.drag * np.linalg.norm(relative) * relative
+        if self.areas is not None:
+            across = np.array([row[1].c[0] for row in self.axes]).ravel()
+            press = 0.5 * 1.225 * abs(wind @ across) * (wind @ across) * across
+            felt["jib"] = felt["jib"] - self.areas.jib * self.jib_weights[:, None] * press
+            felt["counter-jib"] = felt["counter-jib"] - self.areas.counter_jib * self.counter_weights[:, None] * press
+            felt["counterweight"] = felt["counterweight"] - self.areas.counterweight * press
+            along = 0.5 * 1.225 * self.areas.tower * np.linalg.norm(wind) * wind
+            felt["tower"] = felt["tower"] - self.tower_weights[:, None] * along
+        swing = np.array([jet.c[1] for jet in rope]).ravel()
+        sums, sizes = [], []
+        for i, column in enumerate(columns):
+            terms = [(felt[name] * column[name]).ravel() for name in felt]
+            terms.append(load.rope_damping * swing * column["rope"])
+            if i < n:
+                terms.append(self._own(i, q[:n], rate[:n], acceleration[:n]))
+            flat = np.concatenate(terms)
+            sums.append(flat.sum())
+            sizes.append(abs(flat).sum())
+        return np.array(sums), np.array(sizes)
+
+    def _own(self, i, q, rate, acceleration):
+        """Elasticity, damping, inertia of torsion and drive, and the weight's softening of one coordinate."""
+        model, flexible = self.model, self.model.crane
+        kind = next(k for k, part in model.parts.items() if part.start <= i < part.stop)
+        first = model.parts[kind].start
+        if kind == "slewing":
+            return np.array([model.drive_inertia * acceleration[i]])
+        basis = {"tower_x": flexible.tower, "tower_y": flexible.tower, "torsion": flexible.torsion,
+                 "jib_lateral": flexible.lateral, "jib_vertical": flexible.vertical}[kind]  # fmt: skip
+        ratio = getattr(model.damping, kind.removeprefix("jib_").removesuffix("_x").removesuffix("_y"))
+        omega = basis.angular_frequencies[i - first]
+        terms = [omega**2 * q[i], 2.0 * ratio * omega * rate[i]]
+        own = model.parts[kind]
+        if kind == "torsion":
+            per_length = flexible.torsion.shaft.inertia_per_length * self.tower_weights
+            terms += list(per_length * self.twists[i - first] * (acceleration[own] @ self.twists))
+        if kind.startswith("tower") and model.weight_softening:
+            hung = self.crane.trolley_mass + model.load.mass + self.crane.slewing_mass
+            above = hung + self.crane.tower.mass_per_length * (flexible.tower_height - self.height)
+            lean = q[own] @ self.leans
+            terms += list(-self.crane.gravity * above * self.tower_weights * self.leans[i - first] * lean)
+        return np.array(terms)
+
+    def accelerations(self, q, rate, drives, columns, wind, given):
+        """Second derivatives of coordinates and angles, and their mass matrix; ``given`` forces are a drive's."""
+        size, n = len(q), self.model.coordinates
+        rest, _ = self.left_over(q, rate, np.zeros(size), drives, columns, wind)
+        mass = np.zeros((size, size))
+        for name, cloud in self.now.items():
+            moves = np.array([column[name] for column in columns[:size]])
+            mass += np.einsum("ipk,p,jpk->ij", moves, cloud.mass, moves)
+        for i in range(n):
+            for j in range(n):
+                unit, none = np.eye(n)[j], np.zeros(n)
+                mass[i, j] += self._own(i, none, none, unit).sum()
+        scale = 1.0 / np.sqrt(np.diag(mass))
+        return scale * np.linalg.solve(mass * np.outer(scale, scale), scale * (given - rest[:size])), mass
