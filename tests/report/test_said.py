@@ -302,13 +302,16 @@ def test_modes_in_space(capsys):
     space_modes_tables(
         {
             "name": "Some crane", "at": {"trolley_position_m": 12.5, "rope_length_m": 7.5}, "payload_mass_kg": 640.0,
-            "modes": [mode], "pendulum_hz": 0.1820261, "assumed": ASSUMED,
+            "modes": [mode, {**mode, "kind": "torsion", "relative_difference": None}], "pendulum_hz": 0.1820261,
+            "missing_from_the_model": [{"frequency_hz": 0.0987654, "kind": "lateral"}], "assumed": ASSUMED,
             "sweeps": {"slewing_angle": [turned], "rope_length": [buckled]},
         }
     )  # fmt: skip
     rows, lines = said(capsys)
     assert rows[0] == ["kind", "frequency [Hz]", "more modes", "radial energy", "torsion energy"]
     assert rows[1] == ["lateral sway", "0.123457", "-2.0e-04", "25.0%", "75.0%"]
+    assert rows[2] == ["torsion", "0.123457", "-", "25.0%", "75.0%"]
+    assert "missing from the model: 0.098765 Hz, lateral" in lines
     assert ["60", "0.25000 T", "0.50000 RS"] in rows
     assert ["4.5", "tower buckled"] in rows
     assert lines[0] == "Some crane: small motions, trolley 12.5 m, rope 7.5 m, load 640 kg"

@@ -71,6 +71,35 @@ def test_report_sweeps_each_drive_by_itself(case, report):
     assert not any(key.startswith(("motion.", "crane.drive.", "crane.wind_areas.")) for key in keys)
 
 
+def test_modes_are_paired_by_shape_and_those_a_model_cannot_have_are_named(report):
+    bare = ["model.torsion_modes=0", "model.jib_lateral_modes=0", "modes.count=6"]
+    found = space_frequencies(load_case(NAME, bare))
+    full = {mode["frequency_hz"]: mode for mode in report["modes"]}
+    missing = [(mode["kind"], mode["frequency_hz"]) for mode in found["missing_from_the_model"]]
+    assert [kind for kind, _ in missing] == ["torsion", "lateral", "lateral"]
+    # Those of the case itself, with more modes of its kinds, are the torsion and the two lateral ones that it has.
+    own = [f for f, mode in full.items() if mode["kind"] in ("torsion", "lateral")]
+    assert_allclose([frequency for _, frequency in missing], own, rtol=3e-3)
+    lateral = next(mode for mode in found["modes"] if mode["kind"] == "lateral")
+    assert lateral["relative_difference"] is None
+    # A lateral sway beside the one that torsion slows, whatever stands between them in the order.
+    sway = next(mode for mode in found["modes"] if mode["kind"] == "lateral sway")
+    slowed = next(f for f, mode in full.items() if mode["kind"] == "lateral sway")
+    assert sway["frequency_hz"] / (1.0 + sway["relative_difference"]) == pytest.approx(slowed, rel=1e-4)
+    radial = [(a["kind"], a["frequency_hz"]) for a in found["modes"] if a["kind"].startswith("radial")]
+    assert_allclose([f for _, f in radial], [f for f, mode in full.items() if mode["kind"].startswith("radial")])
+    assert report["missing_from_the_model"] == []
+
+
+def test_a_rigid_crane_is_told_what_its_flexibility_would_change():
+    rigid = [f"model.{kind}_modes=0" for kind in ("tower", "torsion", "jib_lateral", "jib_vertical")]
+    found = space_frequencies(load_case(NAME, rigid))
+    assert_allclose([mode["frequency_hz"] for mode in found["modes"]], found["pendulum_hz"], rtol=1e-9)
+    changes = {mode["kind"]: mode["relative_difference"] for mode in found["modes"]}
+    assert changes["lateral sway"] == pytest.approx(0.018595, abs=1e-4)
+    assert changes["radial sway"] == pytest.approx(5.9e-4, abs=2e-5)
+
+
 def test_places_default_to_the_ends_of_the_ways():
     sweeps = space_frequencies(load_case("qtz5613/gentle"))["sweeps"]
     assert [row["value"] for row in sweeps["trolley_position"]] == [10.0, 40.0]

@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cases.assumptions import as_entries
+from towercrane.accuracy.space_scene import space_scene_of
+from towercrane.cases.assumptions import as_entries, rests_on
 from towercrane.cases.models import space_model
 from towercrane.cranes.tower.small_motions import natural_modes
 from towercrane.simulation.system import NoEquilibrium
+from towercrane.studies.branches import CLEAR
+from towercrane.studies.mode_pairs import BELONGING
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Assumption, Case
@@ -18,7 +21,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.small_motions import NaturalMode
 
 RICHER = 2
-"""More modes of every kind in the model that shows what the case's leaves out."""
+"""Modes of every kind that the model which shows what the case's leaves out has more."""
 
 POINTS = 25
 """Places of a sweep that a picture draws."""
@@ -82,17 +85,14 @@ def space_frequencies(case: Case) -> dict[str, Any]:
     -------
     dict
         ``at`` (where the drives stand at the start), ``pendulum_hz`` of the rope by itself there, ``modes`` (a list
-        with frequency_hz, kind, energy_shares, and relative_difference from a model with more modes), ``sweeps``: for
-        each of `SWEPT` a list with value, frequencies_hz and kinds, the other two as in ``at``; outcome and message
+        with frequency_hz, kind, energy_shares, and relative_difference from the mode of the same shape of a model
+        with more modes of every kind that the crane has, None where there is none), ``missing_from_the_model`` (a
+        list with frequency_hz and kind: modes of the richer model up to the highest of these that the case's cannot
+        have), ``sweeps``: for each of `SWEPT` a list with value, frequencies_hz and kinds, the other two as in
+        ``at``; outcome and message
         where the tower buckles; ``assumed``.
     """
     model, count, start = space_model(case), case.space.modes.count, place_at(case)
-    counts = case.space.model
-    richer = {
-        name: getattr(counts, name) + RICHER
-        for name in ("tower_modes", "torsion_modes", "jib_lateral_modes", "jib_vertical_modes")
-        if getattr(counts, name)
-    }
     report: dict[str, Any] = {
         "case": case.name,
         "name": case.crane.name,
@@ -101,21 +101,13 @@ def space_frequencies(case: Case) -> dict[str, Any]:
         "at": {f"{name}_{unit}": getattr(start, name) for name, unit in SWEPT.items()},
         "pendulum_hz": float(np.sqrt(model.crane.gravity / start.rope_length) / (2.0 * np.pi)),
         "modes": [],
+        "missing_from_the_model": [],
     }
     try:
-        found, better = (modes_at(m, start, count) for m in (model, space_model(case, **richer)))
+        modes = natural_modes(model, *vars(start).values())
+        report |= beside_a_richer(model, modes, richer_model(case), start, count)
     except NoEquilibrium as failure:
         report |= {"outcome": failure.outcome, "message": str(failure)}
-    else:
-        report["modes"] = [
-            {
-                "frequency_hz": mode.frequency_hz,
-                "kind": mode.kind,
-                "energy_shares": mode.shares,
-                "relative_difference": mode.frequency_hz / more.frequency_hz - 1.0,
-            }
-            for mode, more in zip(found, better, strict=False)
-        ]
     report["sweeps"] = {
         name: [_row(model, replace(start, **{name: value}), value, count) for value in values]
         for name, values in asked_places(case).items()
@@ -124,10 +116,58 @@ def space_frequencies(case: Case) -> dict[str, Any]:
     return report
 
 
+def richer_model(case: Case) -> FlexibleModel:
+    """The case's crane with more modes of every kind that it has, those that the case leaves out too."""
+    scene = space_scene_of(case, {})
+    return space_model(case, **{kind: getattr(case.space.model, kind) + RICHER for kind in scene.described})
+
+
+def beside_a_richer(
+    model: FlexibleModel, modes: list[NaturalMode], richer: FlexibleModel, place: Place, count: int
+) -> dict[str, Any]:
+    """The lowest modes of a model beside those of the same shape of a richer one.
+
+    Shapes are compared by the modal assurance criterion with the richer model's stiffness as its weight, see
+    :func:`towercrane.studies.mode_pairs.paired_modes`: in its modes, which have unit elastic energy, a shape's
+    entries squared are the shares of its energy.
+
+    Raises
+    ------
+    NoEquilibrium
+        If the richer model's tower buckles.
+    """
+    theirs = natural_modes(richer, *vars(place).values())
+    own = np.zeros((len(theirs), len(modes)))
+    for kind, part in model.parts.items():
+        first = richer.parts[kind].start
+        own[first : first + model.counts[kind]] = np.transpose([mode.shape[part] for mode in modes])
+    own[-2:] = np.transpose([mode.shape[-2:] for mode in modes])
+    entries = np.linalg.solve(np.transpose([mode.shape for mode in theirs]), own)
+    criteria = (entries**2 / (entries**2).sum(axis=0)).T
+    held = (np.linalg.qr(entries)[0] ** 2).sum(axis=1)
+    rows = []
+    for mode, criterion in zip(modes[:count], criteria, strict=False):
+        b = int(np.argmax(criterion))
+        other = theirs[b].frequency_hz if criterion[b] >= CLEAR else None
+        rows.append({
+            "frequency_hz": mode.frequency_hz,
+            "kind": mode.kind,
+            "energy_shares": mode.shares,
+            "relative_difference": None if other is None else mode.frequency_hz / other - 1.0,
+        })  # fmt: skip
+    highest = modes[:count][-1].frequency_hz
+    missing = [
+        {"frequency_hz": mode.frequency_hz, "kind": mode.kind}
+        for mode, share in zip(theirs, held, strict=True)
+        if share < BELONGING and mode.frequency_hz <= highest
+    ]
+    return {"modes": rows, "missing_from_the_model": missing}
+
+
 def modes_rest_on(case: Case) -> list[Assumption]:
-    """Assumptions that natural frequencies rest on: those of the crane at rest in still air."""
+    """Assumptions that natural frequencies, and what the modes left out would change, rest on: in still air."""
     apart = ("motion.", "run.", "wind.", "payload.drag", "crane.wind_areas.", "crane.friction.")
-    return [a for a in case.rests_on if not a.key.startswith(apart)]
+    return [a for a in rests_on(case, all_modes=True) if not a.key.startswith(apart)]
 
 
 def drawn_sweeps(case: Case) -> dict[str, list[dict[str, Any]]]:

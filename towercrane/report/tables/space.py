@@ -17,11 +17,17 @@ def space_modes_tables(report: dict[str, Any]) -> None:
     table = report_table(title, "kind", "frequency [Hz]", "more modes", *(f"{kind} energy" for kind in kinds))
     for mode in report["modes"]:
         shares = (f"{share:.1%}" for share in mode["energy_shares"].values())
-        table.add_row(mode["kind"], f"{mode['frequency_hz']:.6f}", f"{-mode['relative_difference']:+.1e}", *shares)
+        change = "-" if mode["relative_difference"] is None else f"{-mode['relative_difference']:+.1e}"
+        table.add_row(mode["kind"], f"{mode['frequency_hz']:.6f}", change, *shares)
     console.print(table)
     if "outcome" in report:
         console.print(f"{report['outcome']}: {report['message']}")
-    console.print(f"the rope by itself swings at {report['pendulum_hz']:.6f} Hz; more modes: change of the frequency")
+    console.print(f"the rope by itself swings at {report['pendulum_hz']:.6f} Hz")
+    console.print("more modes: change of the frequency by two more modes of every kind that the crane has data for")
+    if any(mode["relative_difference"] is None for mode in report["modes"]):
+        console.print("- no mode of that shape with more modes")
+    for mode in report["missing_from_the_model"]:
+        console.print(f"missing from the model: {mode['frequency_hz']:.6f} Hz, {mode['kind']}")
     for name, rows in report["sweeps"].items():
         degrees, unit = (57.29577951308232, "deg") if name == "slewing_angle" else (1.0, "m")
         most = max(len(row["frequencies_hz"]) for row in rows)
