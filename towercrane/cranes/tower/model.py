@@ -24,6 +24,8 @@ from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from towercrane.cranes.slewing.description import Drive
@@ -286,22 +288,25 @@ class FlexibleModel:
         NoEquilibrium
             If the stiffness is not positive definite, or no equilibrium is found.
         """
-        origin = np.zeros(self.coordinates)
+        n, origin = self.coordinates, np.zeros(self.coordinates)
         if self.drive is not None:
             origin[self.parts["slewing"]] = inputs[layout.SLEWING, 0]
+        at_rest = self.rests(inputs)
+        # The wind does not depend on where the crane is.
+        pull = self.load_force(at_rest(origin))
 
         def residual(departure: Floats) -> Floats:
-            return self.static_force(origin + departure, inputs)
+            return _static_force(at_rest(origin + departure), pull, n)
 
         try:
-            return origin + stable_equilibrium(residual, self.system.scale[: self.coordinates])
+            return origin + stable_equilibrium(residual, self.system.scale[:n])
         except Unstable as failure:
             raise NoEquilibrium(TOWER_BUCKLED, f"{failure}; {self.buckling_message()}") from failure
 
     def static_force(self, q: Floats, inputs: Floats) -> Floats:
         """Generalised forces on the crane at rest with its load hanging at rest; shape (coordinates,)."""
-        n, work = self.coordinates, self.at_rest(q, inputs)
-        return np.asarray(work[FORCE, :n] + self.load_force(work) @ work[JACOBIAN : JACOBIAN + self.axes, :n])
+        work = self.at_rest(q, inputs)
+        return _static_force(work, self.load_force(work), self.coordinates)
 
     def load_force(self, work: Floats) -> Floats:
         """Force of weight and wind on the load at rest, as scratch knows the wind [N]; shape (axes,)."""
@@ -319,15 +324,22 @@ class FlexibleModel:
 
     def at_rest(self, q: Floats, inputs: Floats) -> Floats:
         """Scratch array of the structure at rest at these coordinates, in the wind of the inputs."""
-        y = np.zeros(self.size)
-        y[: self.coordinates] = q
-        fixed = np.zeros_like(inputs)
+        return self.rests(inputs)(q)
+
+    def rests(self, inputs: Floats) -> Callable[[Floats], Floats]:
+        """:meth:`at_rest` with these inputs, for many coordinates: every call fills the same array."""
+        n, axes, driven, constants = self.coordinates, self.axes, self.drive is not None, self.system.constants
+        y, work, fixed = np.zeros(self.size), np.zeros(self.system.work_shape), np.zeros_like(inputs)
         fixed[:, 0] = inputs[:, 0]
-        work, constants = np.zeros(self.system.work_shape), self.system.constants
-        flexible_kernel.structure(self.axes, 0.0, y, fixed, *constants, work)
-        if self.drive is not None:
-            drive_kernel.drive(0.0, y, fixed, constants[0], work)
-        return work
+
+        def at_rest(q: Floats) -> Floats:
+            y[:n] = q
+            flexible_kernel.structure(axes, 0.0, y, fixed, *constants, work)
+            if driven:
+                drive_kernel.drive(0.0, y, fixed, constants[0], work)
+            return work
+
+        return at_rest
 
     def observe(
         self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
@@ -347,6 +359,11 @@ class FlexibleModel:
             "payload_mass": self.load.mass,
             "gravity": self.crane.gravity,
         }
+
+
+def _static_force(work: Floats, pull: Floats, n: int) -> Floats:
+    """Forces on the coordinates in a scratch array, with a force on the load."""
+    return np.asarray(work[FORCE, :n] + pull @ work[JACOBIAN : JACOBIAN + len(pull), :n])
 
 
 def _equations() -> Any:

@@ -54,18 +54,18 @@ def off_balance(
     rtol, atol : float
     """
     starts, ends = queue.starts, answers.end_states
-    drives = np.stack([_drives(queue, np.zeros(len(runs))), _drives(queue, answers.end_times)], axis=1)
+    drives = np.stack([_drives(queue, np.zeros(len(runs))), _drives(queue, answers.end_times)])
     energies = np.empty((2, len(runs)))
-    # Energies of runs that share a crane are summed in one go.
+    # Energies of runs that share a crane are summed in one go, begin and end together.
     cranes: dict[int, list[int]] = {}
     for number, run in enumerate(runs):
         cranes.setdefault(id(run.model.scene.crane), []).append(number)
     for members in cranes.values():
         alike = [runs[number] for number in members]
-        for moment, states in ((BEGIN, starts), (END, ends)):
-            energies[moment, members] = _energies(alike, drives[members, moment], states[members])
+        motions, states = (np.concatenate(both[:, members]) for both in (drives, np.stack([starts, ends])))
+        energies[:, members] = _energies(2 * alike, motions, states).reshape(2, -1)
     weights = np.array([run.model.load.mass * run.model.crane.gravity for run in runs])
-    work, lengths = ends[:, -1] - starts[:, -1], drives[..., layout.ROPE, 0].max(axis=1)
+    work, lengths = ends[:, -1] - starts[:, -1], drives[..., layout.ROPE, 0].max(axis=0)
     steps = answers.counts[:, ACCEPTED]
     limit = explained(steps, rtol, atol, weights * lengths + abs(work)) + ROUNDING * abs(energies).max(axis=0)
     with np.errstate(invalid="ignore"):

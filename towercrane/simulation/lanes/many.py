@@ -15,21 +15,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.tower.kernels.lane_rhs import rhs
-from towercrane.cranes.tower.kernels.layout import TENSION as TENSION_GUARD
 from towercrane.cranes.tower.planar import TOWER_BUCKLED
 from towercrane.kernels.vector import LANES
 from towercrane.simulation.arguments import check_times, check_tolerances
 from towercrane.simulation.directions import restore_rows
 from towercrane.simulation.energy_balance import NOT_CONSERVED
-from towercrane.simulation.integrate import (
-    COLLAPSED,
-    FINISHED,
-    INTERRUPTED,
-    NOT_FINITE,
-    evaluate,
-    phase_of,
-)
+from towercrane.simulation.integrate import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, phase_of
 from towercrane.simulation.lanes.advance import OUTPUTS, advance
+from towercrane.simulation.lanes.ends import record_ends
 from towercrane.simulation.lanes.energy import off_balance
 from towercrane.simulation.lanes.queue import (
     ACCEPTED,
@@ -41,7 +34,6 @@ from towercrane.simulation.lanes.queue import (
     REJECTED,
     SMALLEST,
     WAITING,
-    WRITTEN,
     Answers,
     Queue,
     lanes_for,
@@ -184,6 +176,7 @@ def integrate_many(
                 rhs, queue, mine, lanes, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
                 tableau.error_order, rtol, STEPS_PER_CALL,
             )  # fmt: skip
+        record_ends(runs[task], queue, mine)
         mine.outcomes[(mine.outcomes > NO_START) & off_balance(runs[task], queue, mine, rtol, atol)] = OFF_BALANCE
 
     with ThreadPoolExecutor(workers) as pool:
@@ -200,7 +193,7 @@ def integrate_many(
         for future in futures:
             if not future.cancelled():
                 future.result()
-    return _told(runs, answers, sample_times)
+    return _told(runs, answers)
 
 
 def available_cores() -> int:
@@ -280,45 +273,18 @@ def _answers(count: int, system: System, samples: int) -> Answers:
     )
 
 
-def _told(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats) -> LaneAnswers:
-    """Outcomes by name; the last row of runs that ended early; nothing of those that were interrupted."""
+def _told(runs: Sequence[LaneRun], answers: Answers) -> LaneAnswers:
+    """Outcomes by name; nothing of runs that were interrupted."""
     # A crane without a stable equilibrium has buckled under its weights.
     names = {
         WAITING: INTERRUPTED, NO_START: TOWER_BUCKLED, FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED,
         NOT_FINITE_CODE: NOT_FINITE, OFF_BALANCE: NOT_CONSERVED,
     }  # fmt: skip
-    outcomes = []
-    for number, (run, code) in enumerate(zip(runs, answers.outcomes.tolist(), strict=True)):
-        outcomes.append(names[code] if code in names else run.model.system.guards[code - FIRST_GUARD])
-        if code == WAITING:
-            answers.extremes[number] = np.nan
-            continue
-        written, end = answers.counts[number, WRITTEN], float(answers.end_times[number])
-        if outcomes[-1] == FINISHED:
-            # The row at the end belongs to no phase.
-            for sample in range(written, len(sample_times)):
-                values = _record_end(run, answers, number, float(sample_times[sample]))
-                if len(answers.series):
-                    answers.series[number, sample] = values
-        elif written == 0 or sample_times[written - 1] < end:
-            _record_end(run, answers, number, end)
+    codes = zip(runs, answers.outcomes.tolist(), strict=True)
+    outcomes = [names[code] if code in names else run.model.system.guards[code - FIRST_GUARD] for run, code in codes]
+    answers.extremes[answers.outcomes == WAITING] = np.nan
     counts = answers.counts
     return LaneAnswers(
         outcomes, answers.end_times, answers.smallest_steps, answers.end_states,
         counts[:, EVALUATIONS], counts[:, ACCEPTED], counts[:, REJECTED], answers.extremes, answers.series,
     )  # fmt: skip
-
-
-def _record_end(run: LaneRun, answers: Answers, number: int, end: float) -> tuple[float, ...]:
-    """Let a run's end state count among its extremes, as it does in the rows of a single run; its outputs."""
-    model, state = run.model, answers.end_states[number]
-    _, guards = evaluate(model.system, run.phases, np.array([end]), state[None])
-    n = model.coordinates
-    linear = model.tip_shapes @ state[:n]
-    values = (*linear, np.arctan2(state[n], -state[n + 1]), guards[0, TENSION_GUARD])
-    for output, value in zip(answers.extremes[number], values, strict=True):
-        if value > output[LARGEST]:
-            output[LARGEST], output[LARGEST + 1] = value, end
-        if value < output[SMALLEST]:
-            output[SMALLEST], output[SMALLEST + 1] = value, end
-    return values

@@ -1,0 +1,62 @@
+"""The rows at the ends of many runs, which no step of theirs writes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.cranes.tower.kernels.layout import TENSION as TENSION_GUARD
+from towercrane.simulation.integrate import phase_of
+from towercrane.simulation.lanes.advance import JIB_TIP, OUTPUTS, SWING, TENSION, TOWER_TIP
+from towercrane.simulation.lanes.queue import FINISHED, LARGEST, SMALLEST, WAITING, WRITTEN
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from towercrane.simulation.lanes.many import LaneRun
+    from towercrane.simulation.lanes.queue import Answers, Queue
+
+    Floats = NDArray[np.float64]
+
+
+def record_ends(runs: Sequence[LaneRun], queue: Queue, answers: Answers) -> None:
+    """Let the states in which runs ended count among their extremes, as they do in the rows of single runs.
+
+    Parameters
+    ----------
+    runs : sequence of LaneRun
+    queue, answers
+        The same runs before their lanes, and after.
+    """
+    times, states, samples = answers.end_times, answers.end_states, queue.sample_times
+    written, finished = answers.counts[:, WRITTEN], answers.outcomes == FINISHED
+    # The rows at the end of the last phase belong to none; a run that ends early ends between two rows.
+    at = np.where(finished, np.append(samples, np.inf)[written], times)
+    last = np.append(samples, -np.inf)[written - 1]
+    due = np.flatnonzero(np.where(finished, written < len(samples), (answers.outcomes != WAITING) & (last < times)))
+    if not len(due):
+        return
+    n = runs[0].model.coordinates
+    values = np.empty((len(due), len(OUTPUTS)))
+    values[:, [TOWER_TIP, JIB_TIP]] = np.einsum("roi,ri->ro", queue.watched[due], states[due, :n])
+    values[:, SWING] = np.arctan2(states[due, n], -states[due, n + 1])
+    values[:, TENSION] = [_tension(runs[run], times[run], states[run]) for run in due.tolist()]
+    for extreme, beyond in ((LARGEST, np.greater), (SMALLEST, np.less)):
+        farther, place = np.nonzero(beyond(values, answers.extremes[due, :, extreme]))
+        answers.extremes[due[farther], place, extreme] = values[farther, place]
+        answers.extremes[due[farther], place, extreme + 1] = at[due[farther]]
+    if len(answers.series):
+        for run, row in zip(due, values, strict=True):
+            if finished[run]:
+                answers.series[run, written[run] :] = row
+
+
+def _tension(run: LaneRun, time: float, state: Floats) -> float:
+    """Tension of a run's rope where it ended; at a switch time that of the phase which begins."""
+    cut = run.phases
+    phase = int(phase_of(np.asarray(time), cut))
+    inputs = cut.inputs[phase] if phase < len(cut.inputs) else cut.after
+    return float(run.model.system.slope(time - cut.times[phase], state, inputs)[1][TENSION_GUARD])
