@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from modal.lattices.lattice_comparison import LatticeAnswers, LatticeModel, compare_lattice_models
     from modal.lattices.truss import ColumnTruss, Mechanism
     from modal.structures.crane_frame import CraneFrame, crane_structure
-    from modal.structures.structure import Structure, Unstable, chain_frequencies, chain_structure
+    from modal.structures.members import Unstable
+    from modal.structures.structure import Structure, chain_frequencies, chain_structure
 
 __all__ = [
     "Beam",
@@ -69,7 +70,7 @@ _HOME = {
     "Segment": "beams.segment",
     "Structure": "structures.structure",
     "StructureElements": "elements.structure_elements",
-    "Unstable": "structures.structure",
+    "Unstable": "structures.members",
     "cantilever_modes": "beams.shapes",
     "chain_frequencies": "structures.structure",
     "chain_structure": "structures.structure",

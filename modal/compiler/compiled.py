@@ -1,65 +1,17 @@
-"""The one decorator for compiled kernels: numba with a cache that cannot go stale.
-
-Numba keys its cache on the file that holds a function, not on the files of the functions it calls, so a
-change in one module would leave old machine code in use in another. Here the cache folder is named after
-a digest of all sources of the rooms with kernels instead: any change there starts a fresh one.
-"""
+"""The one decorator for compiled kernels: numba with a cache that cannot go stale."""
 
 from __future__ import annotations
 
-import hashlib
-import os
-import tempfile
-from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from modal.compiler.folder import cache_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-ROOMS = "modal", "towercrane/kernels", "towercrane/simulation", "towercrane/cranes"
-"""Folders with kernels, or with what they read, in them or below."""
-
-
-class CacheWarning(UserWarning):
-    """Machine code could not be kept, or had to be made anew."""
-
 
 class NoCompiler(RuntimeError):
     """Numba is told not to compile."""
-
-
-@cache
-def cache_folder() -> Path:
-    """Folder of the machine code that belongs to exactly these sources, of all folders with kernels."""
-    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
-        return Path(chosen)
-    import platformdirs
-
-    top = Path(__file__).resolve().parents[2]
-    digest = hashlib.sha256()
-    for room in ROOMS:
-        for source in sorted((top / room).rglob("*.py")):
-            digest.update(source.read_bytes())
-    return Path(platformdirs.user_cache_dir("towercrane", appauthor=False)) / digest.hexdigest()[:16]
-
-
-@cache
-def obstacle(folder: Path) -> str:
-    """Why a folder, which is made if need be, cannot keep files; empty if it can."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        os.listdir(folder)
-        tempfile.TemporaryFile(dir=folder).close()
-    except OSError as error:
-        return (error.strerror or str(error)).lower()
-    return ""
-
-
-def is_compiled(module: str) -> bool:
-    """Whether machine code of the named module's kernels is in the cache already."""
-    *_, room, name = module.split(".")
-    return any(cache_folder().glob(f"{room}_*/{name}.*.nbi"))
 
 
 def kernel(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from numba.core import caching
 
-from modal.compiler.compiled import CacheWarning, obstacle
+from modal.compiler.folder import CacheWarning, obstacle
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from modal.beams.chain import ShearTheory
-    from modal.structures.structure import Member
+    from modal.structures.members import Member
 
     Floats = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from modal.checks import whole_number
-from modal.structures.structure import HELD
+from modal.structures.members import HELD
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -12,7 +12,8 @@ from modal.beams.beam import EndBody
 from modal.beams.segment import Segment
 from modal.elements.beam_elements import MOST_ELEMENTS, Elements, require_elements
 from modal.elements.sparse import Entries, factorised, lowest_modes
-from modal.structures.structure import HELD, Member, Structure, Unstable
+from modal.structures.members import HELD, Member, Unstable
+from modal.structures.structure import Structure
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modal.structures.members import HELD, POINTS, Members
 from modal.structures.piece import TERMS
 from modal.structures.stiffness import ROWS
-from modal.structures.structure import HELD, POINTS, Structure
 from modal.structures.structure_kernel import block_count, dynamic_stiffness, find_roots, find_runs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from modal.structures.structure import Member
+    from modal.structures.members import Member
 
     Floats = NDArray[np.float64]
     Runs = NDArray[np.int64]
@@ -38,7 +38,7 @@ class Assembly:
 
     Parameters
     ----------
-    structure : Structure
+    structure : Members
         The structure with the nodes that were put inside its members; the unknowns of the original come first.
     units : tuple of float
         Length [m], force [N] and circular frequency [rad/s] that the arrays are counted in.
@@ -49,7 +49,7 @@ class Assembly:
         those inside a run do not follow.
     """
 
-    structure: Structure
+    structure: Members
     units: tuple[float, float, float]
     segments: Floats
     nodes: Floats
@@ -120,9 +120,7 @@ class Assembly:
         return np.array(vectors)
 
 
-def refined(
-    structure: Structure, angular_frequency: float, load: float = 1.0, most_runs: int = MOST_RUNS
-) -> Structure:
+def refined(structure: Members, angular_frequency: float, load: float = 1.0, most_runs: int = MOST_RUNS) -> Members:
     """The structure with nodes inside long members, up to a frequency [rad/s] and a load factor.
 
     Between its ends a member that is long for the waves has fixed-end frequencies exponentially close to natural ones
@@ -131,7 +129,7 @@ def refined(
     """
     units = units_of(structure)
     squared = (angular_frequency / units[2]) ** 2
-    fine = Structure(structure.unknowns, shear_theory=structure.shear_theory)
+    fine = Members(structure.unknowns, shear_theory=structure.shear_theory)
     parts = [part for member in structure.members for part in _even(member, fine)]
     blocks = [block_count(row_of(part, structure, units), squared, load) for part in parts]
     longest = max(LONGEST, sum(blocks) // most_runs)
@@ -146,7 +144,7 @@ def refined(
 
 
 def assembly(
-    fine: Structure, angular_frequency: float, load: float = 1.0, most_runs: int = MOST_RUNS, *, whole: bool = False
+    fine: Members, angular_frequency: float, load: float = 1.0, most_runs: int = MOST_RUNS, *, whole: bool = False
 ) -> Assembly:
     """The arrays of a `refined` structure for frequencies up to one [rad/s] and a load factor.
 
@@ -156,7 +154,7 @@ def assembly(
 
     Parameters
     ----------
-    fine : Structure
+    fine : Members
     angular_frequency, load : float
     most_runs : int
     whole : bool
@@ -198,7 +196,7 @@ def assembly(
     return Assembly(fine, units, segments, nodes, runs, motions, points, composition)
 
 
-def units_of(structure: Structure) -> tuple[float, float, float]:
+def units_of(structure: Members) -> tuple[float, float, float]:
     """Length [m], force [N] and circular frequency [rad/s] of the size of the structure's own, however it is cut."""
     parts: dict[str, float] = {}
     for member in structure.members:
@@ -209,7 +207,7 @@ def units_of(structure: Structure) -> tuple[float, float, float]:
     return length, bending / length**2, sqrt(bending / mass) / length**2
 
 
-def row_of(member: Member, structure: Structure, units: tuple[float, float, float]) -> Floats:
+def row_of(member: Member, structure: Members, units: tuple[float, float, float]) -> Floats:
     """Row of `modal.structures.piece` for a member, shape (13,)."""
     s, (length, force, frequency) = member.segment, units
     mass = force / (length * frequency**2)
@@ -222,7 +220,7 @@ def row_of(member: Member, structure: Structure, units: tuple[float, float, floa
     ])  # fmt: skip
 
 
-def _even(member: Member, structure: Structure) -> list[Member]:
+def _even(member: Member, structure: Members) -> list[Member]:
     """A tapered member as several with equal changes of breadth, on new unknowns of the structure."""
     s = member.segment
     power = max(s.bending_power, 0.0 if isinf(s.shear_stiffness) else abs(s.shear_power))
@@ -238,7 +236,7 @@ def _even(member: Member, structure: Structure) -> list[Member]:
     return [*found, rest]
 
 
-def _free(structure: Structure) -> Floats:
+def _free(structure: Members) -> Floats:
     """Where the node before a member may lie inside a run: nothing else hangs on its unknowns; shape (members,)."""
     uses = np.zeros(len(structure.unknowns), dtype=int)
     for member in structure.members:
@@ -262,7 +260,7 @@ def _free(structure: Structure) -> Floats:
     return free
 
 
-def _is_light(structure: Structure, members: list[Member], v: int, theta: int, omega2: float) -> bool:
+def _is_light(structure: Members, members: list[Member], v: int, theta: int, omega2: float) -> bool:
     """Whether the body at the far end of members yields to their stiffness at a square of a circular frequency."""
     span = turn = slide = 0.0
     for member in members:
@@ -275,9 +273,7 @@ def _is_light(structure: Structure, members: list[Member], v: int, theta: int, o
     return omega2 * (body.get((v, v), 0.0) * sway + body.get((theta, theta), 0.0) * turn) < 1.0
 
 
-def _motions(
-    structure: Structure, runs: Runs, size: Floats, outer: list[int], omega2: float
-) -> tuple[Floats, Floats]:
+def _motions(structure: Members, runs: Runs, size: Floats, outer: list[int], omega2: float) -> tuple[Floats, Floats]:
     """How the arrays' unknowns move those of the structure and the ends of runs; of runs only some remain single."""
     composition = np.zeros((size.size, len(outer)))
     composition[outer, range(len(outer))] = size[outer]

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from modal.beams.beam import EndBody
 from modal.beams.chain import Foundation
 from modal.checks import check_fields, number_in
-from modal.structures.structure import HELD, Structure
+from modal.structures.members import HELD
+from modal.structures.structure import Structure
 
 if TYPE_CHECKING:
     from modal.beams.chain import Chain

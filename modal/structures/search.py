@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.structures.assembly import Assembly, assembly, refined, units_of
-from modal.structures.structure import Structure, Unstable
+from modal.structures.members import Members, Unstable
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,13 +31,13 @@ would fall into very many pieces, and as a rule it has buckled long before."""
 _FREE = "structure: wanted one that no motion leaves unstrained, got one without support"
 
 
-def lowest_frequencies(structure: Structure, count: int) -> Floats:
+def lowest_frequencies(structure: Members, count: int) -> Floats:
     """Lowest natural angular frequencies [rad/s], see `modal.structures.structure.Structure.angular_frequencies`."""
     require_stable(structure)
     return _lowest(structure, count, units_of(structure)[2], inf, by_load=False)
 
 
-def buckling_factor(structure: Structure) -> float:
+def buckling_factor(structure: Members) -> float:
     """Lowest critical load factor [1], see `modal.structures.structure.Structure.buckling_factor`."""
     if not structure.is_loaded:
         return inf
@@ -45,7 +45,7 @@ def buckling_factor(structure: Structure) -> float:
     return float(found[0]) if found.size else inf
 
 
-def require_stable(structure: Structure) -> None:
+def require_stable(structure: Members) -> None:
     """Refuse a structure that buckles.
 
     Raises
@@ -65,7 +65,7 @@ def require_stable(structure: Structure) -> None:
         raise ValueError(_FREE)
 
 
-def _pressed(structure: Structure) -> float:
+def _pressed(structure: Members) -> float:
     """Largest length of a segment under its weights and loads, in radians of the waves that it buckles in [1]."""
     strongest = 1.0
     for member in structure.members:
@@ -76,7 +76,7 @@ def _pressed(structure: Structure) -> float:
     return strongest
 
 
-def _lowest(structure: Structure, count: int, start: float, most: float, *, by_load: bool) -> Floats:
+def _lowest(structure: Members, count: int, start: float, most: float, *, by_load: bool) -> Floats:
     """Lowest frequencies or load factors up to one; as many as there are if fewer."""
 
     def below(limit: float) -> tuple[float, Assembly, int]:

@@ -14,7 +14,8 @@ from modal.checks import whole_number
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from modal.structures.structure import Member, Structure
+    from modal.structures.members import Member, Members
+    from modal.structures.structure import Structure
 
     Floats = NDArray[np.float64]
 
@@ -225,7 +226,7 @@ def _orthonormal(modes: StructureModes) -> Floats:
     return mix
 
 
-def _shapes(fine: Structure, omega: Floats) -> tuple[list[Floats], Floats]:
+def _shapes(fine: Members, omega: Floats) -> tuple[list[Floats], Floats]:
     """Shape along every member (n, p, terms, 5), in SI, and motions of all unknowns (n, u), not yet of unit mass."""
     from modal.structures.assembly import assembly
     from modal.structures.piece import TERMS
@@ -262,7 +263,7 @@ def _shapes(fine: Structure, omega: Floats) -> tuple[list[Floats], Floats]:
     return shapes, motions
 
 
-def _part(fine: Structure, part: str, shapes: list[Floats], highest: float) -> PartShapes:
+def _part(fine: Members, part: str, shapes: list[Floats], highest: float) -> PartShapes:
     """Shapes along one part from those along its members, whose pieces are those of the highest frequency."""
     from modal.structures.assembly import row_of, units_of
     from modal.structures.structure_kernel import piece_ends

@@ -10,7 +10,7 @@ import pytest
 from numba import types
 
 import modal
-from modal.compiler import compiled
+from modal.compiler import compiled, folder
 from towercrane.cases.case import load_case
 from towercrane.kernels.compilation import KERNELS, compile_kernels, missing_kernels
 
@@ -25,22 +25,22 @@ def test_kernels_are_in_the_rooms_whose_sources_name_the_cache():
         for source in package.rglob("*.py")
         if "compiled import kernel" in source.read_text() or "import traced" in source.read_text()
     ]
-    assert all(maker.startswith(compiled.ROOMS) for maker in makers)
-    assert all(any(maker.startswith(room) for maker in makers) for room in compiled.ROOMS)
+    assert all(maker.startswith(folder.ROOMS) for maker in makers)
+    assert all(any(maker.startswith(room) for maker in makers) for room in folder.ROOMS)
 
 
 def test_a_change_of_a_source_names_another_cache(tmp_path, monkeypatch):
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    for folder in ("modal/compiler", "towercrane/cranes/tower/kernels"):
-        (tmp_path / folder).mkdir(parents=True)
+    for name in ("modal/compiler", "towercrane/cranes/tower/kernels"):
+        (tmp_path / name).mkdir(parents=True)
     kernel, layout = tmp_path / "modal/roots.py", tmp_path / "towercrane/cranes/tower/kernels/layout.py"
-    monkeypatch.setattr(compiled, "__file__", str(tmp_path / "modal/compiler/compiled.py"))
+    monkeypatch.setattr(folder, "__file__", str(tmp_path / "modal/compiler/folder.py"))
     found = []
     for changed in (kernel, layout, kernel):
         changed.write_text(f"x = {len(found)}\n")
-        found.append(compiled.cache_folder.__wrapped__())
+        found.append(folder.cache_folder.__wrapped__())
     assert len(set(found)) == 3
-    assert compiled.cache_folder.__wrapped__() == found[-1]
+    assert folder.cache_folder.__wrapped__() == found[-1]
 
 
 def test_all_modules_of_kernels_are_there():

@@ -13,8 +13,9 @@ from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import Motion, phases, rest, sequence, trapezoid
-from towercrane.simulation.integrate import Trajectory, evaluate, integrate
+from towercrane.simulation.integrate import evaluate, integrate
 from towercrane.simulation.system import Model
+from towercrane.simulation.trajectory import Trajectory
 
 COUPLING = Drive("slewing", 2e6, 8e6, 0.004, 2e4, "tanh", 3e3, 0.01)
 LOAD = Load(1500.0, rope_damping=300.0, drag_area=2.0)

@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 from modal import Chain, EndBody, Foundation, Segment
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.planar import RadialModel
-from towercrane.cranes.tower.small_motions import fastest_vibration, linear_matrices
+from towercrane.cranes.tower.small_motions import linear_matrices
 from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest, smooth_ramps, trapezoid
@@ -53,7 +53,7 @@ def test_a_pair_that_feeds_all_vibrations_has_no_reach():
     ],
 )
 def test_nothing_vibrates_faster_than_the_unloaded_crane_with_its_trolley_at_the_tower(scene):
-    fastest = fastest_vibration(scene)
+    fastest = scene.fastest
     found = []
     for trolley in np.linspace(0.0, scene.crane.jib_length, 9):
         drives = np.zeros(len(scene.channels))
@@ -66,7 +66,7 @@ def test_nothing_vibrates_faster_than_the_unloaded_crane_with_its_trolley_at_the
 
 
 def test_a_crane_without_coordinates_of_its_own_bounds_no_step():
-    assert fastest_vibration(qtz5613.model(0, 0).scene) == 0.0
+    assert qtz5613.model(0, 0).scene.fastest == 0.0
 
 
 def test_no_burst_of_the_fastest_mode_at_any_loose_tolerance():

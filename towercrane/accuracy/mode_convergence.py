@@ -17,7 +17,7 @@ import numpy as np
 from towercrane.accuracy.choice import SMALLEST_PEAK, Choice, Estimate, limits
 from towercrane.accuracy.space_scene import IN_PLANE, KINDS, SpaceSetting
 from towercrane.results.measures import MOTIONS, gap, peak
-from towercrane.simulation.integrate import FINISHED, INTERRUPTED
+from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from towercrane.accuracy.space_scene import SpaceScene
     from towercrane.results.measures import Tolerance
     from towercrane.results.recording import Recording
-    from towercrane.simulation.integrate import Progress
+    from towercrane.simulation.trajectory import Progress
 
     Floats = NDArray[np.float64]
 

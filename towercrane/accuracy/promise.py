@@ -12,7 +12,7 @@ from towercrane.accuracy.choice import Choice, Estimate, Indicators, choose, lim
 from towercrane.accuracy.instants import BEYOND
 from towercrane.accuracy.scene import Setting, provenance, scene_of, setting_of
 from towercrane.results.measures import RADIAL, SPACE, Tolerance, gap, peak, picked_in
-from towercrane.simulation.integrate import FINISHED, INTERRUPTED
+from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from towercrane.accuracy.space_scene import SpaceSetting
     from towercrane.cases.case import Case
     from towercrane.results.recording import Recording
-    from towercrane.simulation.integrate import Progress
+    from towercrane.simulation.trajectory import Progress
 
 KEPT = "promised"
 OUT_OF_REACH = "out of reach"

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from towercrane.kernels.payload import Load
     from towercrane.motions.motion import Motion
     from towercrane.results.recording import Recording
-    from towercrane.simulation.integrate import Progress
     from towercrane.simulation.system import Model
+    from towercrane.simulation.trajectory import Progress
 
 
 class Solved(Protocol):

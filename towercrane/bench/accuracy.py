@@ -15,7 +15,7 @@ from towercrane.accuracy.scene import Setting
 from towercrane.bench.clock import short
 from towercrane.bench.drawn import scenes
 from towercrane.results.measures import Tolerance, gap, peak
-from towercrane.simulation.integrate import FINISHED
+from towercrane.simulation.outcomes import FINISHED
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:

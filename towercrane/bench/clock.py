@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.simulation.integrate import INTERRUPTED
+from towercrane.simulation.outcomes import INTERRUPTED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
-    from towercrane.simulation.integrate import Trajectory
+    from towercrane.simulation.trajectory import Trajectory
 
     Floats = NDArray[np.float64]
 

@@ -10,9 +10,8 @@ import numpy as np
 
 from towercrane.bench.clock import short
 from towercrane.bench.drawn_events import KINDS, TICK, event_scenes
-from towercrane.cranes.slewing.model import SLACK_ROPE
 from towercrane.runs.summary import energy_balance
-from towercrane.simulation.integrate import FINISHED, INTERRUPTED
+from towercrane.simulation.outcomes import FINISHED, INTERRUPTED, SLACK_ROPE
 from towercrane.simulation.simulate import record
 
 if TYPE_CHECKING:

@@ -14,12 +14,13 @@ from towercrane.cranes.tower.energy import total_energy
 from towercrane.cranes.tower.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.drift import ATOL_SHARE
-from towercrane.simulation.integrate import FINISHED, integrate
+from towercrane.simulation.integrate import integrate
+from towercrane.simulation.outcomes import FINISHED
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.simulation.integrate import Trajectory
+    from towercrane.simulation.trajectory import Trajectory
 
     Floats = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from towercrane.bench.clock import short
 from towercrane.cases.case import list_cases, load_case
 from towercrane.runs.summary import energy_balance, expected
 from towercrane.runs.vibration import SIGNALS, SLEWING_SIGNALS
-from towercrane.simulation.integrate import INTERRUPTED
+from towercrane.simulation.outcomes import INTERRUPTED
 from towercrane.simulation.simulate import run_case
 
 if TYPE_CHECKING:

@@ -13,9 +13,10 @@ from towercrane.cases.case import load_case
 from towercrane.cases.models import radial_model
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases
-from towercrane.simulation.integrate import INTERRUPTED, evaluate, integrate
+from towercrane.simulation.integrate import evaluate, integrate
 from towercrane.simulation.lanes.advance import OUTPUTS
 from towercrane.simulation.lanes.many import LaneRun, available_cores, integrate_many
+from towercrane.simulation.outcomes import INTERRUPTED
 from towercrane.simulation.simulate import rows_of
 
 if TYPE_CHECKING:

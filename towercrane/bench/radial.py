@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cranes.tower.planar import RadialModel
-    from towercrane.simulation.integrate import Trajectory
+    from towercrane.simulation.trajectory import Trajectory
 
     Floats = NDArray[np.float64]
 

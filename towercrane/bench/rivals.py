@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.bench.clock import whole
-from towercrane.simulation.integrate import FINISHED, integrate
+from towercrane.simulation.integrate import integrate
+from towercrane.simulation.outcomes import FINISHED
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,7 +14,7 @@ from towercrane.accuracy.promise import KEPT, OUT_OF_REACH, finer_in_space
 from towercrane.bench.accuracy import promises
 from towercrane.bench.drawn import space_scenes
 from towercrane.results.measures import MOTIONS, Tolerance, gap, peak
-from towercrane.simulation.integrate import FINISHED
+from towercrane.simulation.outcomes import FINISHED
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:

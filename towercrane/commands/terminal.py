@@ -57,7 +57,7 @@ def say_notices(case: Case) -> None:
 def announce_compilation(*uses: str) -> None:
     """Compile the kernels for uses of :data:`towercrane.kernels.compilation.KERNELS` if they are not yet, and say
     so."""
-    from modal.compiler.compiled import cache_folder, obstacle
+    from modal.compiler.folder import cache_folder, obstacle
     from towercrane.kernels.compilation import compile_kernels, missing_kernels
 
     if missing := missing_kernels(*uses):

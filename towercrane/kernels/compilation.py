@@ -8,7 +8,7 @@ from contextlib import suppress
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from modal.compiler.compiled import is_compiled
+from modal.compiler.folder import is_compiled
 
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess

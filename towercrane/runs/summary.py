@@ -16,7 +16,7 @@ from towercrane.runs.vibration import vibration
 from towercrane.simulation import drift
 from towercrane.simulation.arguments import TIGHTEST
 from towercrane.simulation.energy_balance import NOT_CONSERVED
-from towercrane.simulation.integrate import FINISHED
+from towercrane.simulation.outcomes import FINISHED
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from towercrane.runs.sweep_data import RADIAL_OUTPUTS, Found, dataset
 from towercrane.runs.variants import Variants, change
 from towercrane.schema.faults import CaseError
 from towercrane.schema.units import UnitError, to_si
-from towercrane.simulation.integrate import INTERRUPTED
+from towercrane.simulation.outcomes import INTERRUPTED
 from towercrane.simulation.simulate import looks_per_row, record_case, rows_of
 
 if TYPE_CHECKING:

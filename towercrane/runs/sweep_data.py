@@ -11,7 +11,7 @@ import numpy as np
 from towercrane.cases.assumptions import as_notes
 from towercrane.cases.kinds import TOWER_CRANES, unit_of
 from towercrane.simulation.drift import notice
-from towercrane.simulation.integrate import INTERRUPTED
+from towercrane.simulation.outcomes import INTERRUPTED
 from towercrane.simulation.simulate import versions
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,18 +10,18 @@ import numpy as np
 from towercrane.motions.motion import SAME_INSTANT
 from towercrane.simulation.arguments import check_times, check_tolerances
 from towercrane.simulation.directions import restore_rows
+from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, STALLED
 from towercrane.simulation.tableaus import TABLEAUS, Tableau
+from towercrane.simulation.trajectory import ACCEPTED, EVALUATIONS, REJECTED, WRITTEN, Run, Trajectory, phase_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
     from towercrane.motions.motion import Phases
     from towercrane.simulation.system import System
+    from towercrane.simulation.trajectory import Progress
 
     Floats = NDArray[np.float64]
-    Progress = Callable[[float], None]
 
 SCIPY_METHODS = {
     "scipy-dop853": "DOP853",
@@ -33,56 +32,11 @@ SCIPY_METHODS = {
 METHODS = (*TABLEAUS, *SCIPY_METHODS)
 """Names of all methods; those of SciPy run the same right-hand side as a cross-check."""
 
-FINISHED = "finished"
-INTERRUPTED = "interrupted"
-STALLED = "switching without progress"
-COLLAPSED = "step size collapsed"
-NOT_FINITE = "state not finite"
-
 STEPS_PER_CALL = 20_000
 """Steps between two looks at progress and the keyboard."""
 
 MOST_STALLED = 20
 """Switches in a row without time passing at which a run is given up."""
-
-ACCEPTED, REJECTED, EVALUATIONS, WRITTEN = range(4)
-"""Entries of a run's counts, as in :mod:`towercrane.simulation.stepper`."""
-
-
-@dataclass(frozen=True, eq=False)
-class Trajectory:
-    """States at the sample times that were reached, and how the run ended.
-
-    Parameters
-    ----------
-    times : ndarray, shape (p,)
-        Sample times [s].
-    states : ndarray, shape (p, size)
-    outcome : str
-        "finished", the name of a guard, "step size collapsed", "state not finite", "switching without progress" or
-        "interrupted".
-    end_time : float
-        Time at which the run ended [s].
-    end_state : ndarray, shape (size,)
-    evaluations, accepted, rejected : int
-        Right-hand sides; steps taken; steps tried again (-1: SciPy does not tell).
-    smallest_step : float
-        Smallest step [s].
-    cpu_seconds, wall_seconds : float
-        Time in the solver [s].
-    """
-
-    times: Floats
-    states: Floats
-    outcome: str
-    end_time: float
-    end_state: Floats
-    evaluations: int
-    accepted: int
-    rejected: int
-    smallest_step: float
-    cpu_seconds: float
-    wall_seconds: float
 
 
 def integrate(
@@ -168,16 +122,6 @@ def integrate(
     )
 
 
-class Run:
-    """What a run has reached: both kinds of solver carry it on."""
-
-    def __init__(self, system: System, rtol: float, atol: float, state: Floats, samples: Floats) -> None:
-        self.system, self.rtol, self.atol = system, rtol, atol * system.scale
-        self.state, self.samples = state, samples
-        self.time, self.smallest_step = 0.0, np.inf
-        self.counts = np.zeros(5, dtype=np.int64)
-
-
 def _compiled(run: Run, phases: Phases, sample_times: Floats, tableau: Tableau, progress: Progress | None) -> str:
     from towercrane.simulation import stepper
 
@@ -260,14 +204,6 @@ def _enter(
     if clock[stepper.STEP] <= 0.0:
         clock[stepper.STEP] = stepper.first_step(run.state, slope, run.rtol, run.atol, t_end)
     return stepper.PAUSED
-
-
-def phase_of(times: Floats, phases: Phases) -> NDArray[np.int64]:
-    """Index of the phase that each time belongs to; a switch time belongs to the phase it begins, the end to none.
-
-    The end, and what is beyond it, has the index after the last phase's.
-    """
-    return np.maximum(np.searchsorted(phases.times, times + SAME_INSTANT, side="right") - 1, 0)
 
 
 def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> tuple[Floats, Floats]:

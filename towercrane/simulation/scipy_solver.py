@@ -10,18 +10,9 @@ import scipy.integrate
 
 from towercrane.simulation.directions import restore_rows
 from towercrane.simulation.guards import first_fall
-from towercrane.simulation.integrate import (
-    ACCEPTED,
-    COLLAPSED,
-    EVALUATIONS,
-    FINISHED,
-    INTERRUPTED,
-    NOT_FINITE,
-    REJECTED,
-    WRITTEN,
-    phase_of,
-)
+from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE
 from towercrane.simulation.stepper import SHORTEST
+from towercrane.simulation.trajectory import ACCEPTED, EVALUATIONS, REJECTED, WRITTEN, phase_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.motions.motion import Phases
-    from towercrane.simulation.integrate import Floats, Progress, Run
+    from towercrane.simulation.trajectory import Floats, Progress, Run
 
 PROGRESS = 100
 """Steps between two reports of progress."""

@@ -22,8 +22,10 @@ from towercrane.motions.motion import Motion, phases
 from towercrane.results.recording import Recording
 from towercrane.simulation import drift, energy_balance
 from towercrane.simulation.arguments import check_tolerances
-from towercrane.simulation.integrate import FINISHED, INTERRUPTED, Trajectory, evaluate, integrate
+from towercrane.simulation.integrate import evaluate, integrate
+from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.system import Model, NoEquilibrium, start_inputs
+from towercrane.simulation.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from towercrane.cases.case import Case
-    from towercrane.simulation.integrate import Progress
+    from towercrane.simulation.trajectory import Progress
 
 Arguments = ParamSpec("Arguments")
 

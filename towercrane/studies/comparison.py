@@ -11,7 +11,7 @@ import numpy as np
 from towercrane.cases.assumptions import as_entries, rests_on
 from towercrane.cases.models import flexible_model
 from towercrane.results.measures import PLACE, peak
-from towercrane.simulation.integrate import FINISHED, INTERRUPTED
+from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.simulate import record_case
 from towercrane.simulation.system import NoEquilibrium
 

@@ -10,7 +10,7 @@ import numpy as np
 from modal.clock import timed
 from towercrane.cases.assumptions import as_entries
 from towercrane.cases.models import radial_model
-from towercrane.cranes.tower.planar import TOWER_BUCKLED
+from towercrane.simulation.outcomes import TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _uniform_tower(tower: Beam, body: EndBody, count: int, elements: int) -> tup
 def _chain_tower(tower: Chain, count: int, elements: int) -> tuple[dict[str, Any], dict[str, Any]]:
     """Frequencies of a tower with all that it carries, exact and from finite elements, with their times."""
     from modal import chain_frequencies, chain_structure, finite_element_structure_frequencies
-    from modal.structures.structure import Unstable
+    from modal.structures.members import Unstable
 
     found: dict[str, Any] = {"method": "dynamic stiffness"}
     try:

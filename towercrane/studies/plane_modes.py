@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from modal import crane_structure
-from modal.structures.structure import HELD, Structure
+from modal.structures.members import HELD
+from modal.structures.structure import Structure
 from modal.structures.structure_modes import DEFLECTION, MOMENT, ROTATION, SLOPE, structure_modes
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from modal import Chain, CraneFrame
-    from modal.structures.structure import Member
+    from modal.structures.members import Member
     from modal.structures.structure_modes import PartShapes, StructureModes
 
     Floats = NDArray[np.float64]

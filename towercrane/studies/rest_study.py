@@ -12,7 +12,7 @@ from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.scaled_torsion import ScaledTorsion
 from towercrane.cranes.tower.sway_frequencies import SwayFrequencies
 from towercrane.motions.motion import Motion, phases, rest
-from towercrane.simulation.integrate import FINISHED, INTERRUPTED
+from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.simulate import simulate
 from towercrane.simulation.system import start_inputs
 from towercrane.studies.candidates import Candidate, candidates, driven

@@ -16,7 +16,7 @@ import numpy as np
 
 from towercrane.cases.assumptions import as_entries
 from towercrane.cranes.slewing.reduce import make_rigid
-from towercrane.simulation.integrate import INTERRUPTED
+from towercrane.simulation.outcomes import INTERRUPTED
 from towercrane.simulation.simulate import simulate
 
 if TYPE_CHECKING:

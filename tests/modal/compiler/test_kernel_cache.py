@@ -10,7 +10,7 @@ import pytest
 from numba import types
 
 from modal.compiler import compiled, kernel_cache
-from modal.compiler.compiled import CacheWarning
+from modal.compiler.folder import CacheWarning, obstacle
 
 
 def doubled(x):
@@ -67,7 +67,7 @@ def test_folder_that_cannot_be_made_is_done_without_and_the_source_s_own_stays_c
     folder.write_text("a file", encoding="utf-8")
     beside = Path(__file__).parent / "__pycache__"
     before = set(beside.glob("*.nb?"))
-    compiled.obstacle.cache_clear()
+    obstacle.cache_clear()
     with pytest.warns(CacheWarning, match="compiled each time, for .* cannot keep them: file exists"):
         assert compile_it() == 0
     assert compile_it() == 0

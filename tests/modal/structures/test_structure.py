@@ -13,7 +13,8 @@ from modal.beams.beam import EndBody
 from modal.beams.chain import Chain, Foundation, Pendulum
 from modal.beams.roots import characteristic_roots
 from modal.beams.segment import Segment
-from modal.structures.structure import HELD, Member, Structure, Unstable, chain_frequencies, chain_structure
+from modal.structures.members import HELD, Member, Unstable
+from modal.structures.structure import Structure, chain_frequencies, chain_structure
 
 INF = float("inf")
 BEAM = Segment(1.0, 1.0, 1.0)

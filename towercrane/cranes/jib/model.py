@@ -18,6 +18,7 @@ import numpy as np
 from modal.checks import check_fields
 from towercrane.cranes.jib import kernel
 from towercrane.kernels.payload import SLACK
+from towercrane.simulation.outcomes import SLACK_ROPE
 from towercrane.simulation.system import System
 
 if TYPE_CHECKING:
@@ -28,8 +29,6 @@ if TYPE_CHECKING:
     from towercrane.results.recording import Quantity
 
     Floats = NDArray[np.float64]
-
-SLACK_ROPE = "slack rope"
 
 PLAN = ("slew", "luff", "fold", "rope")
 """Channels of a plan: three joint angles [rad] and the rope's length [m]."""

@@ -10,7 +10,8 @@ import numpy as np
 
 from modal.checks import check_fields
 from towercrane.cranes.jib import kernel
-from towercrane.cranes.jib.model import DRIVEN_ROPE, SLACK_ROPE, JibModel, driven_start, hanging
+from towercrane.cranes.jib.model import DRIVEN_ROPE, JibModel, driven_start, hanging
+from towercrane.simulation.outcomes import SLACK_ROPE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -13,20 +13,20 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cranes.slewing.description import Point
-    from towercrane.cranes.slewing.model import LumpedModel
+    from towercrane.cranes.slewing.equations import Equations
     from towercrane.motions.motion import Motion
 
     Floats = NDArray[np.float64]
 
 
 def observe(
-    model: LumpedModel, motions: dict[str, Motion], times: Floats, states: Floats, tension: Floats
+    model: Equations, motions: dict[str, Motion], times: Floats, states: Floats, tension: Floats
 ) -> dict[str, Quantity]:
     """Outputs of a run.
 
     Parameters
     ----------
-    model : LumpedModel
+    model : Equations
     motions : dict
         "shaft" and "rope".
     times, states : ndarray, shapes (p,) and (p, size)
@@ -84,7 +84,7 @@ def observe(
     return outputs
 
 
-def position(model: LumpedModel, point: Point, q: Floats, qd: Floats) -> tuple[Floats, Floats]:
+def position(model: Equations, point: Point, q: Floats, qd: Floats) -> tuple[Floats, Floats]:
     """Position and velocity of a point over time; shapes (p, 3)."""
     crane = model.crane
     place, velocity = np.zeros((len(q), 3)), np.zeros((len(q), 3))
@@ -105,7 +105,7 @@ def position(model: LumpedModel, point: Point, q: Floats, qd: Floats) -> tuple[F
     return place, velocity
 
 
-def total_energy(model: LumpedModel, motions: dict[str, Motion], times: Floats, states: Floats) -> Floats:
+def total_energy(model: Equations, motions: dict[str, Motion], times: Floats, states: Floats) -> Floats:
     """Kinetic and potential energy of crane, coupling and load; shape (p,) [J]."""
     crane, drive, n = model.crane, model.crane.drive, model.coordinates
     rates = (model.size - 1) // 2

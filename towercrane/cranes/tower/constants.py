@@ -12,7 +12,7 @@ from towercrane.cranes.tower.kernels import layout
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.coordinates import Coordinates
 
     Floats = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ TILT_LIMIT = 0.5
 """Tilt of the tower top at which a run ends as buckled [rad]: far beyond what a beam theory of small slopes holds."""
 
 
-def geometric_stiffness(model: FlexibleModel) -> Floats:
+def geometric_stiffness(model: Coordinates) -> Floats:
     """Stiffness that the weight takes from the tower modes, int N phi' phi' (tower, tower) [1/s^2].
 
     N(s) is the weight of all that is above the height s.
@@ -32,7 +32,7 @@ def geometric_stiffness(model: FlexibleModel) -> Floats:
     return np.asarray(crane.gravity * (above * slopes + own * weights))
 
 
-def numbers(model: FlexibleModel) -> Floats:
+def numbers(model: Coordinates) -> Floats:
     """Places of coordinates, rigid masses, load, channels, drive; shape (layout.NUMBERS,)."""
     crane, load, drive, slewing = model.crane, model.load, model.drive, model.crane.slewing
     values = np.zeros(layout.NUMBERS)
@@ -61,7 +61,7 @@ def numbers(model: FlexibleModel) -> Floats:
     return values
 
 
-def vectors(model: FlexibleModel) -> Floats:
+def vectors(model: Coordinates) -> Floats:
     """What each coordinate moves, carries, loses and shows the wind; shape (layout.VECTORS, coordinates)."""
     crane, parts, n = model.crane, model.parts, model.coordinates
     values = np.zeros((layout.VECTORS, n))
@@ -88,7 +88,7 @@ def vectors(model: FlexibleModel) -> Floats:
     return values
 
 
-def matrices(model: FlexibleModel) -> Floats:
+def matrices(model: Coordinates) -> Floats:
     """Own mass and stiffness of the coordinates; shape (2, coordinates, coordinates)."""
     crane, parts, n = model.crane, model.parts, model.coordinates
     own, stiffness = np.zeros((n, n)), np.diag(model.angular_frequencies**2)
@@ -104,7 +104,7 @@ def matrices(model: FlexibleModel) -> Floats:
     return np.array([own, stiffness])
 
 
-def scale(model: FlexibleModel) -> Floats:
+def scale(model: Coordinates) -> Floats:
     """Tolerance of each state: metres where a mode moves most, radians of twist and swing; work steers nothing."""
     # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
     crane = model.crane

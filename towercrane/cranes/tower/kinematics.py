@@ -14,8 +14,8 @@ from towercrane.cranes.tower.kernels import layout
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from towercrane.cranes.tower.equations import Equations
     from towercrane.cranes.tower.mass_sums import MassSums
-    from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.motions.motion import Motion
 
     Floats = NDArray[np.float64]
@@ -27,13 +27,13 @@ class FlexibleMotion:
 
     Parameters
     ----------
-    model : FlexibleModel
+    model : Equations
     motions : dict of str to Motion
         One for each of the model's channels.
     times, states : ndarray, shapes (p,) and (p, size)
     """
 
-    model: FlexibleModel
+    model: Equations
     motions: dict[str, Motion]
     times: Floats
     states: Floats

@@ -15,20 +15,20 @@ from towercrane.results.recording import Quantity, load_places
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.equations import Equations
     from towercrane.motions.motion import Motion
 
     Floats = NDArray[np.float64]
 
 
 def observe(
-    model: FlexibleModel, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    model: Equations, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
 ) -> dict[str, Quantity]:
     """Outputs of a run.
 
     Parameters
     ----------
-    model : FlexibleModel
+    model : Equations
     motions : dict
         One for each of the model's channels.
     times, states, guards : ndarray, shapes (p,), (p, size) and (p, guards)

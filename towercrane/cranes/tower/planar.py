@@ -17,7 +17,7 @@ from towercrane.cranes.tower.constants import geometric_stiffness
 from towercrane.cranes.tower.damping import ModalDamping
 from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
-from towercrane.cranes.tower.model import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB, FlexibleModel
+from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.small_motions import linear_matrices, reciprocal_modes
 
 if TYPE_CHECKING:
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from towercrane.simulation.system import System
 
     Floats = NDArray[np.float64]
-
-__all__ = ["SLACK_ROPE", "TOWER_BUCKLED", "TROLLEY_OFF_JIB", "RadialModel"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +56,7 @@ class RadialModel:
     axes : int
         2 for motion in the plane of the jib, 3 for a load that may swing out of it.
     cap : float
-        Highest frequency of a mode [Hz], see :class:`towercrane.cranes.tower.model.FlexibleModel`.
+        Highest frequency of a mode [Hz], see :class:`towercrane.cranes.tower.coordinates.Coordinates`.
     """
 
     crane: TowerCrane
@@ -149,18 +147,18 @@ class RadialModel:
         return shapes
 
     def with_load(self, load: Load) -> RadialModel:
-        """The same crane with another load, see :meth:`towercrane.cranes.tower.model.FlexibleModel.with_load`."""
+        """The same crane with another load, see :meth:`towercrane.cranes.tower.equations.Equations.with_load`."""
         other = replace(self, load=load)
         vars(other)["scene"] = self.scene.with_load(load)
         return other
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
-        """State at rest at the start, see :meth:`towercrane.cranes.tower.model.FlexibleModel.start`."""
+        """State at rest at the start, see :meth:`towercrane.cranes.tower.equations.Equations.start`."""
         return self.scene.start(inputs, state, swing_angle)
 
     def equilibrium(self, inputs: Floats) -> Floats:
         """Coordinates at rest under all weights, see
-        :meth:`towercrane.cranes.tower.model.FlexibleModel.equilibrium`."""
+        :meth:`towercrane.cranes.tower.equations.Equations.equilibrium`."""
         return self.scene.equilibrium(inputs)
 
     def observe(
@@ -169,7 +167,7 @@ class RadialModel:
         """Outputs over time, see :func:`towercrane.cranes.tower.planar_outputs.observe`."""
         from towercrane.cranes.tower.planar_outputs import observe
 
-        return observe(self, motions, times, states, guards)
+        return observe(self.scene, motions, times, states, guards)
 
     def provenance(self) -> dict[str, Any]:
         """Crane, modes and load, for a result's attributes."""

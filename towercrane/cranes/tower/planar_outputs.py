@@ -14,20 +14,20 @@ from towercrane.results.recording import Quantity
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.equations import Equations
     from towercrane.motions.motion import Motion
 
     Floats = NDArray[np.float64]
 
 
 def observe(
-    model: RadialModel, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    model: Equations, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
 ) -> dict[str, Quantity]:
     """Outputs of a run in the plane or in space.
 
     Parameters
     ----------
-    model : RadialModel
+    model : Equations
     motions : dict
         "trolley" and "rope".
     times, states, guards : ndarray, shapes (p,), (p, size) and (p, guards)
@@ -36,9 +36,9 @@ def observe(
     -------
     dict of str to Quantity
     """
-    motion = FlexibleMotion(model.scene, motions, times, states)
+    motion = FlexibleMotion(model, motions, times, states)
     u, tilt = motion.top(motion.coordinates)
-    rope, swing, tower = motion.rope, motion.swing, model.tower_modes
+    rope, swing, tower = motion.rope, motion.swing, model.counts["tower_x"]
 
     def over_time(values: Floats, units: str, name: str) -> Quantity:
         return Quantity(("time",), values, units, name)

@@ -10,12 +10,13 @@ import numpy as np
 from towercrane.cranes.tower.kernels import layout
 from towercrane.kernels.payload import JACOBIAN, MASS
 from towercrane.simulation.differences import jacobian
+from towercrane.simulation.outcomes import TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.equations import Equations
 
     Floats = NDArray[np.float64]
 
@@ -51,12 +52,12 @@ class NaturalMode:
         return self.angular_frequency / (2.0 * np.pi)
 
 
-def linear_matrices(model: FlexibleModel, drives: ArrayLike, *, about: Floats | None = None) -> tuple[Floats, Floats]:
+def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None = None) -> tuple[Floats, Floats]:
     """Mass and stiffness of small motions with the drives held.
 
     Parameters
     ----------
-    model : FlexibleModel
+    model : Equations
     drives : array_like, shape (channels,) or (channels, 1)
         Value of each of the model's channels.
     about : ndarray, shape (coordinates,), optional
@@ -88,29 +89,7 @@ def linear_matrices(model: FlexibleModel, drives: ArrayLike, *, about: Floats | 
     return mass, stiffness
 
 
-def fastest_vibration(model: FlexibleModel) -> float:
-    """Highest angular frequency of a crane without load, its trolley at the tower, its drive at its stiffest [rad/s].
-
-    A load can only lower it, by its inertia along the rope, and so does the trolley further out, but for one per
-    cent where that hardly moves.
-    """
-    from scipy.linalg import eigh
-
-    if not model.coordinates:
-        return 0.0
-    inputs = np.zeros((len(model.channels), 3))
-    inputs[1, 0] = 1.0
-    n = model.coordinates
-    # Only the lower triangle is there, and read.
-    mass = model.at_rest(np.zeros(n), inputs)[MASS : MASS + n, :n]
-    stiffness = model.system.matrices[layout.STIFFNESS].copy()
-    if model.drive is not None:
-        turned = model.parts["slewing"].start
-        stiffness[turned, turned] += max(model.drive.soft, model.drive.stiff)
-    return float(np.sqrt(max(eigh(stiffness, mass, eigvals_only=True)[-1], 0.0)))
-
-
-def reciprocal_modes(model: FlexibleModel, mass: Floats, stiffness: Floats) -> tuple[Floats, Floats]:
+def reciprocal_modes(model: Equations, mass: Floats, stiffness: Floats) -> tuple[Floats, Floats]:
     """Angular frequencies, ascending [rad/s], and shapes of unit elastic energy in the columns.
 
     Raises
@@ -120,8 +99,6 @@ def reciprocal_modes(model: FlexibleModel, mass: Floats, stiffness: Floats) -> t
     """
     from scipy.linalg import eigh
 
-    from towercrane.cranes.tower.model import TOWER_BUCKLED
-
     if np.linalg.eigvalsh(stiffness).min() <= 0.0:
         raise NoEquilibrium(TOWER_BUCKLED, model.buckling_message())
     # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is.
@@ -130,13 +107,13 @@ def reciprocal_modes(model: FlexibleModel, mass: Floats, stiffness: Floats) -> t
 
 
 def natural_modes(
-    model: FlexibleModel, trolley_position: float, rope_length: float, slewing_angle: float = 0.0
+    model: Equations, trolley_position: float, rope_length: float, slewing_angle: float = 0.0
 ) -> list[NaturalMode]:
     """Small motions about the equilibrium in still air, drives held; ascending by frequency.
 
     Parameters
     ----------
-    model : FlexibleModel
+    model : Equations
         With a load in space.
     trolley_position, rope_length : float
         [m]
@@ -169,7 +146,7 @@ def natural_modes(
     return found
 
 
-def _head_frame(model: FlexibleModel, heading: float) -> Floats:
+def _head_frame(model: Equations, heading: float) -> Floats:
     """Orthogonal matrix that turns what is given along x and y into along and across the jib."""
     n, parts = model.coordinates, model.parts
     frame = np.eye(n + 2)
@@ -186,7 +163,7 @@ def _head_frame(model: FlexibleModel, heading: float) -> Floats:
     return frame
 
 
-def _rows(model: FlexibleModel) -> dict[str, list[int]]:
+def _rows(model: Equations) -> dict[str, list[int]]:
     n = model.coordinates
     at = {kind: list(range(*rows.indices(n))) for kind, rows in model.parts.items()}
     groups = (

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.tower.kernels.layout import TENSION as TENSION_GUARD
-from towercrane.simulation.integrate import phase_of
 from towercrane.simulation.lanes.advance import JIB_TIP, OUTPUTS, SWING, TENSION, TOWER_TIP
 from towercrane.simulation.lanes.queue import FINISHED, LARGEST, SMALLEST, WAITING, WRITTEN
+from towercrane.simulation.trajectory import phase_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

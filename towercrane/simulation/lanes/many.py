@@ -15,12 +15,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.tower.kernels.lane_rhs import rhs
-from towercrane.cranes.tower.planar import TOWER_BUCKLED
 from towercrane.kernels.vector import LANES
 from towercrane.simulation.arguments import check_times, check_tolerances
 from towercrane.simulation.directions import restore_rows
 from towercrane.simulation.energy_balance import NOT_CONSERVED
-from towercrane.simulation.integrate import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, phase_of
 from towercrane.simulation.lanes.advance import OUTPUTS, advance
 from towercrane.simulation.lanes.ends import record_ends
 from towercrane.simulation.lanes.energy import off_balance
@@ -41,8 +39,10 @@ from towercrane.simulation.lanes.queue import (
 from towercrane.simulation.lanes.queue import COLLAPSED as COLLAPSED_CODE
 from towercrane.simulation.lanes.queue import FINISHED as FINISHED_CODE
 from towercrane.simulation.lanes.queue import NOT_FINITE as NOT_FINITE_CODE
+from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
 from towercrane.simulation.tableaus import TABLEAUS, Tableau
+from towercrane.simulation.trajectory import phase_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -11,7 +11,7 @@ import numpy as np
 
 from modal import Beam, Chain, chain_frequencies, chain_structure
 from modal.structures.influence import EFFECTS, Effect, Influence, effects_of, influence, keeping
-from modal.structures.structure import Unstable
+from modal.structures.members import Unstable
 from modal.structures.structure_modes import structure_modes
 from towercrane.cranes.tower.file.build import as_chain, laced_column, tower_of, with_end_body
 

@@ -1,0 +1,172 @@
+"""What moves in a flexible crane with its load: its description, its coordinates and the order of its states."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from modal.checks import check_fields
+from towercrane.cranes.parts.wind import CHANNELS
+from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.frequency_cap import added_mass
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.slewing.description import Drive
+    from towercrane.cranes.tower.modal_crane import FlexibleCrane
+    from towercrane.kernels.payload import Load
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates:
+    """A flexible crane with its load in chosen coordinates.
+
+    Parameters
+    ----------
+    crane : FlexibleCrane
+        With as many modes as are to move; made by :func:`towercrane.cranes.tower.modal_crane.flexible_crane`.
+    load : Load
+    slewing : {"prescribed", "fixed"} or Drive
+        The slewing angle of the head on the tower's top as a motion, at zero, or as a coordinate that a drive with an
+        elastic coupling turns.
+    drive_inertia : float
+        Moment of inertia that turns with the slewing angle and does not tilt [kg m^2]; with a drive only.
+    damping : ModalDamping
+    weight_softening : bool
+        Include the geometric stiffness of the weight above each section of the tower.
+    self_weight : bool
+        Whether the structure has weight; without it only trolley and load do.
+    rope_as_rod : bool
+        Let the rope push, as most published models do. Without it a slack rope ends the run.
+    wind : bool
+        Whether a wind blows, prescribed by motions of its three components.
+    axes : {2, 3}
+        2 for a load that swings in the plane of a jib at rest, 3 in space.
+    cap : float
+        Highest frequency [Hz] of a mode by itself: every mode after a member's second that is faster keeps its
+        stiffness and is made so slow by mass added to its own coordinate (selective mass scaling). The static
+        flexibility stays exact and energy is conserved; what vibrates near the cap or beyond it is not.
+
+    Raises
+    ------
+    ValueError
+        If the cap is not positive, a crane that leaves the plane is asked to stay in it, the slewing is of no known
+        kind, the drive's friction is set-valued, or there is inertia of a drive without a drive.
+    """
+
+    crane: FlexibleCrane
+    load: Load
+    slewing: Literal["prescribed", "fixed"] | Drive = "prescribed"
+    drive_inertia: float = 0.0
+    damping: ModalDamping = field(default_factory=ModalDamping)
+    weight_softening: bool = False
+    self_weight: bool = True
+    rope_as_rod: bool = False
+    wind: bool = False
+    axes: Literal[2, 3] = 3
+    cap: float = np.inf
+
+    def __post_init__(self) -> None:
+        check_fields(self, not_negative=("drive_inertia",))
+        if not isinstance(self.cap, int | float) or not self.cap > 0.0:
+            raise ValueError(f"FlexibleModel.cap: wanted a positive frequency [Hz], got {self.cap!r}")
+        crane = self.crane
+        leaves = crane.planes > 1 or crane.torsion.count or crane.lateral.count or self.slewing != "fixed"
+        if self.axes == 2 and leaves:
+            raise ValueError("FlexibleModel.axes: wanted 3 for a crane that moves out of its plane, got 2")
+        if isinstance(self.slewing, str) and self.slewing not in ("prescribed", "fixed"):
+            raise ValueError(f"FlexibleModel.slewing: wanted 'prescribed', 'fixed' or a Drive, got {self.slewing!r}")
+        if self.drive is None and self.drive_inertia:
+            raise ValueError(f"FlexibleModel.drive_inertia: wanted 0 without a drive, got {self.drive_inertia!r}")
+        if self.drive is not None and self.drive.friction == "stick-slip":
+            raise ValueError("FlexibleModel.slewing: wanted friction 'none' or 'tanh', got 'stick-slip'")
+
+    @property
+    def drive(self) -> Drive | None:
+        """The drive that turns the head, if its angle is a coordinate."""
+        return None if isinstance(self.slewing, str) else self.slewing
+
+    @cached_property
+    def channels(self) -> tuple[str, ...]:
+        """Motions: trolley and rope [m], slewing angle or shaft of its drive [rad], wind [m/s], as there are."""
+        turning: tuple[str, ...] = ("shaft",) if self.drive is not None else ("slewing",)
+        if self.slewing == "fixed":
+            turning = ()
+        return ("trolley", "rope", *turning, *self.value_channels)
+
+    @property
+    def value_channels(self) -> tuple[str, ...]:
+        """Channels that act by their value alone, of which a crane at rest knows the mean: the wind's components."""
+        return CHANNELS if self.wind else ()
+
+    @property
+    def channel_units(self) -> tuple[str, ...]:
+        """Units of the channels."""
+        units = {"trolley": "m", "rope": "m", "slewing": "rad", "shaft": "rad"}
+        return tuple(units.get(channel, "m/s") for channel in self.channels)
+
+    @cached_property
+    def counts(self) -> dict[str, int]:
+        """Number of coordinates of each kind, in the order of the state."""
+        crane = self.crane
+        return {
+            "tower_x": crane.tower.count,
+            "tower_y": crane.tower.count if crane.planes > 1 else 0,
+            "torsion": crane.torsion.count,
+            "slewing": int(self.drive is not None),
+            "jib_lateral": crane.lateral.count,
+            "jib_vertical": crane.vertical.count,
+        }
+
+    @cached_property
+    def parts(self) -> dict[str, slice]:
+        """Where the coordinates of each kind are in the state."""
+        ends = np.cumsum([0, *self.counts.values()])
+        return {kind: slice(int(a), int(b)) for kind, a, b in zip(self.counts, ends[:-1], ends[1:], strict=True)}
+
+    @property
+    def state_names(self) -> dict[str, str]:
+        """Name and unit of every coordinate."""
+        names: dict[str, str] = {}
+        for kind, count in self.counts.items():
+            if kind == "slewing":
+                names |= dict.fromkeys(["slewing_angle"][:count], "rad")
+            else:
+                names |= {f"{kind}_mode_{i + 1}": "kg^0.5 m" for i in range(count)}
+        return names
+
+    @cached_property
+    def coordinates(self) -> int:
+        """Number of structural coordinates."""
+        return sum(self.counts.values())
+
+    @property
+    def size(self) -> int:
+        """Number of states: coordinates and rope direction with their rates, and the work done."""
+        return 2 * (self.coordinates + self.axes) + 1
+
+    @cached_property
+    def angular_frequencies(self) -> Floats:
+        """Of each coordinate's mode by itself [rad/s], zero for the slewing angle; shape (coordinates,)."""
+        crane, counts = self.crane, self.counts
+        tower = np.asarray(crane.tower.angular_frequencies)
+        return np.concatenate([
+            tower,
+            tower[: counts["tower_y"]],
+            crane.torsion.angular_frequencies,
+            np.zeros(counts["slewing"]),
+            crane.lateral.angular_frequencies,
+            crane.vertical.angular_frequencies,
+        ])  # fmt: skip
+
+    @cached_property
+    def added_mass(self) -> Floats:
+        """Mass that the cap adds to each coordinate, whose own is 1; shape (coordinates,)."""
+        order = np.concatenate([np.arange(count) for count in self.counts.values()])
+        return added_mass(self.angular_frequencies, order, self.cap)

@@ -1,0 +1,15 @@
+"""How a run can end, in the words of its results."""
+
+from __future__ import annotations
+
+FINISHED = "finished"
+INTERRUPTED = "interrupted"
+
+STALLED = "switching without progress"
+COLLAPSED = "step size collapsed"
+NOT_FINITE = "state not finite"
+
+SLACK_ROPE = "slack rope"
+TROLLEY_OFF_JIB = "trolley off the jib"
+TOWER_BUCKLED = "tower buckled"
+UNSTABLE = "no stable equilibrium"
