@@ -254,7 +254,7 @@ def figures(
     """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
     folder_for_results(out)
     announce_compilation("radial", "runs")
-    from towercrane.report.plots import radial
+    from towercrane.report.plots.runs import radial
     from towercrane.simulation.simulate import run_case
 
     conditions = {}
@@ -271,25 +271,25 @@ def figures(
 def _pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
     """Pictures of a run, as its kind of crane has them."""
     if case.kind == "radial":
-        from towercrane.report.plots import radial
+        from towercrane.report.plots.runs import radial
 
         return {**radial.run_pictures(result), "modes.png": _mode_picture(case)}
     if case.kind == "jib":
-        from towercrane.report.plots import jib
+        from towercrane.report.plots.runs import jib
 
         return dict(jib.run_pictures(result))
     if case.kind == "space":
-        from towercrane.report.plots import space
+        from towercrane.report.plots.runs import space
 
         return dict(space.run_pictures(result))
-    from towercrane.report.plots import slewing
+    from towercrane.report.plots.runs import slewing
 
     return dict(slewing.run_pictures(result))
 
 
 def _mode_picture(case: Case) -> Any:
     from towercrane.cases.assumptions import as_notes
-    from towercrane.report.plots import radial
+    from towercrane.report.plots.runs import radial
 
     crane, count = case.radial_crane(), case.modes.count
     notes = as_notes(a for a in case.rests_on if a.key.startswith("crane."))

@@ -7,12 +7,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from towercrane.bench import SUBJECTS, lanes, measure, one_hour, rivals, space, workprecision
+from towercrane.bench import SUBJECTS, measure
 from towercrane.bench.clock import Timing, difference, interleaved
-from towercrane.bench.growth import exponent
-from towercrane.bench.plain import model_states, plain_rhs, plain_state
-from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene, space_scene
-from towercrane.bench.stability import failure_map
+from towercrane.bench.rivals import solvers as rivals
+from towercrane.bench.rivals import workprecision
+from towercrane.bench.runs import lanes, one_hour, space
+from towercrane.bench.runs.growth import exponent
+from towercrane.bench.runs.stability import failure_map
+from towercrane.bench.scenes.plain import model_states, plain_rhs, plain_state
+from towercrane.bench.scenes.prepared import jib_scene, lumped_scene, radial_scene, space_scene
 from towercrane.cases.case import load_case
 from towercrane.cases.models import radial_model
 from towercrane.commands import linearise as studies
@@ -48,7 +51,7 @@ def test_plain_equations_are_the_compiled_ones_at_random_states():
 
 def test_expressions_are_the_plain_equations_at_random_states(short):
     heyoka = pytest.importorskip("heyoka")
-    from towercrane.bench import taylor
+    from towercrane.bench.rivals import taylor
 
     names = [f"y{i}" for i in range(len(short.plain.start))]
     states = heyoka.make_vars(*names)
@@ -100,7 +103,7 @@ def test_failures_and_absent_packages_stand_in_the_table(short, monkeypatch):
     assert own[-1]["error"] < 1e-8 < 1e-4 < own[0]["error"] < 1e-2
     assert subject["within"]["cpu_seconds"]["towercrane dop853"] > 0.0
     assert "weak" not in subject["within"]["cpu_seconds"]
-    from towercrane.report.plots.bench import pictures
+    from towercrane.report.plots.bench.work import pictures
 
     assert set(pictures({"subjects": [subject]})) == {"radial.png"}
 
@@ -162,13 +165,13 @@ def test_one_hour_shows_what_was_measured(monkeypatch):
         assert 1e-13 < abs(record["change"]) < 1e-4
     row = next(row for row in table["rows"] if row[0] == "scipy-radau")
     assert row[2:] == ["-", "-"]
-    from towercrane.report.plots.bench import pictures
+    from towercrane.report.plots.bench.work import pictures
 
     assert set(pictures({"subjects": [table]})) == {"one-hour.png"}
 
 
 def test_many_runs_stand_in_a_report_under_their_name(monkeypatch):
-    from towercrane.report.plots.bench import pictures
+    from towercrane.report.plots.bench.work import pictures
 
     monkeypatch.setattr(lanes, "FEW", 16)
     monkeypatch.setattr(lanes, "FEW_ALONE", 2)
@@ -184,8 +187,8 @@ def test_a_report_with_failures_is_json():
 
 
 def test_the_map_shows_what_was_measured_failed_and_left_out(monkeypatch):
-    from towercrane.bench import stability
-    from towercrane.report.plots.bench import pictures
+    from towercrane.bench.runs import stability
+    from towercrane.report.plots.bench.work import pictures
 
     monkeypatch.setattr(stability, "MAP_MODES", ((1, 1), (4, 6)))
     monkeypatch.setattr(stability, "MAP_SPAN", 5.0)

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from modal import chain_frequencies, crane_structure
-from towercrane.bench import structure
-from towercrane.bench.lattice import lattice
-from towercrane.bench.roots import roots
+from towercrane.bench.structures import structure
+from towercrane.bench.structures.lattice import lattice
+from towercrane.bench.structures.roots import roots
 from towercrane.cases.case import load_case
 from towercrane.cranes.tower.file.build import crane_frame
-from towercrane.report.plots.bench import pictures
+from towercrane.report.plots.bench.work import pictures
 
 mp = pytest.importorskip("mpmath")
 

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from towercrane.bench import drawn_events, events
+from towercrane.bench.runs import events
+from towercrane.bench.scenes import drawn_events
 from towercrane.motions.motion import rest
 
 

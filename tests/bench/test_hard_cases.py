@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from towercrane.bench import hard
+from towercrane.bench.runs import hard
 from towercrane.cases.case import CaseError, list_cases, load_case
 from towercrane.runs.summary import expected, summarise
 from towercrane.simulation.simulate import run_case

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from towercrane.cases.case import load_case
 from towercrane.cli import app
-from towercrane.report.plots import film_file
+from towercrane.report.film import file as film_file
 from towercrane.results import files as results
 from towercrane.simulation import simulate
 from towercrane.simulation.simulate import record_case, run_case

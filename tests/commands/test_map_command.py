@@ -120,7 +120,7 @@ def test_crane_without_beams_is_sent_elsewhere():
 def test_pictures_name_units_branches_and_loads():
     from samples.plane_crane import FRAME
 
-    from towercrane.report.plots import frequency_map as pictured
+    from towercrane.report.plots.studies import frequency_map as pictured
     from towercrane.studies.frequency_map import frequency_map
     from towercrane.studies.plane_modes import PlaneCrane
 

@@ -8,7 +8,9 @@ import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 
 from modal import Beam, EndBody, cantilever_modes
-from towercrane.report.plots import jib, radial, sensitivity, slewing, space, style, sweep
+from towercrane.report.plots import style
+from towercrane.report.plots.runs import jib, radial, slewing, space
+from towercrane.report.plots.studies import sensitivity, sweep
 from towercrane.results.recording import Quantity, Recording
 from towercrane.results.spectrum import amplitude_spectrum
 from towercrane.studies.sensitivity import Study

@@ -10,9 +10,9 @@ from PIL import Image
 
 from towercrane.cases.case import load_case
 from towercrane.cases.poses import poses_of
-from towercrane.report.playback import Playback
-from towercrane.report.plots import film_file
-from towercrane.report.plots.film import Film
+from towercrane.report.film import file as film_file
+from towercrane.report.film.film import Film
+from towercrane.report.film.playback import Playback
 from towercrane.simulation.simulate import run_case
 
 BASELINE_VERSION = "3.11."

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from towercrane.report.playback import MOST_FRAMES, Playback, fitting_speed
+from towercrane.report.film.playback import MOST_FRAMES, Playback, fitting_speed
 
 
 def test_frames_are_even_and_end_where_the_span_does():

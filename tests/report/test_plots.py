@@ -8,7 +8,8 @@ import pytest
 from samples.qtz5613 import CONDITIONS, CRANE, model, motions
 
 from modal import cantilever_modes
-from towercrane.report.plots import radial, style
+from towercrane.report.plots import style
+from towercrane.report.plots.runs import radial
 from towercrane.simulation.simulate import simulate
 
 matplotlib.use("Agg")

@@ -9,7 +9,8 @@ from samples.lab_crane import crane, motions
 
 from towercrane.cases.case import load_case
 from towercrane.report.folder import RUN_FILES
-from towercrane.report.plots import jib, sensitivity, slewing, space
+from towercrane.report.plots.runs import jib, slewing, space
+from towercrane.report.plots.studies import sensitivity
 from towercrane.simulation.simulate import run_case, simulate
 
 DEGREES = 180.0 / np.pi

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from samples.qtz5613 import model, motions
 
-from towercrane.bench.free_vibration import FreeVibration
-from towercrane.bench.stability import agrees
+from towercrane.bench.runs.stability import agrees
+from towercrane.bench.scenes.free_vibration import FreeVibration
 from towercrane.cases.case import CaseError, load_case
 from towercrane.runs.summary import summarise
 from towercrane.simulation import drift

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from towercrane.cases.case import load_case
 from towercrane.cli import app
-from towercrane.report.plots.comparison import paths
+from towercrane.report.plots.studies.comparison import paths
 from towercrane.results.measures import departures
 from towercrane.simulation.simulate import record_case, run_case
 from towercrane.studies.comparison import ONE_OF_EACH, OWN, RICHEST, compare, gaps, slowest, variants

@@ -18,7 +18,7 @@ from towercrane.motions.motion import trapezoid
 from towercrane.motions.plans import Move, Plan, Shaping, shaped_motions
 from towercrane.motions.shaping import zv
 from towercrane.report.drive_table import drive_table
-from towercrane.report.plots import shaping as pictured
+from towercrane.report.plots.studies import shaping as pictured
 from towercrane.studies import rest_study
 from towercrane.studies.candidates import Candidate, candidates
 from towercrane.studies.rest_study import RestStudy, Row, Trial, attempt, report, study

@@ -1,4 +1,7 @@
-"""Speed against error, measured on this machine: reference first, runs interleaved, medians quoted."""
+"""Speed against error, measured on this machine: reference first, runs interleaved, medians quoted.
+
+Never imports reports or commands.
+"""
 
 from __future__ import annotations
 
@@ -6,18 +9,18 @@ import os
 import platform
 from typing import TYPE_CHECKING, Any
 
-from towercrane.bench.accuracy import error_controlled
-from towercrane.bench.events import event_runs
-from towercrane.bench.growth import growth
-from towercrane.bench.lattice import lattice
-from towercrane.bench.radial import modes_left_out, right_hand_side
-from towercrane.bench.roots import roots
-from towercrane.bench.scenes import jib_scene, lumped_scene, radial_scene, space_scene
-from towercrane.bench.slewing import right_hand_sides
-from towercrane.bench.space import space_right_hand_sides
-from towercrane.bench.space_accuracy import error_controlled_in_space
-from towercrane.bench.structure import crane_map, stepped_tower
-from towercrane.bench.workprecision import work_precision
+from towercrane.bench.rivals.workprecision import work_precision
+from towercrane.bench.runs.accuracy import error_controlled
+from towercrane.bench.runs.events import event_runs
+from towercrane.bench.runs.growth import growth
+from towercrane.bench.runs.radial import modes_left_out, right_hand_side
+from towercrane.bench.runs.slewing import right_hand_sides
+from towercrane.bench.runs.space import space_right_hand_sides
+from towercrane.bench.runs.space_accuracy import error_controlled_in_space
+from towercrane.bench.scenes.prepared import jib_scene, lumped_scene, radial_scene, space_scene
+from towercrane.bench.structures.lattice import lattice
+from towercrane.bench.structures.roots import roots
+from towercrane.bench.structures.structure import crane_map, stepped_tower
 from towercrane.simulation.simulate import versions
 
 if TYPE_CHECKING:
@@ -90,7 +93,7 @@ def measure(*, quick: bool = False, subject: str = "", say: Callable[[str], None
 
 def _many(repeats: int) -> dict[str, Any]:
     # Imported here: its import compiles.
-    from towercrane.bench.lanes import many_runs
+    from towercrane.bench.runs.lanes import many_runs
 
     return many_runs(repeats)
 

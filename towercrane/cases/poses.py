@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cases.models import SLEWING
-from towercrane.report.playback import ROUND
 from towercrane.results.result_file import entries
 
 if TYPE_CHECKING:
@@ -21,6 +20,9 @@ if TYPE_CHECKING:
     from towercrane.cases.case import Case
 
     Floats = NDArray[np.float64]
+
+ROUND = tuple(factor * 10.0**power for power in range(5) for factor in (1.0, 2.0, 5.0))
+"""Numbers that a reader divides by at sight: 1, 2, 5, 10, ..."""
 
 SHOWN = 0.2
 """Largest deformation that is drawn unasked, of the crane's size."""

@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from towercrane.cases.case import Case
-    from towercrane.report.playback import Playback
-    from towercrane.report.plots.film import Film
+    from towercrane.report.film.film import Film
+    from towercrane.report.film.playback import Playback
 
 MOST_MAGNIFIED = 1e5
 
@@ -131,7 +131,7 @@ def _case_of(path: str, result: xr.Dataset) -> Case:
 def _check_film(out: Path, frames_per_second: float) -> None:
     """Refuse a film that cannot be written before the work, not after it."""
     with held_interrupts():
-        from towercrane.report.plots.film_file import obstacle
+        from towercrane.report.film.file import obstacle
 
     if out.is_dir():
         fail(f"--out {out}: wanted a file, got a folder")
@@ -142,7 +142,7 @@ def _check_film(out: Path, frames_per_second: float) -> None:
 
 def _playback(duration: float, start: str, end: str | None, speed: float | None, rate: float) -> Playback:
     """What is asked for, judged before anything is run."""
-    from towercrane.report.playback import Playback, fitting_speed
+    from towercrane.report.film.playback import Playback, fitting_speed
 
     first, last = _seconds("--from", start), duration if end is None else _seconds("--to", end)
     if first >= duration:
@@ -182,7 +182,7 @@ def _film(source: str, case: Case, result: xr.Dataset, playback: Playback, magni
     """Draw and write the film; messages name its source."""
     with held_interrupts() as ask:
         from towercrane.cases.poses import poses_of
-        from towercrane.report.plots.film import Film
+        from towercrane.report.film.film import Film
         from towercrane.runs.vibration import step_of
 
         try:
@@ -214,7 +214,7 @@ def _film(source: str, case: Case, result: xr.Dataset, playback: Playback, magni
 
 def _save(film: Film, out: Path, playback: Playback, ask: Callable[[], None]) -> None:
     """Write the film, with a progress bar if somebody is looking; ``ask`` ends it after a frame."""
-    from towercrane.report.plots.film_file import save
+    from towercrane.report.film.file import save
 
     def run(progress: Callable[[int], None] = lambda done: None) -> None:
         def after(done: int) -> None:

@@ -60,7 +60,7 @@ def compare(
     report, results = _compared(loaded, accepted)
     files: dict[str, Any] = {"compare.json": json.dumps(report, indent=2, allow_nan=False) + "\n"}
     if pictures:
-        from towercrane.report.plots.comparison import paths
+        from towercrane.report.plots.studies.comparison import paths
 
         files["paths.png"] = paths(report, results)
     write(folder, files)

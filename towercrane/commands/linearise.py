@@ -75,7 +75,7 @@ def sensitivity(
     summary = report(study, loaded)
     files: dict[str, Any] = {"sensitivity.nc": study.data, "sensitivity.json": json.dumps(summary, indent=2) + "\n"}
     if pictures:
-        from towercrane.report.plots import sensitivity as pictured
+        from towercrane.report.plots.studies import sensitivity as pictured
 
         files["ranking.png"] = pictured.ranking(study)
         files |= {f"surface-{name}.png": pictured.surface(study.data, name) for name in names}
@@ -203,7 +203,7 @@ def shape(
         about = {**known, "drive": channel, "motion": chosen.title, "assumed": as_attribute(loaded.rests_on)}
         files[f"drive-{channel}.csv"] = drive_table(chosen.motions[channel], step, unit, about)
     if pictures:
-        from towercrane.report.plots import shaping as pictured
+        from towercrane.report.plots.studies import shaping as pictured
 
         files["residuals.png"] = pictured.residuals(done, loaded.crane.name, notes)
         files["profiles.png"] = pictured.profiles(done, loaded.crane.name, notes)
@@ -269,7 +269,7 @@ def bench(
         folder_for_results(out)
     report = _measured(quick, subject, hard, stability)
     if out is not None:
-        from towercrane.report.plots.bench import pictures
+        from towercrane.report.plots.bench.work import pictures
 
         files = {**pictures(report), "bench.json": json.dumps(_finite(report), indent=2, allow_nan=False) + "\n"}
         write(out, files)
@@ -291,12 +291,12 @@ def _measured(quick: bool, subject: str, hard: bool, stability: bool) -> dict[st
     """What the benchmark was asked for."""
     announce_compilation("radial", "runs")
     if hard:
-        from towercrane.bench.hard import hard_cases
+        from towercrane.bench.runs.hard import hard_cases
 
         found = hard_cases(say)
         return {"subjects": [found], "met": found["met"]}
     if stability:
-        from towercrane.bench import stability as long_run
+        from towercrane.bench.runs import stability as long_run
 
         return long_run.stability(quick=quick, say=say)
     from towercrane.bench import SUBJECTS, measure

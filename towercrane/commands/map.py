@@ -101,7 +101,7 @@ def frequency_map(
         "map.json": json.dumps(report, indent=2) + "\n",
     }
     if pictures:
-        from towercrane.report.plots import frequency_map as pictured
+        from towercrane.report.plots.studies import frequency_map as pictured
 
         files["map.png"] = pictured.frequencies(data)
     if where is not None:
@@ -167,7 +167,7 @@ def _mode_picture(case: Case, frame: CraneFrame, position: float, count: int) ->
     """Picture of the modes with the case's own payload; none if the tower buckles under it."""
     from modal import Unstable
     from towercrane.cases.assumptions import as_notes, rests_on
-    from towercrane.report.plots.frequency_map import shapes
+    from towercrane.report.plots.studies.frequency_map import shapes
     from towercrane.studies.plane_modes import PlaneCrane
 
     try:

@@ -61,7 +61,7 @@ def _pictures(case: Case) -> dict[str, Any]:
     """Modes where the drives stand at the start, none for a tower that buckles, and frequencies over the drives."""
     from towercrane.cases.assumptions import as_notes
     from towercrane.cases.models import space_model
-    from towercrane.report.plots import space_modes as pictured
+    from towercrane.report.plots.studies import space_modes as pictured
     from towercrane.simulation.system import NoEquilibrium
     from towercrane.studies.space_modes import drawn_sweeps, modes_at, modes_rest_on, place_at
 

@@ -78,7 +78,7 @@ def sweep(
     summary = report(data, time.perf_counter() - began)
     files: dict[str, Any] = {"sweep.nc": data, "sweep.csv": runs_csv(data)}
     if pictures:
-        from towercrane.report.plots import sweep as pictured
+        from towercrane.report.plots.studies import sweep as pictured
 
         files |= pictured.extremes(data)
     write(folder, files)

@@ -1,1 +1,1 @@
-"""Pictures that an engineer would print, by kind of crane."""
+"""Pictures that an engineer would print: of runs, of studies, of the benchmark, in one style. Computes no physics."""

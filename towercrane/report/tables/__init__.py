@@ -1,1 +1,1 @@
-"""Reports as tables on the terminal."""
+"""Reports as tables on the terminal. Computes no physics; never imports plots."""

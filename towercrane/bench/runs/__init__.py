@@ -1,0 +1,1 @@
+"""Runs over time: their cost, their errors, what they promise, what breaks them. Never imports bench.structures."""

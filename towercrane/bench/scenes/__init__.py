@@ -1,0 +1,4 @@
+"""What is measured: runs made ready to be solved many times, and scenes drawn by seeded generators.
+
+Never imports who solves them.
+"""

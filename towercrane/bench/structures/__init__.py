@@ -1,0 +1,1 @@
+"""Exact roots, structures and lattices beside finite elements. Never imports bench.runs."""

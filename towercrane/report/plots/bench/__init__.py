@@ -1,0 +1,1 @@
+"""Pictures of the benchmark's reports. Never imports the benchmark."""

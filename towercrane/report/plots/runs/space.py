@@ -1,0 +1,121 @@
+"""Pictures of runs in space: sway, torques, tower top, moments on the base, wind, and the load's path."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from towercrane.report.plots.runs.slewing import path_from_above
+from towercrane.report.plots.style import COLOURS, DASHES, figure_of, footnote, legend, run_title
+from towercrane.runs.summary import assumed
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+DEGREES = 180.0 / np.pi
+
+FEW = 3
+"""Panels that are drawn higher than more of them are."""
+
+
+class Panel(NamedTuple):
+    """One row of a picture: its label with the unit, the factor that brings values to it, and its lines by name."""
+
+    label: str
+    factor: float
+    lines: dict[str, str]
+
+
+SWAY = Panel("sway [deg]", DEGREES, {"sway_radial": "along the jib", "sway_tangential": "across the jib"})
+TORQUE = Panel("torque [kN m]", 1e-3, {"slewing_torque": "slewing drive on the head"})
+TOP = Panel(
+    "tower top [mm]",
+    1e3,
+    {"tower_tip_displacement": "along the jib", "tower_tip_displacement_sideways": "across the jib"},
+)
+TWIST = Panel(
+    "tower top [mrad]", 1e3, {"tower_tip_twist": "twist", "tower_tip_tilt": "tilt", "tower_tip_roll": "roll"}
+)
+TENSION = Panel("rope tension [kN]", 1e-3, {"rope_tension": "rope tension"})
+WIND = Panel("wind [m/s]", 1.0, {"wind_x": "along x", "wind_y": "along y", "wind_z": "up"})
+
+PICTURES: dict[str, tuple[str, tuple[Panel, ...]]] = {
+    "overview.png": (
+        "Run",
+        (
+            Panel("angle [deg]", DEGREES, {"slewing_angle": "head", "shaft_angle": "shaft of its drive"}),
+            Panel("length [m]", 1.0, {"trolley_position": "trolley on the jib", "rope_length": "rope"}),
+            SWAY,
+            TORQUE,
+            TOP,
+            TENSION,
+        ),
+    ),
+    "sway.png": (
+        "Sway of the load",
+        tuple(Panel(f"{where} [deg]", DEGREES, {name: f"sway {where}"}) for name, where in SWAY.lines.items()),
+    ),
+    "torque.png": (
+        "Forces of the drives",
+        (
+            TORQUE,
+            Panel("trolley force [kN]", 1e-3, {"trolley_force": "trolley drive along the jib"}),
+            TENSION,
+        ),
+    ),
+    "tower.png": ("Top of the tower", (TOP, TWIST)),
+    "jib.png": (
+        "Jib",
+        (
+            Panel(
+                "jib tip [mm]",
+                1e3,
+                {"jib_tip_deflection": "up", "jib_tip_deflection_sideways": "in the turning sense"},
+            ),
+            Panel(
+                "jib root [kN m]",
+                1e-3,
+                {"jib_root_moment": "moment under loads", "jib_root_moment_sideways": "moment that turns the jib"},
+            ),
+        ),
+    ),
+    "base.png": (
+        "Moments on the base",
+        (
+            Panel("overturning [kN m]", 1e-3, {"base_moment_x": "about x", "base_moment_y": "about y"}),
+            Panel("torque [kN m]", 1e-3, {"base_torque": "about the vertical"}),
+        ),
+    ),
+}
+"""Title and panels of each picture of a run in space; the wind's is only for one with wind."""
+
+
+def over_time(result: xr.Dataset, title: str, panels: tuple[Panel, ...]) -> Figure:
+    """Panels over time, one below the other; lines that the result does not have drop out."""
+    figure = figure_of(9.0, len(panels) * (2.0 if len(panels) > FEW else 2.8))
+    rows = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
+    for axes, panel in zip(rows, panels, strict=True):
+        shown = [name for name in panel.lines if name in result]
+        for i, name in enumerate(shown):
+            axes.plot(
+                result["time"], panel.factor * result[name], color=COLOURS[i], ls=DASHES[i], lw=1.2,
+                label=panel.lines[name],
+            )  # fmt: skip
+        axes.set_ylabel(panel.label)
+        axes.grid(axis="y", color="0.9", lw=0.6)
+        legend(axes)
+    rows[-1].set_xlabel("time [s]")
+    figure.suptitle(f"{title}, {run_title([result])}", fontsize=10)
+    footnote(figure, assumed(result))
+    return figure
+
+
+def run_pictures(result: xr.Dataset) -> dict[str, Figure]:
+    """All pictures of one run by file name."""
+    chosen = PICTURES | ({"wind.png": ("Wind", (WIND,))} if "wind_x" in result else {})
+    return {
+        **{name: over_time(result, title, panels) for name, (title, panels) in chosen.items()},
+        "path.png": path_from_above([result]),
+    }
