@@ -32,6 +32,12 @@ def test_derivatives_of_smooth_sharp_and_kinked_functions():
     assert np.all(abs(values - expected) <= 100 * errors + 1e-11 * np.max(np.abs(expected), axis=1)[:, None])
 
 
+def test_a_slope_as_narrow_as_the_smallest_steps_is_resolved():
+    width, at = 5e-5, 1.5e-5
+    values, _ = jacobian(lambda x: np.tanh(x / width), np.array([at]), np.array([1.0]))
+    assert_allclose(values, [[(1.0 - np.tanh(at / width) ** 2) / width]], rtol=3e-8)
+
+
 # --- files and wrong arguments -------------------------------------------------------------------------
 
 

@@ -294,6 +294,24 @@ def test_models_beside_each_other(capsys):
     assert "no model but the richest is within 0.05: give the case more modes" in lines
 
 
+def test_the_recommended_model_alone_is_bold(capsys, monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    row = {
+        "modes": {"tower_modes": 0}, "outcome": "finished", "sway": {}, "slewing_torque_nm": None,
+        "tower_tip_m": 0.0391, "horizontal_error_m": 0.021, "vertical_error_m": 0.77, "relative_error": 0.0456,
+        "evaluations": 987, "cpu_seconds": 0.126,
+    }  # fmt: skip
+    comparison_tables(
+        {
+            "kind": "radial", "crane": "Some crane", "title": "Some title", "case": "some/case", "recommended": "two",
+            "rows": [{"name": name, **row} for name in ("one", "two", "three")], "kinds_of_modes": ["tower"],
+            "departure_m": 0.8123, "reasons": [], "target": 0.05, "needed": [], "assumed": [],
+        }
+    )  # fmt: skip
+    rows = [line for line in capsys.readouterr().out.splitlines() if "987" in line]
+    assert ["\x1b[1m" in row for row in rows] == [False, True, False]
+
+
 def test_modes_in_space(capsys):
     shares = {"radial": 0.25, "torsion": 0.75}
     mode = {"kind": "lateral sway", "frequency_hz": 0.1234567, "relative_difference": 2e-4, "energy_shares": shares}

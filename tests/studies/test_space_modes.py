@@ -171,6 +171,14 @@ def test_pictures_show_units_kinds_and_assumptions(case):
     assert len(shown) == 6
     assert all("[m]" in axes.get_ylabel() and "Hz" in shown[0].get_title() for axes in shown)
     assert "energy" in shown[1].get_title()
+    for side, above in zip(shown[::2], shown[1::2], strict=True):
+        # Grey and coloured lines in turn, then the load; what moves most moves by a known part of the longest length.
+        both = [
+            np.array([line.get_xydata() for line in axes.get_lines()[:-1]], dtype=object) for axes in (side, above)
+        ]
+        moved = [[b - a for a, b in zip(lines[::2], lines[1::2], strict=True)] for lines in both]
+        largest = max(max(abs(up).max(), abs(across).max()) for up, across in zip(*moved, strict=True))
+        assert largest == pytest.approx(pictured.LARGEST * 55.6, rel=1e-9)
     sweeps = {name: rows[::8] for name, rows in drawn_sweeps(case).items()}
     figure = pictured.frequencies(sweeps, "title", notes)
     figure.canvas.draw()
