@@ -13,7 +13,7 @@ from towercrane.cases.case import case_folder, load_case
 from towercrane.cranes.jib.model import JibCrane
 from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.slewing.description import Drive, Spring
-from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.motions.motion import phases, rest, s_curve, smooth_ramps, speed_trapezoid, trapezoid
 from towercrane.motions.shaping import boxes, ei, minimum_jerk, zv, zvd

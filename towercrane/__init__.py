@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from towercrane.cases.case import load_case
-    from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
     from towercrane.cranes.tower.model import FlexibleModel
-    from towercrane.cranes.tower.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.cranes.tower.planar import RadialModel
     from towercrane.kernels.payload import Load
     from towercrane.runs.sweep import sweep
@@ -38,10 +38,10 @@ __version__ = "0.1.0"
 _HOME = {
     "FlexibleModel": "cranes.tower.model",
     "Load": "kernels.payload",
-    "ModeCounts": "cranes.tower.modal_crane",
+    "ModeCounts": "cranes.tower.modes.modal_crane",
     "RadialModel": "cranes.tower.planar",
-    "TowerCrane": "cranes.tower.parameters",
-    "flexible_crane": "cranes.tower.modal_crane",
+    "TowerCrane": "cranes.tower.modes.parameters",
+    "flexible_crane": "cranes.tower.modes.modal_crane",
     "load_case": "cases.case",
     "run_case": "simulation.simulate",
     "sweep": "runs.sweep",

@@ -16,7 +16,7 @@ from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, 
 from towercrane.accuracy.space_scene import SpaceScene, SpaceSetting
 from towercrane.cli import app
 from towercrane.cranes.parts.wind import WindAreas, gusts
-from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, trapezoid
 from towercrane.report.tables.runs import run_tables, verification_tables

@@ -35,7 +35,7 @@ from towercrane.accuracy.space_scene import SpaceScene
 from towercrane.cli import app
 from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.slewing.description import Drive
-from towercrane.cranes.tower.parameters import TowerCrane
+from towercrane.cranes.tower.modes.parameters import TowerCrane
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence, smooth_ramps, trapezoid
 from towercrane.motions.shaping import minimum_jerk

@@ -14,7 +14,7 @@ from towercrane.cases.case import CaseError, case_folder, load_case
 from towercrane.cases.models import model_of
 from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.slewing.description import Drive
-from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.runs.summary import summarise
 from towercrane.simulation.simulate import run_case, simulate
 from towercrane.studies.linear_report import linear_model

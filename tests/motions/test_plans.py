@@ -9,7 +9,7 @@ from samples.case_files import only_fault
 
 from towercrane.cases.case import CaseError, load_case
 from towercrane.cases.models import model_of
-from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
 from towercrane.motions.motion import rest, sequence, trapezoid
 from towercrane.motions.plans import Move, NotSettled, Plan, Shaping, shaped_motions

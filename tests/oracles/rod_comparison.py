@@ -11,8 +11,8 @@ from numpy.polynomial.legendre import leggauss
 from oracles import exact_rods
 from samples import space_crane as space
 
-from towercrane.cranes.tower.kinematics import FlexibleMotion
-from towercrane.cranes.tower.mass_sums import rigid_sums
+from towercrane.cranes.tower.modes.mass_sums import rigid_sums
+from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases, speed_trapezoid, table, trapezoid
 from towercrane.simulation.integrate import integrate
 

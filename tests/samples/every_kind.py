@@ -10,7 +10,7 @@ from towercrane.cranes.jib.model import TORQUES, DrivenJibCrane
 from towercrane.cranes.jib.tracking import TrackingJibCrane
 from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.slewing.description import Drive
-from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import Motion, phases, rest, sequence, trapezoid
 from towercrane.simulation.integrate import evaluate, integrate

@@ -1,7 +1,7 @@
 """The crane of the tests, without a case file: QTZ5613 of Gao et al. (2023), Table 2."""
 
 from modal.beams.beam import Beam
-from towercrane.cranes.tower.parameters import TowerCrane
+from towercrane.cranes.tower.modes.parameters import TowerCrane
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, trapezoid

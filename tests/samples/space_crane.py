@@ -7,8 +7,8 @@ from samples import qtz5613
 
 from modal.beams.beam import Beam
 from modal.beams.torsion import Shaft
-from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
 from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence, speed_trapezoid, trapezoid
 

@@ -10,8 +10,8 @@ from scipy.linalg import eigh
 
 from modal import Chain, EndBody, Foundation, Segment
 from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.equations.small_motions import linear_matrices
 from towercrane.cranes.tower.planar import RadialModel
-from towercrane.cranes.tower.small_motions import linear_matrices
 from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest, smooth_ramps, trapezoid

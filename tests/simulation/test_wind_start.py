@@ -14,7 +14,7 @@ from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
-from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import Motion, phases, rest, trapezoid

@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from samples import space_crane as space
 
-from towercrane.cranes.tower.damping import ModalDamping
-from towercrane.cranes.tower.scaled_torsion import ScaledTorsion
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.scaled_torsion import ScaledTorsion
 from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
 from towercrane.motions.motion import rest
 from towercrane.motions.plans import Move, Plan, Shaping, shaped_motions

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from towercrane.cases.case import load_case
 from towercrane.cases.models import space_model
 from towercrane.cli import app
-from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import rest
 from towercrane.report.plots.studies import space_modes as pictured
 from towercrane.studies.space_modes import Place, drawn_sweeps, modes_at, modes_rest_on, place_at, space_frequencies

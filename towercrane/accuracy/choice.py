@@ -11,7 +11,7 @@ import numpy as np
 from towercrane.accuracy.indicators import drift, vibration
 from towercrane.accuracy.instants import BEYOND, OUTPUTS, RICHEST, SWING, TENSION, nodes_of
 from towercrane.accuracy.scene import AnySetting, Setting
-from towercrane.cranes.tower.frequency_cap import FREE_MODES
+from towercrane.cranes.tower.modes.frequency_cap import FREE_MODES
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.accuracy.instants import SWING, TENSION
-from towercrane.cranes.tower.frequency_cap import added_mass
+from towercrane.cranes.tower.modes.frequency_cap import added_mass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
 from towercrane.accuracy.scene import Setting
-from towercrane.cranes.tower.constants import geometric_stiffness
+from towercrane.cranes.tower.equations.constants import geometric_stiffness
 from towercrane.motions.motion import phases
 from towercrane.results.measures import RADIAL
 

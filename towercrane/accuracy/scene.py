@@ -13,7 +13,7 @@ from towercrane.results.measures import RADIAL
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Case
-    from towercrane.cranes.tower.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.cranes.tower.planar import RadialModel
     from towercrane.kernels.payload import Load
     from towercrane.motions.motion import Motion

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from towercrane.accuracy.scene import Scene
-from towercrane.cranes.tower.damping import ModalDamping
 from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.results.measures import SPACE
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class SpaceScene(Scene[SpaceSetting]):
 
     def model(self, setting: SpaceSetting) -> FlexibleModel:
         """The crane in the setting's coordinates."""
-        from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
+        from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 
         modes = ModeCounts(*setting.counts.values())
         return FlexibleModel(

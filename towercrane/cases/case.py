@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from towercrane.cranes import registry as schema_cases
     from towercrane.cranes.slewing.parameters import SlewingParameters
     from towercrane.cranes.tower.file.tables import Crane
-    from towercrane.cranes.tower.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.kernels.payload import Load
     from towercrane.motions.motion import Motion
     from towercrane.motions.plans import Plan
@@ -278,7 +278,7 @@ class Case:
 
     def crane_on(self, tower: Beam | Chain) -> TowerCrane:
         """The crane of the radial model on a tower that may differ from the case's."""
-        from towercrane.cranes.tower.parameters import TowerCrane
+        from towercrane.cranes.tower.modes.parameters import TowerCrane
 
         crane = self._tower_crane
         return TowerCrane(

@@ -10,7 +10,7 @@ import numpy as np
 from towercrane.accuracy.promise import AS_ASKED
 from towercrane.cases.kinds import TOWER_CRANES
 from towercrane.cases.models import model_of, radial_model, space_model
-from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.results.measures import picked_in
 from towercrane.runs.vibration import vibration
 from towercrane.simulation import drift
@@ -21,7 +21,7 @@ from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Case
-    from towercrane.cranes.tower.small_motions import NaturalMode
+    from towercrane.cranes.tower.equations.small_motions import NaturalMode
     from towercrane.results.recording import Result
 
 TUNED = 0.05

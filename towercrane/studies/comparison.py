@@ -197,8 +197,8 @@ def _row(case: Case, variant: Variant, result: xr.Dataset, richest: xr.Dataset, 
 
 def slowest(case: Case, variant: Variant, result: xr.Dataset) -> dict[str, float]:
     """Lowest natural frequency along and, in space, across the jib where a run ended [Hz]; none if it buckles."""
+    from towercrane.cranes.tower.equations.small_motions import natural_modes
     from towercrane.cranes.tower.model import FlexibleModel
-    from towercrane.cranes.tower.small_motions import natural_modes
 
     model = variant.model(case)
     trolley, rope = (float(result[name][-1]) for name in ("trolley_position", "rope_length"))

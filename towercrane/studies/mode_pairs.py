@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.structures.structure_modes import DEFLECTION
-from towercrane.cranes.tower.small_motions import reciprocal_modes
+from towercrane.cranes.tower.equations.small_motions import reciprocal_modes
 from towercrane.studies.branches import CLEAR
 from towercrane.studies.plane_modes import MEMBERS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.mass_sums import Basis
+    from towercrane.cranes.tower.modes.mass_sums import Basis
     from towercrane.cranes.tower.planar import RadialModel
     from towercrane.studies.plane_modes import PlaneCrane
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.damping import ModalDamping
 from towercrane.cranes.tower.model import FlexibleModel
-from towercrane.cranes.tower.scaled_torsion import ScaledTorsion
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.scaled_torsion import ScaledTorsion
 from towercrane.cranes.tower.sway_frequencies import SwayFrequencies
 from towercrane.motions.motion import Motion, phases, rest
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED

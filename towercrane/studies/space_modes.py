@@ -10,15 +10,15 @@ import numpy as np
 from towercrane.accuracy.space_scene import space_scene_of
 from towercrane.cases.assumptions import as_entries, rests_on
 from towercrane.cases.models import space_model
-from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.simulation.system import NoEquilibrium
 from towercrane.studies.branches import CLEAR
 from towercrane.studies.mode_pairs import BELONGING
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Assumption, Case
+    from towercrane.cranes.tower.equations.small_motions import NaturalMode
     from towercrane.cranes.tower.model import FlexibleModel
-    from towercrane.cranes.tower.small_motions import NaturalMode
 
 RICHER = 2
 """Modes of every kind that the model which shows what the case's leaves out has more."""

@@ -9,8 +9,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from towercrane.cranes.tower.equations.small_motions import NaturalMode
     from towercrane.cranes.tower.model import FlexibleModel
-    from towercrane.cranes.tower.small_motions import NaturalMode
     from towercrane.studies.space_modes import Place
 
     Floats = NDArray[np.float64]

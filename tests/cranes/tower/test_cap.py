@@ -10,8 +10,8 @@ from samples.qtz5613 import model, motions
 
 from towercrane import load_case
 from towercrane.cranes.tower.file.build import as_chain
-from towercrane.cranes.tower.frequency_cap import added_mass
 from towercrane.cranes.tower.kernels import layout
+from towercrane.cranes.tower.modes.frequency_cap import added_mass
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest

@@ -11,9 +11,9 @@ from samples import space_crane as space
 
 from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.slewing.description import Drive
-from towercrane.cranes.tower.damping import ModalDamping
 from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.kernels.layout import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
+from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import Motion
 

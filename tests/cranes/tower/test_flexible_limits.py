@@ -8,12 +8,12 @@ import pytest
 from samples import lab_crane
 
 from towercrane.cranes.slewing.reduce import make_rigid
-from towercrane.cranes.tower.damping import ModalDamping
-from towercrane.cranes.tower.kinematics import FlexibleMotion
-from towercrane.cranes.tower.mass_sums import point_sums, rigid_sums
-from towercrane.cranes.tower.modal_crane import FlexibleCrane
+from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.cranes.tower.model import FlexibleModel
-from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.mass_sums import point_sums, rigid_sums
+from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
+from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.simulation.simulate import simulate

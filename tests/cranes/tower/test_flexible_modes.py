@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from oracles import space_frame
 from samples import space_crane as space
 
-from towercrane.cranes.tower.small_motions import KINDS, linear_matrices, natural_modes
+from towercrane.cranes.tower.equations.small_motions import KINDS, linear_matrices, natural_modes
 from towercrane.kernels.payload import JACOBIAN, MASS
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest

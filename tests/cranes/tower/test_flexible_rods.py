@@ -7,7 +7,7 @@ from oracles.rod_comparison import BRISK, Comparison, stiffer
 from samples import space_crane as space
 from samples.space_crane import standing
 
-from towercrane.cranes.tower.small_motions import natural_modes
+from towercrane.cranes.tower.equations.small_motions import natural_modes
 
 TOP, TROLLEY, LOAD = range(3)
 RADIAL, LATERAL, VERTICAL = range(3)

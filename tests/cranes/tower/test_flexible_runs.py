@@ -13,8 +13,8 @@ from samples.space_crane import manoeuvre, standing
 from modal.beams.beam import Beam
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
-from towercrane.cranes.tower.damping import ModalDamping
-from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import phases, rest, sequence, trapezoid

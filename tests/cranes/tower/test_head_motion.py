@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from towercrane.cranes.tower.head_motions import head_motion
 from towercrane.cranes.tower.kernels.head import NEARLY_UPRIGHT
+from towercrane.cranes.tower.outputs.head_motions import head_motion
 
 SIZES = (0.01, 0.99 * NEARLY_UPRIGHT**0.5, 1.01 * NEARLY_UPRIGHT**0.5, 0.5)
 

@@ -8,8 +8,8 @@ from samples import space_crane as space
 
 from modal.beams.shapes import cantilever_modes
 from modal.beams.torsion import Shaft, torsion_modes
-from towercrane.cranes.tower.mass_sums import point_sums, rigid_sums, uniform_sums
-from towercrane.cranes.tower.shape_table import shape_table
+from towercrane.cranes.tower.modes.mass_sums import point_sums, rigid_sums, uniform_sums
+from towercrane.cranes.tower.modes.shape_table import shape_table
 
 FIELDS = ("mass", "moment", "pitch", "yaw", "first", "second", "products")
 JIB = space.CRANE.jib

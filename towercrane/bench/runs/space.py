@@ -7,8 +7,8 @@ from typing import Any
 from towercrane.bench.evaluations import Instant, evaluations
 from towercrane.bench.scenes.prepared import SPACE
 from towercrane.cases.case import load_case
-from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
 from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 from towercrane.motions.motion import phases
 
 EVALUATIONS = 20_000

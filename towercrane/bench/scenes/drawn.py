@@ -13,7 +13,7 @@ from towercrane.accuracy.space_scene import SpaceScene
 from towercrane.bench.scenes.drawn_cranes import any_crane, familiar_crane, in_space, spread
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
-from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, s_curve, sequence, smooth_ramps, table, trapezoid
 from towercrane.motions.shaping import minimum_jerk
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.random import Generator
 
-    from towercrane.cranes.tower.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.motions.motion import Motion
 
 FAMILIAR = 0.25

@@ -10,8 +10,8 @@ from towercrane.bench.clock import whole
 from towercrane.bench.scenes.prepared import unwatched
 from towercrane.cases.case import load_case
 from towercrane.cases.models import radial_model
-from towercrane.cranes.tower.energy import total_energy
-from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.cranes.tower.outputs.energy import total_energy
+from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.drift import ATOL_SHARE
 from towercrane.simulation.integrate import integrate

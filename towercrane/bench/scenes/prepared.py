@@ -10,7 +10,7 @@ import numpy as np
 
 from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, radial_model, space_model
-from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases
 
 if TYPE_CHECKING:

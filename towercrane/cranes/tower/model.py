@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.equations import Equations
+from towercrane.cranes.tower.equations.flexible import Equations
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, eq=False)
 class FlexibleModel(Equations):
     """A flexible crane with its load as a simulation asks for it; its parameters are those of
-    :class:`towercrane.cranes.tower.coordinates.Coordinates`."""
+    :class:`towercrane.cranes.tower.equations.coordinates.Coordinates`."""
 
     def observe(
         self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
     ) -> dict[str, Quantity]:
-        """Outputs over time, see :func:`towercrane.cranes.tower.outputs.observe`."""
-        from towercrane.cranes.tower.outputs import observe
+        """Outputs over time, see :func:`towercrane.cranes.tower.outputs.space.observe`."""
+        from towercrane.cranes.tower.outputs.space import observe
 
         return observe(self, motions, times, states, guards)
 

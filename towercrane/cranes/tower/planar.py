@@ -13,18 +13,18 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from modal.checks import check_fields, whole_number
-from towercrane.cranes.tower.constants import geometric_stiffness
-from towercrane.cranes.tower.damping import ModalDamping
+from towercrane.cranes.tower.equations.constants import geometric_stiffness
+from towercrane.cranes.tower.equations.small_motions import linear_matrices, reciprocal_modes
 from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
 from towercrane.cranes.tower.model import FlexibleModel
-from towercrane.cranes.tower.small_motions import linear_matrices, reciprocal_modes
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.mass_sums import Basis
-    from towercrane.cranes.tower.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.mass_sums import Basis
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.kernels.payload import Load
     from towercrane.motions.motion import Motion
     from towercrane.results.recording import Quantity
@@ -56,7 +56,7 @@ class RadialModel:
     axes : int
         2 for motion in the plane of the jib, 3 for a load that may swing out of it.
     cap : float
-        Highest frequency of a mode [Hz], see :class:`towercrane.cranes.tower.coordinates.Coordinates`.
+        Highest frequency of a mode [Hz], see :class:`towercrane.cranes.tower.equations.coordinates.Coordinates`.
     """
 
     crane: TowerCrane
@@ -147,25 +147,26 @@ class RadialModel:
         return shapes
 
     def with_load(self, load: Load) -> RadialModel:
-        """The same crane with another load, see :meth:`towercrane.cranes.tower.equations.Equations.with_load`."""
+        """The same crane with another load, see
+        :meth:`towercrane.cranes.tower.equations.flexible.Equations.with_load`."""
         other = replace(self, load=load)
         vars(other)["scene"] = self.scene.with_load(load)
         return other
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
-        """State at rest at the start, see :meth:`towercrane.cranes.tower.equations.Equations.start`."""
+        """State at rest at the start, see :meth:`towercrane.cranes.tower.equations.flexible.Equations.start`."""
         return self.scene.start(inputs, state, swing_angle)
 
     def equilibrium(self, inputs: Floats) -> Floats:
         """Coordinates at rest under all weights, see
-        :meth:`towercrane.cranes.tower.equations.Equations.equilibrium`."""
+        :meth:`towercrane.cranes.tower.equations.flexible.Equations.equilibrium`."""
         return self.scene.equilibrium(inputs)
 
     def observe(
         self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
     ) -> dict[str, Quantity]:
-        """Outputs over time, see :func:`towercrane.cranes.tower.planar_outputs.observe`."""
-        from towercrane.cranes.tower.planar_outputs import observe
+        """Outputs over time, see :func:`towercrane.cranes.tower.outputs.plane.observe`."""
+        from towercrane.cranes.tower.outputs.plane import observe
 
         return observe(self.scene, motions, times, states, guards)
 

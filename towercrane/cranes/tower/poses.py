@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cases.poses import Poses, sampled
-from towercrane.cranes.tower.modal_crane import ModeCounts, flexible_crane
+from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.cranes.tower.model import FlexibleModel
-from towercrane.cranes.tower.small_motions import natural_modes
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.planar import RadialModel

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.tower.energy import total_energy
 from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.cranes.tower.outputs.energy import total_energy
+from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import SAME_INSTANT
 from towercrane.simulation.energy_balance import ROUNDING, explained
 from towercrane.simulation.lanes.queue import ACCEPTED

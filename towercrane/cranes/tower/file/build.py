@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from towercrane.cases.case import Case
     from towercrane.cranes.tower.file.tables import Crane
     from towercrane.cranes.tower.file.tower_tables import BeamChoice, Lattice, Section, Tower, TowerSegment
-    from towercrane.cranes.tower.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
 
 TAPER_POWERS = {"legs": (0.0, 2.0, 0.0), "wedge": (1.0, 3.0, 1.0), "cone": (2.0, 4.0, 2.0)}
 """Powers of the breadth that mass, bending and shear stiffness go with where these are stated: four legs that draw

@@ -9,8 +9,8 @@ and
     a = R^T u'' + w' x s + w x (w x s) + 2 w x s' + s''
 
 is its acceleration. Summed over the mass of the jib this leaves products of the mass sums of
-:mod:`towercrane.cranes.tower.mass_sums` with the coordinates, nothing to be integrated. Gao et al. (2023) set the
-coordinates up; the equations are derived anew.
+:mod:`towercrane.cranes.tower.modes.mass_sums` with the coordinates, nothing to be integrated. Gao et al. (2023) set
+the coordinates up; the equations are derived anew.
 """
 
 from __future__ import annotations

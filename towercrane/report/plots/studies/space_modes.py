@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.small_motions import KINDS
+from towercrane.cranes.tower.equations.small_motions import KINDS
 from towercrane.report.plots.style import COLOURS, figure_of, footnote
 from towercrane.studies.space_shapes import crane_lines
 
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from towercrane.cranes.tower.equations.small_motions import NaturalMode
     from towercrane.cranes.tower.model import FlexibleModel
-    from towercrane.cranes.tower.small_motions import NaturalMode
     from towercrane.studies.space_modes import Place
 
 MOST_SHAPES = 8

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from towercrane.cranes.parts.corner import Corner
-from towercrane.cranes.tower.constants import geometric_stiffness, matrices, numbers, scale, vectors
-from towercrane.cranes.tower.coordinates import Coordinates
+from towercrane.cranes.tower.equations.constants import geometric_stiffness, matrices, numbers, scale, vectors
+from towercrane.cranes.tower.equations.coordinates import Coordinates
 from towercrane.cranes.tower.kernels import drive as drive_kernel
 from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.kernels import structure as flexible_kernel
-from towercrane.cranes.tower.shape_table import shape_table
+from towercrane.cranes.tower.modes.shape_table import shape_table
 from towercrane.kernels.payload import FORCE, JACOBIAN, MASS, SLACK, WIND, Load, work_shape
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB

@@ -11,7 +11,7 @@ from towercrane.cranes.tower.kernels import layout
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.kinematics import FlexibleMotion
+    from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 
     Floats = NDArray[np.float64]
 

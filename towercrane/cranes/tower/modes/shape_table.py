@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.mass_sums import Basis
+    from towercrane.cranes.tower.modes.mass_sums import Basis
 
     Floats = NDArray[np.float64]
 

@@ -19,8 +19,8 @@ from towercrane.simulation.integrate import evaluate
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.kinematics import FlexibleMotion
-    from towercrane.cranes.tower.mass_sums import MassSums
+    from towercrane.cranes.tower.modes.mass_sums import MassSums
+    from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 
     Floats = NDArray[np.float64]
 

@@ -12,12 +12,12 @@ from modal.beams.shapes import cantilever_modes
 from modal.beams.torsion import torsion_modes
 from modal.checks import whole_number
 from towercrane.cranes.parts import wind
-from towercrane.cranes.tower.mass_sums import Basis, MassSums, rigid_sums, uniform_sums
+from towercrane.cranes.tower.modes.mass_sums import Basis, MassSums, rigid_sums, uniform_sums
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from towercrane.cranes.tower.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
 
     Floats = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from towercrane.cranes.tower.kernels import layout
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.coordinates import Coordinates
+    from towercrane.cranes.tower.equations.coordinates import Coordinates
 
     Floats = NDArray[np.float64]
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.tower.head_motions import HeadMotion, head_motion
 from towercrane.cranes.tower.kernels import layout
+from towercrane.cranes.tower.outputs.head_motions import HeadMotion, head_motion
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.equations import Equations
-    from towercrane.cranes.tower.mass_sums import MassSums
+    from towercrane.cranes.tower.equations.flexible import Equations
+    from towercrane.cranes.tower.modes.mass_sums import MassSums
     from towercrane.motions.motion import Motion
 
     Floats = NDArray[np.float64]

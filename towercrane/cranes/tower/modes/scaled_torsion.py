@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from towercrane.cranes.tower.modal_crane import TorsionBasis
+    from towercrane.cranes.tower.modes.modal_crane import TorsionBasis
 
     Floats = NDArray[np.float64]
 

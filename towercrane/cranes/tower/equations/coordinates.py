@@ -10,14 +10,14 @@ import numpy as np
 
 from modal.checks import check_fields
 from towercrane.cranes.parts.wind import CHANNELS
-from towercrane.cranes.tower.damping import ModalDamping
-from towercrane.cranes.tower.frequency_cap import added_mass
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.frequency_cap import added_mass
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cranes.slewing.description import Drive
-    from towercrane.cranes.tower.modal_crane import FlexibleCrane
+    from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
     from towercrane.kernels.payload import Load
 
     Floats = NDArray[np.float64]
@@ -30,7 +30,7 @@ class Coordinates:
     Parameters
     ----------
     crane : FlexibleCrane
-        With as many modes as are to move; made by :func:`towercrane.cranes.tower.modal_crane.flexible_crane`.
+        With as many modes as are to move; made by :func:`towercrane.cranes.tower.modes.modal_crane.flexible_crane`.
     load : Load
     slewing : {"prescribed", "fixed"} or Drive
         The slewing angle of the head on the tower's top as a motion, at zero, or as a coordinate that a drive with an

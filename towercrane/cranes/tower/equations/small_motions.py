@@ -16,7 +16,7 @@ from towercrane.simulation.system import NoEquilibrium
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from towercrane.cranes.tower.equations import Equations
+    from towercrane.cranes.tower.equations.flexible import Equations
 
     Floats = NDArray[np.float64]
 

@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.tower.energy import total_energy
 from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.kinematics import FlexibleMotion
+from towercrane.cranes.tower.outputs.energy import total_energy
+from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.results.recording import Quantity
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.equations import Equations
+    from towercrane.cranes.tower.equations.flexible import Equations
     from towercrane.motions.motion import Motion
 
     Floats = NDArray[np.float64]
