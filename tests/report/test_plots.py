@@ -60,6 +60,18 @@ def test_run_without_motion_or_cut_short_is_drawn_too(conditions):
         figure.canvas.draw()
 
 
+def test_peaks_are_named_where_the_spectrum_has_them(conditions):
+    axes = radial.spectrum([conditions[1], conditions[2]]).axes[0]
+    curves = {line.get_color(): line.get_data() for line in axes.get_lines()}
+    assert len(axes.texts) >= 2
+    for name in axes.texts:
+        frequencies, amplitudes = curves[name.get_color()]
+        at, height = name.xy
+        assert name.get_text() == f"{at:.3f} Hz"
+        near = abs(frequencies - at) < 2.0 * frequencies[1]
+        assert height == pytest.approx(amplitudes[near].max(), rel=0.02)
+
+
 @looks_like("modes.png")
 def test_look_of_the_mode_shapes():
     return radial.modes(cantilever_modes(CRANE.tower, 4, CRANE.end_body), cantilever_modes(CRANE.jib, 4), ASSUMED)

@@ -100,6 +100,13 @@ def test_torsion_modes_are_orthonormal_and_fulfil_the_end_condition(ratio):
     assert np.max(abs(balance) / (size * (1.0 + ratio * modes.roots))) < 1e-14
 
 
+def test_torsion_s_arrays_cannot_be_written_to():
+    modes = torsion_modes(SHAFT, 2, 5.0)
+    for array in (modes.roots, modes.amplitudes):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+
+
 def test_torsion_refuses_nonsense():
     with pytest.raises(ValueError, match=r"Shaft.torsional_stiffness: wanted a positive finite number, got 0.0"):
         Shaft(23.8, 400.0, 0.0)

@@ -9,7 +9,7 @@ import pytest
 from oracles.collocation import collocated_crane
 
 from modal.beams.beam import EndBody
-from modal.beams.chain import Chain, Pendulum
+from modal.beams.chain import Chain, Foundation, Pendulum
 from modal.beams.segment import Segment
 from modal.structures.crane_frame import CraneFrame, crane_structure
 from modal.structures.structure_modes import structure_modes
@@ -107,12 +107,26 @@ def test_refused_cranes():
             crane_structure(CRANE, trolley)
     with pytest.raises(ValueError, match="trolley_position: wanted zero or more"):
         crane_structure(replace(CRANE, jib=None), -1.0)
-    with pytest.raises(ValueError, match=r"CraneFrame\.jib: wanted segments and bodies alone"):
-        replace(CRANE, jib=replace(JIB, gravity=9.81))
     with pytest.raises(ValueError, match=r"CraneFrame.tower: wanted no pendulum of its own"):
         replace(CRANE, tower=replace(TOWER, pendulum=Pendulum(800.0, 18.0)))
     with pytest.raises(ValueError, match=r"CraneFrame.payload_mass: wanted a finite number, zero or more, got -1"):
         replace(CRANE, payload_mass=-1.0)
+
+
+@pytest.mark.parametrize("name", ["jib", "counter_jib"])
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"gravity": 9.81},
+        {"axial_load": 1e4},
+        {"pendulum": Pendulum(800.0, 18.0)},
+        {"foundation": Foundation(rotation_stiffness=1e9)},
+    ],
+    ids=lambda more: next(iter(more)),
+)
+def test_jibs_are_segments_and_bodies_alone(name, more):
+    with pytest.raises(ValueError, match=rf"CraneFrame\.{name}: wanted segments and bodies alone"):
+        replace(CRANE, **{name: replace(JIB, **more)})
 
 
 @pytest.mark.parametrize("gap", [1e-6, 1e-4, 1e-2, 0.3])
