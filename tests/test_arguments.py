@@ -12,6 +12,7 @@ from towercrane import Load, ModeCounts, TowerCrane, sweep
 from towercrane.cases.case import case_folder, load_case
 from towercrane.cranes.jib.model import JibCrane
 from towercrane.cranes.parts.wind import WindAreas
+from towercrane.cranes.slewing.build import parameters_of
 from towercrane.cranes.slewing.description import Drive, Spring
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.planar import RadialModel
@@ -28,7 +29,7 @@ OBJECTS = {
     "JibCrane": JibCrane("B", 10.0, 1.0, 20.0, 50.0, 10.0, 40.0),
     "Drive": Drive("x", 1.0, 2.0, 0.1, 0.0),
     "Spring": Spring("x", {}, 1.0),
-    "BasicParameters": load_case("slewing/basic/example-1").lumped_parameters(),
+    "BasicParameters": parameters_of(load_case("slewing/basic/example-1").crane),
 }
 NUMBERS = [
     (name, field.name)

@@ -8,11 +8,12 @@ import pytest
 
 from modal import Beam, EndBody, cantilever_modes
 from towercrane import load_case
-from towercrane.cases.models import slewing_builder
+from towercrane.cases.models import motions_of
 from towercrane.commands.lattice import lattice_report
+from towercrane.cranes.slewing.build import builder_of, parameters_of
 from towercrane.results.measures import gap
+from towercrane.runs.run import record_case
 from towercrane.runs.summary import summarise
-from towercrane.simulation.simulate import record_case
 from towercrane.studies.sensitivity import OUTPUTS, study
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
@@ -110,7 +111,7 @@ def test_what_hardly_matters_to_the_laboratory_crane():
     case = load_case("slewing/basic/example-1")
     vary = ["drive_damping", "damping_jib_lateral", "damping_jib_vertical", "damping_jib_radial", "drag_jib_tip"]
     found = study(
-        case.lumped_parameters(), slewing_builder(case), case.motions, case.run.duration,
+        parameters_of(case.crane), builder_of(case.checked), motions_of(case), case.run.duration,
         vary=vary, percent=[50.0, 100.0, 150.0],
     )  # fmt: skip
     most = {entry["parameter"]: max(entry["near"].values()) for entry in found.influence}

@@ -11,6 +11,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from towercrane.results.versions import __version__ as __version__
+
 if TYPE_CHECKING:
     from towercrane.cases.case import load_case
     from towercrane.cranes.tower.model import FlexibleModel
@@ -18,8 +20,8 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.cranes.tower.planar import RadialModel
     from towercrane.kernels.payload import Load
+    from towercrane.runs.run import run_case
     from towercrane.runs.sweep import sweep
-    from towercrane.simulation.simulate import run_case
 
 __all__ = [
     "FlexibleModel",
@@ -33,8 +35,6 @@ __all__ = [
     "sweep",
 ]
 
-__version__ = "0.1.0"
-
 _HOME = {
     "FlexibleModel": "cranes.tower.model",
     "Load": "kernels.payload",
@@ -43,7 +43,7 @@ _HOME = {
     "TowerCrane": "cranes.tower.modes.parameters",
     "flexible_crane": "cranes.tower.modes.modal_crane",
     "load_case": "cases.case",
-    "run_case": "simulation.simulate",
+    "run_case": "runs.run",
     "sweep": "runs.sweep",
 }
 

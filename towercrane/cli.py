@@ -58,7 +58,7 @@ app.add_typer(cases_app, name="cases")
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from towercrane import __version__
+        from towercrane.results.versions import __version__
 
         tell(f"towercrane {__version__}")
         raise typer.Exit
@@ -177,9 +177,11 @@ def run(
     from towercrane.report.folder import RUN_FILES
 
     folder_for_results(folder, RUN_FILES)
-    announce_compilation(*loaded.uses, "runs")
+    from towercrane.cases.models import uses_of
+
+    announce_compilation(*uses_of(loaded), "runs")
+    from towercrane.runs.run import record_case
     from towercrane.runs.summary import summarise
-    from towercrane.simulation.simulate import record_case
 
     result = with_progress(loaded, record_case)
     interrupted, verified = result.attrs["outcome"] == "interrupted", {}
@@ -255,7 +257,7 @@ def figures(
     folder_for_results(out)
     announce_compilation("radial", "runs")
     from towercrane.report.plots.runs import radial
-    from towercrane.simulation.simulate import run_case
+    from towercrane.runs.run import run_case
 
     conditions = {}
     for number in (1, 2, 3, 4):
@@ -288,11 +290,14 @@ def _pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
 
 
 def _mode_picture(case: Case) -> Any:
-    from towercrane.cases.assumptions import as_notes
+    from towercrane.cases.assumptions import as_notes, rests_on
+    from towercrane.cranes.tower.file.build import radial_crane
+    from towercrane.cranes.tower.file.case_tables import RadialCase
     from towercrane.report.plots.runs import radial
 
-    crane, count = case.radial_crane(), case.modes.count
-    notes = as_notes(a for a in case.rests_on if a.key.startswith("crane."))
+    tables = case.tables(RadialCase)
+    crane, count = radial_crane(tables), tables.modes.count
+    notes = as_notes(a for a in rests_on(case) if a.key.startswith("crane."))
     return radial.modes(crane.tower_modes(count), crane.jib_modes(count), notes)
 
 

@@ -14,7 +14,7 @@ from towercrane.accuracy.instants import OUTPUTS, RICHEST, nodes_of
 from towercrane.accuracy.scene import RadialScene, Setting
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import s_curve, smooth_ramps
-from towercrane.results.measures import Tolerance
+from towercrane.schema.targets import Tolerance
 
 POSITIONS = OUTPUTS[:3]
 SCENE = RadialScene(CRANE, Load(800.0), motions(), 80.0)

@@ -13,10 +13,10 @@ from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, 
 from towercrane.accuracy.scene import Setting
 from towercrane.cli import app
 from towercrane.report.tables.runs import run_tables, verification_tables
-from towercrane.results.measures import Tolerance
+from towercrane.runs.run import run_case
 from towercrane.runs.summary import summarise
 from towercrane.schema.faults import CaseError
-from towercrane.simulation.simulate import run_case
+from towercrane.schema.targets import Tolerance
 
 OPEN, STATED = "qtz5613/within-1e-3", "qtz5613/condition-3"
 SHORT = ["run.duration=60 s"]
@@ -30,7 +30,7 @@ def promised(name, *changes):
 
 def test_a_target_takes_ratios_lengths_and_a_table():
     def targets(text):
-        return load_case(STATED, [f"accuracy.target={text}"]).accuracy.targets
+        return load_case(STATED, [f"accuracy.target={text}"]).checked.accuracy.targets
 
     assert set(targets("1e-3").values()) == {Tolerance(1e-3, relative=True)}
     assert len(targets('"0.1 %"')) == 4

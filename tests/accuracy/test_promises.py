@@ -40,9 +40,10 @@ from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence, smooth_ramps, trapezoid
 from towercrane.motions.shaping import minimum_jerk
 from towercrane.results import files as results
-from towercrane.results.measures import Tolerance, gap, peak
+from towercrane.results.measures import gap, peak
 from towercrane.results.recording import Recording
-from towercrane.simulation.simulate import record_case
+from towercrane.runs.run import record_case
+from towercrane.schema.targets import Tolerance
 
 OPEN = "qtz5613/within-1e-3"
 STEEL = 206e9

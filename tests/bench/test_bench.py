@@ -17,8 +17,9 @@ from towercrane.bench.runs.stability import failure_map
 from towercrane.bench.scenes.plain import model_states, plain_rhs, plain_state
 from towercrane.bench.scenes.prepared import jib_scene, lumped_scene, radial_scene, space_scene
 from towercrane.cases.case import load_case
-from towercrane.cases.models import radial_model
+from towercrane.cases.models import motions_of
 from towercrane.commands import linearise as studies
+from towercrane.cranes.tower.file.build import radial_model
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import METHODS
 
@@ -28,13 +29,13 @@ def short():
     """Condition 3 for six seconds, with a switch point inside."""
     scene = radial_scene(1, 1)
     case = load_case("qtz5613/condition-3")
-    cut = phases((case.trolley_motion(), case.rope_motion()), 10.0)
+    cut = phases((motions_of(case)["trolley"], motions_of(case)["rope"]), 10.0)
     assert len(cut.inputs) == 2
     return dataclasses.replace(scene, cut=cut, grid=np.linspace(0.0, 10.0, 101))
 
 
 def test_plain_equations_are_the_compiled_ones_at_random_states():
-    model = radial_model(load_case("qtz5613/condition-3"))
+    model = radial_model(load_case("qtz5613/condition-3").checked)
     rhs, n, rng = plain_rhs(model), model.coordinates, np.random.default_rng(3)
     inputs = np.array([[5.0, 0.3, 0.05], [12.0, -0.2, 0.03]])
     for _ in range(20):

@@ -8,8 +8,8 @@ import pytest
 
 from towercrane.bench.runs import hard
 from towercrane.cases.case import CaseError, list_cases, load_case
+from towercrane.runs.run import run_case
 from towercrane.runs.summary import expected, summarise
-from towercrane.simulation.simulate import run_case
 
 NAMES = [name for name, _ in list_cases() if name.startswith(hard.FOLDER)]
 LONG = {

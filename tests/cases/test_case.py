@@ -15,7 +15,13 @@ from samples.case_files import CASE, CRANE, only_fault, write_case
 from modal.beams.beam import Beam
 from towercrane.cases import shipped
 from towercrane.cases.case import Assumption, CaseError, Fault, case_folder, list_cases, load_case
-from towercrane.cases.explain import known_keys
+from towercrane.cases.kinds import every_key
+from towercrane.cases.models import motions_of
+from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.tower.file.build import radial_crane
+from towercrane.cranes.tower.file.effects import kept_tower
+from towercrane.cranes.tower.file.members import jib_of, lattice_of
+from towercrane.cranes.tower.file.requests import modes_of
 from towercrane.schema.faults import closest, did_you_mean, shown
 from towercrane.schema.text import leaves, split_provenance
 from towercrane.schema.units import to_si
@@ -36,16 +42,13 @@ def test_values_are_si_and_defaults_hold(write):
     assert case.crane.counter_jib.counterweight == 10e3
     assert (case.crane.gravity, case.crane.source, case.crane.tower.lattice) == (9.81, "", None)
     assert (case.payload.mass, case.payload.rope_damping, case.payload.drag_area) == (800.0, 0.0, 0.0)
-    assert (case.model.tower_modes, case.model.jib_modes, case.model.weight_softening) == (2, 3, False)
-    assert (case.model.tower_damping_ratio, case.model.jib_damping_ratio) == (0.0, 0.0)
+    model, modes = case.checked.model, modes_of(case.checked, motions_of(case)["trolley"])
+    assert (model.tower_modes, model.jib_modes, model.weight_softening) == (2, 3, False)
+    assert (model.tower_damping_ratio, model.jib_damping_ratio) == (0.0, 0.0)
     assert (case.start.state, case.start.swing_angle) == ("equilibrium", 0.0)
     assert (case.run.duration, case.run.output_step) == (60.0, 0.05)
     assert (case.solver.method, case.solver.rtol, case.solver.atol) == ("dop853", 1e-8, 1e-10)
-    assert (case.modes.count, case.modes.trolley_positions, case.modes.elements) == (
-        4,
-        pytest.approx((5.0, 30.0)),
-        32,
-    )
+    assert (modes.count, modes.trolley_positions, modes.elements) == (4, pytest.approx((5.0, 30.0)), 32)
     assert case.assumed == ()
 
 
@@ -76,22 +79,23 @@ elements = 64
     )
     case = load_case(path)
     assert (case.payload.mass, case.payload.rope_damping, case.payload.drag_area) == (800.0, 3.0, 2.0)
-    assert (case.model.tower_modes, case.model.jib_modes, case.model.weight_softening) == (0, 14, True)
-    assert case.model.tower_damping_ratio == pytest.approx(0.02)
-    assert case.model.jib_damping_ratio == 0.01
+    model, modes = case.checked.model, modes_of(case.checked, motions_of(case)["trolley"])
+    assert (model.tower_modes, model.jib_modes, model.weight_softening) == (0, 14, True)
+    assert model.tower_damping_ratio == pytest.approx(0.02)
+    assert model.jib_damping_ratio == 0.01
     assert case.start.swing_angle == pytest.approx(math.radians(-5))
     assert case.start.state == "zero"
     assert case.run.output_step == pytest.approx(0.02)
     assert (case.solver.method, case.solver.rtol, case.solver.atol) == ("scipy-radau", 1e-5, 1e-7)
-    assert (case.modes.count, case.modes.trolley_positions, case.modes.elements) == (6, (5.0, 30.0), 64)
+    assert (modes.count, modes.trolley_positions, modes.elements) == (6, (5.0, 30.0), 64)
     assert case.crane.gravity == pytest.approx(9.81)
 
 
 def test_domain_objects(write):
     case = load_case(write())
-    crane = case.radial_crane()
-    assert crane.tower == case.tower_beam() == Beam(30.0, 300.0, to_si("210 GPa", "Pa"), 0.01)
-    assert crane.jib == case.jib_beam() == Beam(40.0, 100.0, to_si("210 GPa", "Pa"), 0.003)
+    crane = radial_crane(case.checked)
+    assert crane.tower == kept_tower(case.checked) == Beam(30.0, 300.0, to_si("210 GPa", "Pa"), 0.01)
+    assert crane.jib == jib_of(case.crane) == Beam(40.0, 100.0, to_si("210 GPa", "Pa"), 0.003)
     assert (crane.counter_jib_length, crane.counter_jib_mass_per_length) == (10.0, 150.0)
     assert (crane.name, crane.counterweight, crane.trolley_mass, crane.gravity) == (
         "Small",
@@ -99,13 +103,13 @@ def test_domain_objects(write):
         300.0,
         9.81,
     )
-    assert case.load().mass == 800.0
-    trolley, rope = case.trolley_motion(), case.rope_motion()
+    assert load_of(case.payload).mass == 800.0
+    trolley, rope = motions_of(case)["trolley"], motions_of(case)["rope"]
     assert float(trolley(0.0)) == 5.0
     assert float(trolley(8.0, 1)) == pytest.approx(0.8)
     assert trolley.duration == pytest.approx(25 / 0.8 + 8.0)
     assert float(rope(17.0)) == 12.0
-    assert case.lattice() is None
+    assert lattice_of(case.crane) is None
 
 
 def test_an_inline_crane_needs_no_file(write):
@@ -181,13 +185,13 @@ def test_shipped_conditions(number, variant):
     speed, mass, rope = CONDITIONS[number]
     case = load_case(f"qtz5613/condition-{number}{variant}")
     assert case.payload.mass == mass
-    assert case.rope_motion().range() == (rope, rope)
-    assert case.trolley_motion().range() == pytest.approx((5.0, 41.0))
-    cruise = case.trolley_motion()(case.trolley_motion().duration / 2, 1)
+    assert motions_of(case)["rope"].range() == (rope, rope)
+    assert motions_of(case)["trolley"].range() == pytest.approx((5.0, 41.0))
+    cruise = motions_of(case)["trolley"](motions_of(case)["trolley"].duration / 2, 1)
     assert float(cruise) == pytest.approx(speed)
-    assert float(case.trolley_motion()(0.0, 2)) == pytest.approx(0.1)
+    assert float(motions_of(case)["trolley"](0.0, 2)) == pytest.approx(0.1)
     assert (case.run.duration, case.solver.rtol, case.solver.atol) == (120.0, 1e-8, 1e-10)
-    assert (case.model.tower_modes, case.model.jib_modes) == (2, 3)
+    assert (case.checked.model.tower_modes, case.checked.model.jib_modes) == (2, 3)
     states = {"": "equilibrium", "-paper": "zero-no-self-weight", "-zero": "zero"}
     assert case.start.state == states[variant]
     assumed = {a.key for a in case.assumed}
@@ -196,12 +200,12 @@ def test_shipped_conditions(number, variant):
 
 
 def test_shipped_crane_is_the_published_one():
-    crane = load_case("qtz5613/condition-3").radial_crane()
+    crane = radial_crane(load_case("qtz5613/condition-3").checked)
     assert crane.tower == Beam(23.8, 350.0, 206e9, 0.014)
     assert crane.jib == Beam(55.6, 123.8, 206e9, 0.0035)
     assert (crane.counter_jib_length, crane.counter_jib_mass_per_length) == (12.3, 159.3)
     assert (crane.counterweight, crane.trolley_mass) == (15130.0, 350.0)
-    column = load_case("qtz5613/condition-3").lattice()
+    column = lattice_of(load_case("qtz5613/condition-3").crane)
     assert 4 * column.leg_area == pytest.approx(198.8e-4)
     assert column.leg_spacing == pytest.approx(1.68)
 
@@ -289,7 +293,7 @@ VALUES = st.recursive(
 @settings(max_examples=200, deadline=None)
 @given(
     st.sampled_from(["qtz5613/condition-3", "towers/tapered"]),
-    st.sampled_from([*sorted(known_keys()), "x", "crane.x.y", "motion.trolley.start.x"]),
+    st.sampled_from([*sorted(every_key()), "x", "crane.x.y", "motion.trolley.start.x"]),
     VALUES,
 )
 def test_any_value_at_any_key_is_read_or_explained(name, key, value):

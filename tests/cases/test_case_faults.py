@@ -9,8 +9,10 @@ import pytest
 from samples.case_files import SEQUENCE, faults_of, only_fault, with_motion, write_case
 
 from towercrane.cases.case import CaseError, load_case
-from towercrane.cases.explain import known_keys
+from towercrane.cases.kinds import every_key
+from towercrane.cases.models import motions_of
 from towercrane.cases.plausibility import RANGES
+from towercrane.cranes.tower.file.members import lattice_of
 from towercrane.schema.faults import shown
 from towercrane.schema.units import to_si
 
@@ -158,7 +160,7 @@ def test_allowing_an_unknown_key_is_a_fault(write):
 
 
 def test_the_table_of_ranges_is_sound():
-    known = set(known_keys())
+    known = every_key()
     for row in RANGES:
         assert 0.0 < row.low < row.high, row
         for unit in row.likely:
@@ -215,7 +217,7 @@ def test_hoist_keeps_the_load_between_trolley_and_ground(write, end, words):
 
 def test_rope_and_trolley_may_reach_their_limits_exactly(write):
     case = load_case(write(('"30 m"', '"40 m"'), ('"12 m"', '"30 m"'), ('"5 m"', '"0 m"')))
-    assert case.trolley_motion().range() == pytest.approx((0.0, 40.0))
+    assert motions_of(case)["trolley"].range() == pytest.approx((0.0, 40.0))
 
 
 def test_lacing_with_horizontals_needs_them(write):
@@ -224,7 +226,7 @@ def test_lacing_with_horizontals_needs_them(write):
     path = write(crane=[("[jib]", members + "[jib]")])
     fault = only_fault(path)
     assert (Path(fault.file).name, fault.key) == ("crane.toml", "tower.lattice.horizontal_area")
-    column = load_case(path, ["crane.tower.lattice.horizontal_area=8 cm^2"]).lattice()
+    column = lattice_of(load_case(path, ["crane.tower.lattice.horizontal_area=8 cm^2"]).crane)
     assert (column.lacing, column.horizontal_area, column.youngs_modulus) == (
         "N",
         pytest.approx(8e-4),

@@ -7,6 +7,8 @@ import pytest
 from samples.case_files import CASE, CRANE, SEQUENCE, faults_of, only_fault, with_motion, write_case
 
 from towercrane.cases.case import load_case
+from towercrane.cases.models import motions_of
+from towercrane.cranes.tower.file.requests import modes_of
 
 
 @pytest.fixture
@@ -98,8 +100,8 @@ def test_overrides(write):
     assert case.crane.jib.second_moment_of_area == 0.004
     assert case.solver.rtol == 1e-6
     assert case.start.state == "zero"
-    assert case.model.weight_softening is True
-    assert case.modes.trolley_positions == (5.0, 9.0)
+    assert case.checked.model.weight_softening is True
+    assert modes_of(case.checked, motions_of(case)["trolley"]).trolley_positions == (5.0, 9.0)
     assert case.as_written["payload"]["mass"] == "1200 kg"
     assert case.as_written["crane"]["jib"]["second_moment_of_area"] == "0.004 m^4"
 
@@ -114,7 +116,7 @@ def test_an_override_can_exchange_the_crane_and_change_it(write, tmp_path):
 def test_an_override_reaches_into_a_step(write):
     text = SEQUENCE + 'steps = [{ shape = "trapezoid", end = 50, speed = 1, acceleration = 1 }]'
     path = write(case_text=with_motion(text))
-    assert load_case(path, ["motion.trolley.steps.0.end=20"]).trolley_motion().end == pytest.approx(20.0)
+    assert motions_of(load_case(path, ["motion.trolley.steps.0.end=20"]))["trolley"].end == pytest.approx(20.0)
     assert "index below 1" in faults_of(path, "motion.trolley.steps.7=3")[0].wanted
 
 

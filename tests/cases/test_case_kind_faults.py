@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from samples.case_files import BASIC, COMBINED, ENHANCED, HEAVY, MULTI, PLAN, RADIAL, copy_case, faults_of, only_fault
 
 from towercrane.cases.case import CaseError, Fault, load_case
-from towercrane.cases.kinds import known_keys, known_to
+from towercrane.cases.kinds import every_key, known_keys, known_to
 from towercrane.cranes.registry import KINDS
+from towercrane.cranes.slewing.build import parameters_of
 
 
 @pytest.fixture
@@ -208,8 +209,7 @@ def test_a_wrong_kind_refuses_each_foreign_key_with_its_kinds():
 
 
 def test_known_keys_cover_all_kinds():
-    everything = set(known_keys())
-    assert everything == {key for case in KINDS.values() for key in known_keys(case)}
+    assert every_key() == {key for case in KINDS.values() for key in known_keys(case)}
     assert known_to("crane.post.height") == ["jib"]
     assert known_to("payload.mass") == list(KINDS)
 
@@ -222,7 +222,7 @@ VALUES = st.one_of(
 
 
 @settings(max_examples=150, deadline=None)
-@given(st.sampled_from([MULTI, BASIC, ENHANCED, COMBINED]), st.sampled_from(sorted(known_keys())), VALUES)
+@given(st.sampled_from([MULTI, BASIC, ENHANCED, COMBINED]), st.sampled_from(sorted(every_key())), VALUES)
 def test_any_value_at_any_key_is_read_or_explained(case, key, value):
     try:
         load_case(case, [f"{key}={value}"])
@@ -238,4 +238,4 @@ def test_friction_that_sticks_refuses_solvers_that_cannot_switch():
     with pytest.raises(CaseError) as caught:
         load_case("slewing/basic/example-1", changes)
     assert 'wanted: "dop853" or "dopri5" with stick-slip friction' in str(caught.value)
-    assert load_case("slewing/basic/example-1", changes[:1]).lumped_parameters().friction_law == "stick-slip"
+    assert parameters_of(load_case("slewing/basic/example-1", changes[:1]).crane).friction_law == "stick-slip"

@@ -10,6 +10,7 @@ import pytest
 from samples.case_files import MULTI, PLAN, RADIAL, copy_case, only_fault
 
 from towercrane.cases.case import load_case
+from towercrane.cases.models import motions_of
 from towercrane.motions.motion import phases, smooth_ramps, speed_trapezoid, trapezoid
 
 
@@ -78,7 +79,7 @@ def toml(value):
 @pytest.mark.parametrize(("case", "joint"), [(MULTI, "shaft"), (PLAN, "slew")])
 def test_joints_take_every_shape_in_angles(case, joint, shape):
     keys, extent = SHAPES[shape]
-    motion = load_case(case, [f"motion.{joint}={toml({'shape': shape} | keys)}"]).motions[joint]
+    motion = motions_of(load_case(case, [f"motion.{joint}={toml({'shape': shape} | keys)}"]))[joint]
     assert motion.range() == pytest.approx(extent)
 
 
@@ -86,7 +87,7 @@ def test_a_table_of_angles(copied, tmp_path):
     path = copied(PLAN)
     setting = 'motion.slew={ shape = "table", file = "turn.csv" }'
     (tmp_path / "turn.csv").write_text("t,angle\n0,1\n10,2\n20,2.5\n")
-    assert load_case(path, [setting]).motions["slew"].end == pytest.approx(2.5)
+    assert motions_of(load_case(path, [setting]))["slew"].end == pytest.approx(2.5)
     (tmp_path / "turn.csv").write_text("t,angle\n0,0\n10,90\n")
     fault = only_fault(path, setting)
     assert (fault.key, fault.wanted) == ("motion.slew.file", "speeds up to 5 rad/s")
@@ -100,7 +101,7 @@ def test_a_table_of_angles(copied, tmp_path):
 @pytest.mark.parametrize("case", [MULTI, PLAN])
 def test_hoisting_takes_the_new_shapes(case):
     hoist = 'motion.hoist={ shape = "smooth", speed = "-6 m/min", ramp = 1, hold = 4 }'
-    rope = load_case(case, [hoist]).rope_motion()
+    rope = motions_of(load_case(case, [hoist]))["rope"]
     assert float(rope(0.0)) - rope.end == pytest.approx(0.5)
     too_far = hoist.replace("hold = 4", "hold = 400")
     assert "above 0" in only_fault(case, too_far).wanted
@@ -108,5 +109,5 @@ def test_hoisting_takes_the_new_shapes(case):
 
 def test_trolleys_take_the_new_shapes():
     move = 'motion.trolley={ shape = "speed-trapezoid", start = 5, speed = 0.5, ramp = 2, hold = 10 }'
-    assert load_case(RADIAL, [move]).trolley_motion().end == pytest.approx(11.0)
+    assert motions_of(load_case(RADIAL, [move]))["trolley"].end == pytest.approx(11.0)
     assert "a motion from 5 to 66 m" in only_fault(RADIAL, move.replace("hold = 10", "hold = 120")).got

@@ -9,7 +9,14 @@ import pytest
 from samples.case_files import BASIC, COMBINED, ENHANCED, HEAVY, MULTI, PLAN, RADIAL, copy_case, only_fault
 
 from towercrane.cases.case import CaseError, case_folder, list_cases, load_case
+from towercrane.cases.models import motions_of
+from towercrane.cranes.jib.build import parameters_of as jib_parameters
+from towercrane.cranes.jib.tables import JibCase
+from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.slewing.build import parameters_of
 from towercrane.cranes.slewing.parameters import BasicParameters, EnhancedParameters, MultiMassParameters
+from towercrane.cranes.slewing.tables import SlewingCase
+from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
 from towercrane.schema.text import split_provenance
 
 RAMPS = {
@@ -52,17 +59,17 @@ def test_every_kind_ships_and_loads():
 @pytest.mark.parametrize(("kind", "number", "ramp", "hold"), EXAMPLES)
 def test_slewing_examples_are_the_published_ones(kind, number, ramp, hold):
     case = load_case(f"slewing/{kind}/example-{number}")
-    assert set(case.motions) == {"shaft", "rope"}
-    shaft = case.motions["shaft"]
+    assert set(motions_of(case)) == {"shaft", "rope"}
+    shaft = motions_of(case)["shaft"]
     assert shaft.switch_times == pytest.approx([0.0, ramp, ramp + hold, 2 * ramp + hold], rel=1e-15)
     assert shaft.range(1) == pytest.approx((0.0, 0.738), rel=1e-15, abs=1e-15)
     assert (float(shaft(0.0)), shaft.end) == (0.0, pytest.approx(0.738 * (ramp + hold), rel=1e-15))
-    assert case.rope_motion().range() == (2.0, 2.0)
+    assert motions_of(case)["rope"].range() == (2.0, 2.0)
     assert case.crane.geometry.jib_radius == 2.0
     assert case.run.duration == {"multi-mass": 25.0}.get(kind, 18.0 if number == 4 else 14.0)
     assert (case.start.state, case.start.swing_angle) == ("equilibrium", 0.0)
-    assert case.load().mass == 50.5
-    assert case.load().drag == pytest.approx(0.08, rel=1e-15)
+    assert load_of(case.payload).mass == 50.5
+    assert load_of(case.payload).drag == pytest.approx(0.08, rel=1e-15)
 
 
 SHARED = {
@@ -98,7 +105,7 @@ PARAMETERS = {
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_lumped_parameters_are_si_and_complete(name):
     kind, expected = PARAMETERS[name]
-    parameters = load_case(name).lumped_parameters()
+    parameters = parameters_of(load_case(name).crane)
     assert type(parameters) is kind
     assert asdict(parameters) == pytest.approx(expected)
     assert parameters.suspension_height == pytest.approx(2.2)
@@ -112,28 +119,28 @@ JIB = {
 
 
 def test_jib_crane_is_the_published_one_and_its_heavy_sister():
-    assert load_case(PLAN).jib_parameters() == JIB
+    assert jib_parameters(load_case(PLAN).crane) == JIB
     heavy = {
         "name": "Jib crane with heavy booms", "post_height": 12.0, "post_inertia": 2e5,
         "primary_mass_per_length": 200.0, "secondary_mass_per_length": 120.0,
     }  # fmt: skip
-    assert load_case(HEAVY).jib_parameters() == JIB | heavy == load_case(COMBINED).jib_parameters()
+    assert jib_parameters(load_case(HEAVY).crane) == JIB | heavy == jib_parameters(load_case(COMBINED).crane)
 
 
 @pytest.mark.parametrize("name", [PLAN, HEAVY])
 def test_jib_plan_is_the_published_one(name):
     case = load_case(name)
-    luff = case.motions["luff"]
+    luff = motions_of(case)["luff"]
     assert luff.switch_times == pytest.approx([0.0, 20.0, 60.0, 80.0])
     assert luff([0.0, 30.0, 60.0, 80.0], 2) == pytest.approx([0.001, 0.0, -0.001, 0.0], abs=1e-18)
     assert luff.range() == pytest.approx((0.3, 1.5))
-    assert [case.motions[joint].range() for joint in ("slew", "fold")] == [(0.0, 0.0)] * 2
-    assert (case.rope_motion().range(), case.load().mass) == ((20.0, 20.0), 5000.0)
+    assert [motions_of(case)[joint].range() for joint in ("slew", "fold")] == [(0.0, 0.0)] * 2
+    assert (motions_of(case)["rope"].range(), load_of(case.payload).mass) == ((20.0, 20.0), 5000.0)
 
 
 def test_combined_plan_moves_everything():
     case = load_case(COMBINED)
-    assert set(case.motions) == {"slew", "luff", "fold", "rope"}
+    assert set(motions_of(case)) == {"slew", "luff", "fold", "rope"}
     plan = {
         "slew": (0.0, 2.0, 48.0),
         "luff": (0.4, 0.8, 56.0),
@@ -141,7 +148,7 @@ def test_combined_plan_moves_everything():
         "rope": (20.0, 12.0, 59.0),
     }
     for joint, (start, end, duration) in plan.items():
-        motion = case.motions[joint]
+        motion = motions_of(case)[joint]
         assert (float(motion(0.0)), motion.end, motion.duration) == pytest.approx((start, end, duration))
         times = motion.switch_times
         for derivative in (1, 2):  # speed and acceleration do not jump
@@ -162,7 +169,7 @@ def test_crane_files_say_why_values_are_assumed(crane):
 
 
 def test_parameters_refuse_what_is_no_crane():
-    parameters = load_case(MULTI).lumped_parameters()
+    parameters = parameters_of(load_case(MULTI).crane)
     for name, value in [
         ("stiffness_tower_x", 0.0),
         ("mass_jib_tip", -1.0),
@@ -180,29 +187,29 @@ def test_parameters_refuse_what_is_no_crane():
         parameters.gravity = 1.0
 
 
-def test_each_model_is_asked_of_its_own_kind():
+def test_tables_are_asked_of_their_own_kind():
     radial, multi, jib = (load_case(name) for name in (RADIAL, MULTI, PLAN))
+    assert radial.tables(RadialCase) is radial.checked
+    assert multi.tables(SlewingCase) is multi.checked
     calls = [
-        (radial.lumped_parameters, '"multi-mass" or "basic" or "enhanced"', "radial"),
-        (radial.jib_parameters, '"jib"', "radial"),
-        (multi.radial_crane, '"radial"', "multi-mass"),
-        (multi.trolley_motion, '"radial"', "multi-mass"),
-        (jib.lumped_parameters, '"multi-mass"', "jib"),
-        (jib.lattice, '"radial"', "jib"),
-        (lambda: jib.modes, '"radial"', "jib"),
-        (lambda: jib.model, '"radial"', "jib"),
+        (radial, SlewingCase, '"multi-mass" or "basic" or "enhanced"', "radial"),
+        (radial, JibCase, '"jib"', "radial"),
+        (multi, RadialCase, '"radial"', "multi-mass"),
+        (jib, SlewingCase, '"multi-mass"', "jib"),
+        (jib, RadialCase, '"radial"', "jib"),
+        (jib, SpaceCase, '"space"', "jib"),
     ]
-    for call, wanted, got in calls:
+    for case, tables, wanted, got in calls:
         with pytest.raises(CaseError) as caught:
-            call()
+            case.tables(tables)
         (fault,) = caught.value.faults
         assert (fault.key, fault.got) == ("crane.kind", f'"{got}"')
         assert wanted in fault.wanted
 
 
 def test_drag_is_given_as_area_or_as_coefficient():
-    assert load_case(RADIAL, ["payload.drag=0.08 kg/m"]).load().drag == pytest.approx(0.08)
-    assert load_case(RADIAL, ["payload.drag_area=2 m^2"]).load().drag_area == 2.0
+    assert load_of(load_case(RADIAL, ["payload.drag=0.08 kg/m"]).payload).drag == pytest.approx(0.08)
+    assert load_of(load_case(RADIAL, ["payload.drag_area=2 m^2"]).payload).drag_area == 2.0
     fault = only_fault(MULTI, "payload.drag_area=0.1 m^2")
     assert fault.key == "payload.drag"
     assert "drag_area = " in fault.got
@@ -210,7 +217,7 @@ def test_drag_is_given_as_area_or_as_coefficient():
 
 def test_friction_can_be_switched_by_its_law_alone():
     for law in ("none", "stick-slip"):
-        assert load_case(MULTI, [f"crane.friction.law={law}"]).lumped_parameters().friction_law == law
+        assert parameters_of(load_case(MULTI, [f"crane.friction.law={law}"]).crane).friction_law == law
 
 
 def test_friction_may_be_left_out(copied):
@@ -218,4 +225,4 @@ def test_friction_may_be_left_out(copied):
     assert only_fault(path).key == "unread"
     text = path.with_name("crane.toml").read_text()
     path.with_name("crane.toml").write_text(text[: text.index("[unread]")])
-    assert load_case(path).lumped_parameters().friction_law == "none"
+    assert parameters_of(load_case(path).crane).friction_law == "none"

@@ -6,7 +6,9 @@ import pytest
 from samples.case_files import faults_of, only_fault, with_motion, write_case
 
 from towercrane.cases.case import CaseError, load_case
+from towercrane.cases.models import motions_of
 from towercrane.cases.profiles import read_points
+from towercrane.cranes.tower.file.requests import modes_of
 
 
 @pytest.fixture
@@ -19,7 +21,7 @@ def write(tmp_path):
 
 def test_s_curve_and_delay(write):
     text = 'shape = "s-curve"\nstart = 5\nend = 20\nspeed = 0.8\nacceleration = 0.1\njerk = 0.05\ndelay = "4 s"'
-    motion = load_case(write(case_text=with_motion(text))).trolley_motion()
+    motion = motions_of(load_case(write(case_text=with_motion(text))))["trolley"]
     assert float(motion(3.9)) == 5.0
     assert float(motion(5.0, 2)) == pytest.approx(0.05)
     assert motion.end == pytest.approx(20.0)
@@ -27,8 +29,8 @@ def test_s_curve_and_delay(write):
 
 def test_rest_is_where_the_modes_are_shown(write):
     case = load_case(write(case_text=with_motion('shape = "rest"\nstart = "7 m"')))
-    assert case.trolley_motion().range() == (7.0, 7.0)
-    assert case.modes.trolley_positions == (7.0,)
+    assert motions_of(case)["trolley"].range() == (7.0, 7.0)
+    assert modes_of(case.checked, motions_of(case)["trolley"]).trolley_positions == (7.0,)
 
 
 def test_sequence_of_trolley_and_hoist(write):
@@ -41,7 +43,7 @@ steps = [{{ shape = "trapezoid", end = "20 m", {move} }}, {{ shape = "rest", dur
 """
     hoist = f'[motion.hoist]\nshape = "trapezoid"\nend = "20 m"\n{move.replace(", ", chr(10))}\n'
     case = load_case(write(case_text=with_motion(text, hoist)))
-    trolley, rope = case.trolley_motion(), case.rope_motion()
+    trolley, rope = motions_of(case)["trolley"], motions_of(case)["rope"]
     first = 15 / 0.5 + 5
     assert float(trolley(1.0 + first + 12.0)) == pytest.approx(20.0)
     assert float(trolley(1.0 + first + 12.5)) < 20.0
@@ -53,8 +55,8 @@ steps = [{{ shape = "trapezoid", end = "20 m", {move} }}, {{ shape = "rest", dur
 def test_table_from_csv(write, tmp_path):
     (tmp_path / "way.csv").write_text("\ufefftime,position\n0,5\n10,12.5\n\n20,20\n", "utf-8")
     case = load_case(write(case_text=with_motion('shape = "table"\nfile = "way.csv"\ndelay = 2')))
-    assert float(case.trolley_motion()(12.0)) == pytest.approx(12.5)
-    assert case.trolley_motion().end == pytest.approx(20.0)
+    assert float(motions_of(case)["trolley"](12.0)) == pytest.approx(12.5)
+    assert motions_of(case)["trolley"].end == pytest.approx(20.0)
 
 
 CSV_FAULTS = [
@@ -104,13 +106,13 @@ def test_hoist_table_begins_at_the_rope_length(write, tmp_path):
     assert fault.key == "motion.hoist.file"
     assert "rope.length, 12 m" in fault.wanted
     assert "13 m" in fault.got
-    assert load_case(path, ["rope.length=13 m"]).rope_motion().end == pytest.approx(15.0)
+    assert motions_of(load_case(path, ["rope.length=13 m"]))["rope"].end == pytest.approx(15.0)
 
 
 def test_a_table_ends_at_the_jibs_end_and_no_further(write, tmp_path):
     (tmp_path / "way.csv").write_text("t,x\n0,5\n10,39.9\n11,40\n12,40\n")
     path = write(case_text=with_motion('shape = "table"\nfile = "way.csv"'))
-    assert load_case(path).trolley_motion().range() == (5.0, 40.0)
+    assert motions_of(load_case(path))["trolley"].range() == (5.0, 40.0)
     (tmp_path / "way.csv").write_text("t,x\n0,5\n10,39.9\n11,40.5\n12,40\n")
     fault = only_fault(path)
     assert fault.key == "motion.trolley.file"

@@ -7,10 +7,11 @@ from typer.testing import CliRunner
 
 from towercrane.cases.case import CaseError, load_case
 from towercrane.cases.kinds import known_keys
-from towercrane.cases.plausibility import FARTHEST, _rule
+from towercrane.cases.plausibility import _rule
 from towercrane.cli import app
 from towercrane.cranes.registry import KINDS
-from towercrane.simulation.simulate import record_case
+from towercrane.runs.run import record_case
+from towercrane.schema.ranges import FARTHEST
 
 CASES = {
     "radial": "towers/stepped",

@@ -7,11 +7,16 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from towercrane.cases.assumptions import rests_on
 from towercrane.cases.case import load_case
-from towercrane.cases.poses import SHOWN, Poses, poses_of
+from towercrane.cases.poses import poses_of
 from towercrane.cases.result_case import case_of
+from towercrane.cranes.jib.build import parameters_of as jib_parameters
+from towercrane.cranes.parts.poses import SHOWN, Poses
+from towercrane.cranes.slewing.build import parameters_of
+from towercrane.cranes.tower.file.members import jib_of, tower_of
 from towercrane.results import files as results
-from towercrane.simulation.simulate import run_case
+from towercrane.runs.run import run_case
 
 CASES = {
     "radial": ("qtz5613/condition-3", "run.duration=12 s"),
@@ -45,12 +50,12 @@ def rope(poses):
 @pytest.mark.parametrize("kind", CASES)
 def test_load_is_where_the_result_has_it_on_a_rope_as_long_as_it_says(posed, kind):
     case, result, poses = posed[kind]
-    height = case.tower().length if kind in ("radial", "space") else 0.0
+    height = tower_of(case.crane).length if kind in ("radial", "space") else 0.0
     assert_allclose(poses.load - [0.0, 0.0, height], result["payload_position"].values, rtol=0, atol=1e-13)
     if kind == "basic":
         # Its rope stretches: by the load's weight over the stiffness at rest.
         weight = case.payload.mass * case.crane.gravity
-        stiffness = case.lumped_parameters().stiffness_rope
+        stiffness = parameters_of(case.crane).stiffness_rope
         assert_allclose(rope(poses)[0] - result["rope_length"].values[0], weight / stiffness, rtol=1e-9)
     else:
         assert_allclose(rope(poses), result["rope_length"].values, rtol=0, atol=1e-10)
@@ -97,7 +102,7 @@ def test_jib_at_rest_hangs_as_a_cantilever_does():
     case = load_case("qtz5613/condition-3", changes)
     result = run_case(case)
     poses = poses_of(case, result, np.zeros(1))
-    jib, g = case.jib_beam(), case.crane.gravity
+    jib, g = jib_of(case.crane), case.crane.gravity
     ei, length = jib.youngs_modulus * jib.second_moment_of_area, jib.length
     force = (case.payload.mass + case.crane.trolley.mass) * g
     at = float(result["trolley_position"][0])
@@ -111,7 +116,7 @@ def test_jib_at_rest_hangs_as_a_cantilever_does():
 
 def test_multi_mass_crane_hangs_on_its_points(posed):
     case, result, poses = posed["multi-mass"]
-    p = case.lumped_parameters()
+    p = parameters_of(case.crane)
     up = p.suspension_height
     assert_allclose(lengths(poses.undeformed["jib"]), p.geometry_jib_radius, rtol=1e-13)
     assert_allclose(lengths(poses.undeformed["counter-jib"]), p.geometry_counterweight_radius, rtol=1e-13)
@@ -129,7 +134,7 @@ def test_multi_mass_crane_hangs_on_its_points(posed):
 
 def test_jib_crane_is_rigid(posed):
     case, result, poses = posed["jib"]
-    p, angles = case.jib_parameters(), result["joint_angle"].values
+    p, angles = jib_parameters(case.crane), result["joint_angle"].values
     assert poses.deformation == 0.0
     assert poses.fitting_magnification() == 1.0
     assert_allclose(lengths(poses.members["booms"]), p["primary_length"] + p["secondary_length"], rtol=1e-13)
@@ -174,7 +179,7 @@ def test_finished_result_gives_the_same_poses_as_its_case(posed, kind, tmp_path)
     read = results.load(tmp_path / "result.nc")
     found = case_of(read)
     assert (found.kind, found.name, found.title) == (case.kind, case.name, case.title)
-    assert found.rests_on == case.rests_on
+    assert rests_on(found) == rests_on(case)
     again = poses_of(found, read, poses.times)
     for name, line in poses.members.items():
         assert np.array_equal(again.members[name], line)

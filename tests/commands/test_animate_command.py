@@ -11,8 +11,8 @@ from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.report.film import file as film_file
 from towercrane.results import files as results
+from towercrane.runs.run import record_case, run_case
 from towercrane.simulation import simulate
-from towercrane.simulation.simulate import record_case, run_case
 
 CASE = "qtz5613/condition-3"
 SHORT = ("--set", "run.duration=3 s")

@@ -12,6 +12,7 @@ from numba import types
 import modal
 from modal.compiler import compiled, folder
 from towercrane.cases.case import load_case
+from towercrane.cases.models import uses_of
 from towercrane.kernels.compilation import KERNELS, compile_kernels, missing_kernels
 
 TOP = Path(modal.__file__).parents[1]
@@ -60,7 +61,7 @@ def test_all_modules_of_kernels_are_there():
 )
 def test_a_case_names_what_its_crane_needs(name, uses):
     case = load_case(name, [])
-    assert set(case.uses) == uses <= set(KERNELS)
+    assert set(uses_of(case)) == uses <= set(KERNELS)
 
 
 def test_what_is_compiled_here_or_beside_is_missing_no_more(tmp_path, monkeypatch):

@@ -9,7 +9,7 @@ from oracles.pendulums import Pendulum
 from samples import qtz5613
 
 from towercrane.cases.case import load_case
-from towercrane.cases.models import model_of
+from towercrane.cases.models import model_of, motions_of
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.directions import restore, restore_rows
 from towercrane.simulation.integrate import METHODS, integrate
@@ -106,7 +106,7 @@ def test_every_method_keeps_the_rope_s_length_between_its_steps_too(method):
 def test_every_crane_s_ropes_are_directions(name):
     case = load_case(name)
     model = model_of(case)
-    cut = phases(tuple(case.motions[channel] for channel in model.channels), 3.0)
+    cut = phases(tuple(motions_of(case)[channel] for channel in model.channels), 3.0)
     start = model.start(cut.inputs[0], "equilibrium", 0.4)
     run = integrate(model.system, cut, start, np.linspace(0.0, 3.0, 50), rtol=1e-4, atol=1e-6)
     assert len(model.system.directions) == 1

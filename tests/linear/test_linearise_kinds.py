@@ -6,11 +6,12 @@ from numpy.testing import assert_allclose
 from samples.lab_crane import PARAMETERS, crane
 
 from towercrane.cases.case import load_case
-from towercrane.cases.models import model_of
+from towercrane.cases.models import model_of, motions_of
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest, speed_trapezoid
+from towercrane.runs.run import run_case
 from towercrane.runs.summary import summarise
-from towercrane.simulation.simulate import run_case, simulate
+from towercrane.simulation.simulate import simulate
 
 STILL = {"shaft": rest(0.0), "rope": rest(2.0)}
 
@@ -80,7 +81,7 @@ def test_steady_rotation_is_an_equilibrium_of_the_turning_frame():
 
 def test_jib_crane_has_two_equal_sways():
     case = load_case("jib-crane/plan")
-    found = frequencies(linearise(model_of(case), case.motions, outputs=[]))
+    found = frequencies(linearise(model_of(case), motions_of(case), outputs=[]))
     assert_allclose(found, np.sqrt(9.81 / 20.0), rtol=1e-9)
     assert len(found) == 2
 

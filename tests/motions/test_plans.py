@@ -8,7 +8,7 @@ from samples import space_crane as space
 from samples.case_files import only_fault
 
 from towercrane.cases.case import CaseError, load_case
-from towercrane.cases.models import model_of
+from towercrane.cases.models import model_of, motions_of
 from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
 from towercrane.motions.motion import rest, sequence, trapezoid
@@ -134,8 +134,8 @@ def test_case_shapes_for_the_frequency_of_its_own_model(name):
     expected, _ = shape_ramps(
         trapezoid(5.0, 41.0, 0.8, 0.1), [DESIGNS[name](sway("trolley", x, 18.0), 0.0) for x in (X_END[name], 41.0)]
     )
-    assert_allclose(case.trolley_motion().duration, expected.duration, atol=1e-4)
-    assert case.trolley_motion().end == pytest.approx(41.0, abs=1e-12)
+    assert_allclose(motions_of(case)["trolley"].duration, expected.duration, atol=1e-4)
+    assert motions_of(case)["trolley"].end == pytest.approx(41.0, abs=1e-12)
 
 
 X_END = dict.fromkeys(DESIGNS, 12.0)
@@ -144,7 +144,7 @@ X_END = dict.fromkeys(DESIGNS, 12.0)
 
 def test_case_in_space_shapes_slewing_for_two_modes_and_is_calm_then():
     case = load_case("qtz5613/slewing", ["motion.slewing.shape=zvd"])
-    motions = case.motions
+    motions = motions_of(case)
     pair = SwayFrequencies(model_of(case))("slewing", 30.0, 15.0)
     assert_allclose(pair, [0.1061, 0.1546], atol=1e-4)
     assert_allclose(
@@ -154,36 +154,36 @@ def test_case_in_space_shapes_slewing_for_two_modes_and_is_calm_then():
     assert attempt(model_of(case), motions).residual < 0.0105
     # The wind is a motion too, and none that a shaper changes.
     windy = load_case("qtz5613/gusts-working", ["motion.slewing.shape=zvd", "motion.trolley.shape=zvd"])
-    assert windy.motions["wind_y"] is windy.plans["wind_y"].commanded
-    assert windy.motions["trolley"].duration > windy.plans["trolley"].commanded.duration
+    assert motions_of(windy)["wind_y"] is windy.plans["wind_y"].commanded
+    assert motions_of(windy)["trolley"].duration > windy.plans["trolley"].commanded.duration
 
 
 def test_case_shapes_for_given_frequencies_in_any_kind_of_crane():
     case = load_case(CASE, ["motion.trolley.shape=zvd", 'motion.trolley.frequencies=["0.1 Hz", 0.2]'])
-    assert_allclose(case.trolley_motion().duration, 53.0 + 10.0 + 5.0)
+    assert_allclose(motions_of(case)["trolley"].duration, 53.0 + 10.0 + 5.0)
     single = load_case(CASE, ["motion.trolley.shape=boxes", "motion.trolley.frequencies=125 mHz"])
-    assert_allclose(single.trolley_motion().duration, 61.0)
+    assert_allclose(motions_of(single)["trolley"].duration, 61.0)
     turn = (
         'motion.shaft={start="0 deg", shape="ei", end="60 deg", speed="6 deg/s", acceleration="3 deg/s^2", '
         'frequencies="0.25 Hz"}'
     )
-    shaft = load_case("slewing/basic/example-1", [turn]).motions["shaft"]
+    shaft = motions_of(load_case("slewing/basic/example-1", [turn]))["shaft"]
     assert_allclose([shaft.duration, shaft.end], [12.0 + 4.0, np.pi / 3], rtol=1e-12)
 
 
 def test_case_knows_the_smoothest_motion_and_steps():
     smooth = load_case(CASE, ['motion.trolley={shape="minimum-jerk", start=5, end=41, duration="90 s"}'])
-    assert_allclose(smooth.trolley_motion().range(1), (0.0, 1.875 * 36 / 90), rtol=1e-12)
+    assert_allclose(motions_of(smooth)["trolley"].range(1), (0.0, 1.875 * 36 / 90), rtol=1e-12)
     steps = (
         'motion.trolley={shape="sequence", start=5, delay=3, steps=['
         '{shape="zv", end=20, speed=0.8, acceleration=0.2, frequencies=0.1}, {shape="rest", duration=2},'
         '{shape="minimum-jerk", end=5, duration=40}]}'
     )
-    motion = load_case(CASE, [steps]).trolley_motion()
+    motion = motions_of(load_case(CASE, [steps]))["trolley"]
     assert_allclose(motion.duration, 3 + (15 / 0.8 + 4) + 5 + 2 + 40)
     assert motion.end == pytest.approx(5.0, abs=1e-12)
     hoist = 'motion.hoist={shape="zv", end=12, speed=0.4, acceleration=0.2, frequencies=0.5}'
-    assert_allclose(load_case(CASE, [hoist]).rope_motion().duration, 6 / 0.4 + 2 + 1)
+    assert_allclose(motions_of(load_case(CASE, [hoist]))["rope"].duration, 6 / 0.4 + 2 + 1)
 
 
 def test_what_a_case_cannot_mean_is_refused_by_key():
@@ -212,4 +212,4 @@ def test_case_whose_model_buckles_names_it():
     weak = ["crane.tower.second_moment_of_area=0.00003", "model.weight_softening=true", "motion.trolley.shape=zv"]
     case = load_case(CASE, [*weak, 'allow_implausible=["crane.tower.second_moment_of_area"]'])
     with pytest.raises(CaseError, match="times the weight upon it"):
-        case.motions  # noqa: B018
+        motions_of(case)

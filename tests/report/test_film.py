@@ -13,7 +13,7 @@ from towercrane.cases.poses import poses_of
 from towercrane.report.film import file as film_file
 from towercrane.report.film.film import Film
 from towercrane.report.film.playback import Playback
-from towercrane.simulation.simulate import run_case
+from towercrane.runs.run import run_case
 
 BASELINE_VERSION = "3.11."
 

@@ -11,7 +11,8 @@ from towercrane.cases.case import load_case
 from towercrane.report.folder import RUN_FILES
 from towercrane.report.plots.runs import jib, slewing, space
 from towercrane.report.plots.studies import sensitivity
-from towercrane.simulation.simulate import run_case, simulate
+from towercrane.runs.run import run_case
+from towercrane.simulation.simulate import simulate
 
 DEGREES = 180.0 / np.pi
 NOTE = json.dumps([["crane.mass.jib_tip", "14 kg", "not printed"]])

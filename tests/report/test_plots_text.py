@@ -12,7 +12,7 @@ from towercrane.cases.case import load_case
 from towercrane.cli import _pictures
 from towercrane.report.plots import style
 from towercrane.report.plots.literal import LiteralFigure
-from towercrane.simulation.simulate import run_case
+from towercrane.runs.run import run_case
 
 ODD = ["a $5 \\foo $6", "$$ \\frac{", "$x_1^2$", "_hidden", "x\ny", "中文 кран \u202e \x1b[31m", "%s {} [red] " * 3]
 

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.results import files as results
-from towercrane.simulation.simulate import run_case
+from towercrane.runs.run import run_case
 
 KINDS = {
     "radial": "qtz5613/condition-3",

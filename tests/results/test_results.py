@@ -10,7 +10,8 @@ from samples.qtz5613 import model, motions
 
 from towercrane.cases.case import load_case
 from towercrane.results import files as results
-from towercrane.simulation.simulate import record, record_case, simulate
+from towercrane.runs.run import record_case
+from towercrane.simulation.simulate import record, simulate
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,10 @@ from samples.tower_files import ONE_SEGMENT, SEGMENTS, UNIFORM, write_case
 
 from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Segment, crane_structure
 from towercrane import Load, RadialModel, TowerCrane, load_case, run_case
-from towercrane.cases.models import radial_model
-from towercrane.cranes.tower.file.build import crane_frame
+from towercrane.cases.models import motions_of
+from towercrane.cranes.tower.file.build import crane_frame, radial_crane, radial_model
+from towercrane.cranes.tower.file.effects import kept_tower
+from towercrane.cranes.tower.file.requests import modes_of
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest, trapezoid
 from towercrane.report.tables.modes import modes_tables
@@ -49,11 +51,11 @@ def test_one_segment_is_the_uniform_tower(tmp_path):
     uniform = load_case(write_case(tmp_path, UNIFORM))
     (tmp_path / "segment").mkdir()
     segment = load_case(write_case(tmp_path / "segment", ONE_SEGMENT))
-    assert isinstance(uniform.tower(), Beam)
-    assert isinstance(segment.tower(), Chain)
-    modes = [case.radial_crane().tower_modes(6).angular_frequencies for case in (uniform, segment)]
+    assert isinstance(kept_tower(uniform.checked), Beam)
+    assert isinstance(kept_tower(segment.checked), Chain)
+    modes = [radial_crane(case.checked).tower_modes(6).angular_frequencies for case in (uniform, segment)]
     assert_allclose(modes[1], modes[0], rtol=1e-12)
-    assert_allclose(hertz(crane_frame(segment), 30.0), hertz(crane_frame(uniform), 30.0), rtol=1e-14)
+    assert_allclose(hertz(crane_frame(segment.checked), 30.0), hertz(crane_frame(uniform.checked), 30.0), rtol=1e-14)
     assert largest_difference(run_case(uniform), run_case(segment)) < 1e-9
 
 
@@ -75,9 +77,9 @@ def test_frame_of_a_segmented_tower_is_that_built_by_hand(tmp_path):
     top = {3: EndBody(16.5e3, 150.0 * 10.0**3 / 3 + 10e3 * 10.0**2 + 5000.0 * 11.5e3 / 16.5e3, 5000.0 / 16.5e3)}
     tower = replace(BY_HAND, bodies={**BY_HAND.bodies, **top})
     frame = CraneFrame(tower, Chain((JIB,)), None, 300.0, 800.0, 12.0)
-    assert_allclose(hertz(crane_frame(case), 17.0), hertz(frame, 17.0), rtol=1e-12)
+    assert_allclose(hertz(crane_frame(case.checked), 17.0), hertz(frame, 17.0), rtol=1e-12)
     heavy = replace(frame, tower=replace(tower, gravity=9.81))
-    assert_allclose(hertz(crane_frame(case, weight=True), 17.0), hertz(heavy, 17.0), rtol=1e-12)
+    assert_allclose(hertz(crane_frame(case.checked, weight=True), 17.0), hertz(heavy, 17.0), rtol=1e-12)
 
 
 def test_a_counter_jib_that_bends(tmp_path):
@@ -90,15 +92,16 @@ def test_a_counter_jib_that_bends(tmp_path):
     counter = Chain((Segment(10.0, 150.0, 210e6),), {1: EndBody(10e3)})
     tower = Chain((Segment(30.0, 300.0, 210e7),))
     frame = CraneFrame(tower, Chain((JIB,)), counter, 300.0, 800.0, 12.0)
-    assert_allclose(hertz(crane_frame(case), 17.0), hertz(frame, 17.0), rtol=1e-13)
+    assert_allclose(hertz(crane_frame(case.checked), 17.0), hertz(frame, 17.0), rtol=1e-13)
     # The equations of motion keep it rigid; ever stiffer it comes to that, as one over its stiffness.
     (tmp_path / "rigid").mkdir()
     plain = load_case(write_case(tmp_path / "rigid", UNIFORM))
-    assert case.radial_crane() == plain.radial_crane()
+    assert radial_crane(case.checked) == radial_crane(plain.checked)
     gaps = []
     for inertia in (1e-3, 1, 10):
         stiff = load_case(path, [f"crane.counter_jib.second_moment_of_area={inertia}"])
-        gaps.append(abs(hertz(crane_frame(stiff), 17.0) / hertz(crane_frame(plain), 17.0) - 1.0).max())
+        found, rigid = (hertz(crane_frame(one.checked), 17.0) for one in (stiff, plain))
+        gaps.append(abs(found / rigid - 1.0).max())
     assert gaps[0] > 0.1
     assert_allclose(gaps[1] / gaps[2], 10.0, rtol=0.02)
 
@@ -106,11 +109,11 @@ def test_a_counter_jib_that_bends(tmp_path):
 def test_the_shipped_laced_tower_is_the_published_crane_on_its_lattice():
     laced = load_case("towers/laced")
     published = load_case("qtz5613/condition-3", ["crane.tower.beam=shear-flexible"])
-    assert replace(laced.radial_crane(), name="QTZ5613") == published.radial_crane()
-    assert laced.motions["trolley"].switch_times == pytest.approx(published.motions["trolley"].switch_times)
+    assert replace(radial_crane(laced.checked), name="QTZ5613") == radial_crane(published.checked)
+    assert motions_of(laced)["trolley"].switch_times == pytest.approx(motions_of(published)["trolley"].switch_times)
     # Lacing as soft as this costs the first mode, which the slewing part's inertia governs, next to nothing.
-    stated = load_case("qtz5613/condition-3").radial_crane().tower_modes(4).frequencies_hz
-    loss = laced.radial_crane().tower_modes(4).frequencies_hz / stated - 1.0
+    stated = radial_crane(load_case("qtz5613/condition-3").checked).tower_modes(4).frequencies_hz
+    loss = radial_crane(laced.checked).tower_modes(4).frequencies_hz / stated - 1.0
     assert_allclose(loss, [-0.0065, -0.1728, -0.4261, -0.5699], atol=1e-4)
 
 
@@ -120,9 +123,9 @@ RIGID = ["crane.counter_jib={length=11, mass_per_length=180, counterweight=10300
 @pytest.mark.parametrize(("name", "rigid"), [("towers/laced", []), ("towers/stepped", []), ("towers/tapered", RIGID)])
 def test_many_modes_of_a_shipped_tower_reach_the_exact_crane(name, rigid):
     case = load_case(name, rigid)
-    position = case.modes.trolley_positions[-1]
-    exact = hertz(crane_frame(case, weight=case.model.weight_softening), position, 5)
-    found = [radial_model(case, **modes).natural_modes(position, case.rope.length)[0][:5] / (2 * np.pi)
+    position = modes_of(case.checked, motions_of(case)["trolley"]).trolley_positions[-1]
+    exact = hertz(crane_frame(case.checked, weight=case.checked.model.weight_softening), position, 5)
+    found = [radial_model(case.checked, **modes).natural_modes(position, case.rope.length)[0][:5] / (2 * np.pi)
              for modes in ({}, {"tower_modes": 10, "jib_modes": 12})]  # fmt: skip
     # Modes that are left out make a crane too stiff, never too soft.
     assert np.all(found[1] / exact > 1.0 - 1e-9)
@@ -144,7 +147,7 @@ def test_shipped_towers_answer_every_question(name, capsys):
     result = run_case(case)
     summary = summarise(case, result)
     assert (summary["outcome"], summary["energy_balance"]["relative_gap"] < 1e-8) == ("finished", True)
-    linear = linearise(radial_model(case), case.motions)
+    linear = linearise(radial_model(case.checked), motions_of(case))
     swing = min(value.frequency for value in linear.eigenvalues() if value.value.imag > 0)
     assert_allclose(swing, report["crane"][0]["frequencies_hz"][0], rtol=3e-6)
     assert len(summary["assumed"]) >= 6

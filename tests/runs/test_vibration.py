@@ -8,10 +8,11 @@ from towercrane import load_case, run_case
 from towercrane.results.measures import gap
 from towercrane.results.recording import Quantity, Recording
 from towercrane.results.spectral_lines import lines
+from towercrane.runs.run import record_case
 from towercrane.runs.summary import peaks, summarise
 from towercrane.runs.sweep import sweep
 from towercrane.runs.vibration import cycles, vibration
-from towercrane.simulation.simulate import LOOK, MOST_LOOKS, looks_per_row, record_case, rows_of
+from towercrane.simulation.simulate import LOOK, MOST_LOOKS, looks_per_row, rows_of
 
 TIMES = np.arange(2401) * 0.05
 CASE, CHANGES = "qtz5613/condition-3", ["run.duration=200 s", "solver.rtol=1e-6", "solver.atol=1e-8"]

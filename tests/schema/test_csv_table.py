@@ -10,12 +10,13 @@ from samples.case_files import RADIAL, only_fault
 from scipy.signal import savgol_filter
 
 from towercrane.cases.case import CaseError, load_case
-from towercrane.cases.table_notices import scatter
+from towercrane.cases.models import motions_of
+from towercrane.cases.table_notices import scatter, table_notices
 from towercrane.cases.wind_file import read_gusts
 from towercrane.motions.motion import table, trapezoid
+from towercrane.runs.run import run_case
 from towercrane.runs.summary import summarise
 from towercrane.schema.csv_table import MOST_BYTES, MOST_ROWS, TIME, Column, read_table
-from towercrane.simulation.simulate import run_case
 
 ANGLE, PARKED, SLEWING = (TIME, Column("value", "rad")), "qtz5613/gusts-parked", "qtz5613/slewing"
 
@@ -119,7 +120,7 @@ def test_of_a_file_that_is_no_case_nothing_is_quoted(tmp_path, text):
 
 def test_a_turn_in_degrees_is_read_and_one_that_no_tower_crane_makes_refused(tmp_path):
     turn = "time [s],slew [{}]\n0,0\n20,25\n40,45\n"
-    motion = load_case(SLEWING, [table_of("slewing", written(tmp_path, turn.format("deg")))]).motions["slewing"]
+    motion = motions_of(load_case(SLEWING, [table_of("slewing", written(tmp_path, turn.format("deg")))]))["slewing"]
     assert_allclose(motion.range(), (0.0, np.pi / 4), rtol=1e-14)
     fault = only_fault(SLEWING, table_of("slewing", written(tmp_path, turn.format("rad"))))
     assert (fault.key, fault.wanted) == ("motion.slewing.file", "speeds up to 0.5 rad/s")
@@ -140,7 +141,7 @@ def test_gusts_at_thirty_a_second_are_read_by_their_own_times(tmp_path, decimals
     assert_allclose(times, np.round(np.arange(4000) / 30, decimals), rtol=1e-15)
     assert_allclose(velocities[:, 1], (np.arange(4000) % 7) / 3.6, rtol=1e-14)
     case = load_case(PARKED, [f"wind.series={path}"])
-    assert_allclose(case.motions["wind_x"](times), velocities[:, 0], rtol=1e-12)
+    assert_allclose(motions_of(case)["wind_x"](times), velocities[:, 0], rtol=1e-12)
     gap = written(tmp_path, "t,x,y,z\n" + "\n".join(rows[:700] + rows[701:]) + "\n")
     fault = only_fault(PARKED, f"wind.series={gap}")
     assert fault.key == "line 702"
@@ -158,14 +159,14 @@ def test_gusts_in_other_columns_and_too_strong_ones(tmp_path):
 def test_a_record_that_ends_before_the_run_is_named(tmp_path):
     path = written(tmp_path, "t,x,y,z\n0,0,36,0\n1,0,38,0\n2,0,40,0\n")
     case = load_case(PARKED, [f"wind.series={path}", "run.duration=3 s"])
-    (notice,) = case.notices
+    (notice,) = table_notices(case)
     assert "the record ends at 2 s; in the 1 s" in notice
     assert "x, y, z = 0, 40, 0 m/s" in notice
     result = run_case(case)
     assert json.loads(result.attrs["notices"]) == [notice]
     assert notice in summarise(case, result)["notices"]
-    assert load_case(PARKED, [f"wind.series={path}", "run.duration=2 s"]).notices == ()
-    assert load_case(PARKED).notices == ()
+    assert table_notices(load_case(PARKED, [f"wind.series={path}", "run.duration=2 s"])) == ()
+    assert table_notices(load_case(PARKED)) == ()
 
 
 # --- motions -------------------------------------------------------------------------------------------
@@ -174,8 +175,8 @@ def test_a_record_that_ends_before_the_run_is_named(tmp_path):
 def test_a_hoist_runs_between_its_points_only(tmp_path):
     text = "t,l\n0,18\n50,18\n51,17.95\n52,17.9\n120,17.9\n"
     case = load_case(RADIAL, [table_of("hoist", written(tmp_path, text))])
-    assert case.motions["rope"].range() == (17.9, 18.0)
-    assert_allclose(case.motions["rope"]([50.0, 51.0, 52.0, 70.0]), [18.0, 17.95, 17.9, 17.9], rtol=1e-15)
+    assert motions_of(case)["rope"].range() == (17.9, 18.0)
+    assert_allclose(motions_of(case)["rope"]([50.0, 51.0, 52.0, 70.0]), [18.0, 17.95, 17.9, 17.9], rtol=1e-15)
 
 
 @pytest.mark.parametrize(("decimals", "named"), [(1, True), (2, True), (5, False)])
@@ -184,14 +185,14 @@ def test_rounding_that_the_drive_feels_is_named_with_a_smoothing_that_mends_it(t
     values = np.round(true(times), decimals)
     rows = "\n".join(f"{t:.1f},{v:.{decimals}f}" for t, v in zip(times, values, strict=True))
     case = load_case(RADIAL, [table_of("hoist", written(tmp_path, f"t,l\n{rows}\n"))])
-    assert bool(case.notices) == named
-    step, size = scatter(case.motions["rope"])
+    assert bool(table_notices(case)) == named
+    step, size = scatter(motions_of(case)["rope"])
     assert_allclose(step, 0.1)
     assert size < 1.6 * 10.0**-decimals / np.sqrt(12.0)
     if not named:
         assert size < 1e-5
         return
-    (notice,) = case.notices
+    (notice,) = table_notices(case)
     assert size > 0.7 * 10.0**-decimals / np.sqrt(12.0)
     span = float(notice.split("each point over ")[1].split(" s")[0])
     count = 2 * round(span / step / 2) + 1

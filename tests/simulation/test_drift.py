@@ -9,10 +9,11 @@ from samples.qtz5613 import model, motions
 from towercrane.bench.runs.stability import agrees
 from towercrane.bench.scenes.free_vibration import FreeVibration
 from towercrane.cases.case import CaseError, load_case
+from towercrane.runs.run import run_case
 from towercrane.runs.summary import summarise
 from towercrane.simulation import drift
 from towercrane.simulation.integrate import METHODS
-from towercrane.simulation.simulate import run_case, simulate
+from towercrane.simulation.simulate import simulate
 
 CASE = "qtz5613/condition-3"
 

@@ -12,12 +12,13 @@ from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.cranes.tower.kernels import layout
 from towercrane.motions.motion import phases
+from towercrane.runs.run import record_case
 from towercrane.runs.summary import expected, summarise
 from towercrane.runs.sweep import sweep
 from towercrane.simulation import energy_balance
 from towercrane.simulation.energy_balance import NOT_CONSERVED, explained, first_off
 from towercrane.simulation.lanes.many import LaneRun, integrate_many
-from towercrane.simulation.simulate import record, record_case, rows_of
+from towercrane.simulation.simulate import record, rows_of
 
 
 def heavier(factor):

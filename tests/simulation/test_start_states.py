@@ -7,7 +7,8 @@ from samples.every_kind import TURNED, lumped
 
 from towercrane import load_case
 from towercrane.motions.motion import phases, rest
-from towercrane.simulation.simulate import record, record_case
+from towercrane.runs.run import record_case
+from towercrane.simulation.simulate import record
 
 ANGLE = 1.0
 TIMES = np.linspace(0.0, 4.0, 41)

@@ -11,14 +11,15 @@ from samples import space_crane as space
 from scipy.linalg import expm
 
 from towercrane.cases.case import load_case
-from towercrane.cases.models import model_of
+from towercrane.cases.models import model_of, motions_of
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import Motion, phases, rest, trapezoid
-from towercrane.simulation.simulate import run_case, simulate
+from towercrane.runs.run import run_case
+from towercrane.simulation.simulate import simulate
 from towercrane.simulation.system import start_inputs
 from towercrane.studies.linear_report import linear_model, linear_report
 
@@ -199,8 +200,8 @@ def test_a_state_that_moves_is_no_equilibrium_and_its_slope_is_told():
     case = load_case("qtz5613/gusts-working")
     linear = linear_model(case, 20.0)
     assert linear.at_equilibrium
-    assert [linear.point.inputs[k] for k in range(3)] == [case.motions[f"wind_{axis}"].mean for axis in "xyz"]
+    assert [linear.point.inputs[k] for k in range(3)] == [motions_of(case)[f"wind_{axis}"].mean for axis in "xyz"]
     model = model_of(case)
-    moving = linearise(model, case.motions, time=20.0, state=linear.point.full_state, outputs=[])
+    moving = linearise(model, motions_of(case), time=20.0, state=linear.point.full_state, outputs=[])
     assert not moving.at_equilibrium
-    assert_allclose(moving.point.inputs[:3], [float(case.motions[f"wind_{axis}"](20.0)) for axis in "xyz"])
+    assert_allclose(moving.point.inputs[:3], [float(motions_of(case)[f"wind_{axis}"](20.0)) for axis in "xyz"])

@@ -11,7 +11,7 @@ from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.report.plots.studies.comparison import paths
 from towercrane.results.measures import departures
-from towercrane.simulation.simulate import record_case, run_case
+from towercrane.runs.run import record_case, run_case
 from towercrane.studies.comparison import ONE_OF_EACH, OWN, RICHEST, compare, gaps, slowest, variants
 
 NAME, RADIAL = "qtz5613/manoeuvre", "qtz5613/condition-3"
@@ -71,9 +71,9 @@ def test_departure_counts_from_where_the_load_would_hang_on_a_rigid_crane():
         "qtz5613/slewing", ["motion.slewing.end=0.001 deg", "run.duration=5 s", "motion.slewing.delay=4 s"]
     )
     counts = dict.fromkeys(("tower_modes", "torsion_modes", "jib_lateral_modes", "jib_vertical_modes"), 0)
-    from towercrane.cases.models import space_model
+    from towercrane.cranes.tower.file.build import space_model
 
-    rigid = run_case(still, model=space_model(still, **counts))
+    rigid = run_case(still, model=space_model(still.checked, **counts))
     assert np.linalg.norm(departures(rigid)[:70], axis=1).max() < 1e-9
     # The elastic crane has sunk by the tilt of its tower and its jib's sag.
     assert departures(run_case(still))[0, 2] == pytest.approx(-1.2, abs=0.3)

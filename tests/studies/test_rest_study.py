@@ -11,7 +11,7 @@ from samples import space_crane as space
 from typer.testing import CliRunner
 
 from towercrane.cases.case import load_case
-from towercrane.cases.models import model_of
+from towercrane.cases.models import model_of, motions_of
 from towercrane.cli import app
 from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
 from towercrane.motions.motion import trapezoid
@@ -112,13 +112,13 @@ def test_hoists_keep_their_own_shaping_and_shaped_cases_are_tried_too():
 
 
 def test_cases_shaped_for_the_model_are_calm():
-    from towercrane.simulation.simulate import run_case
+    from towercrane.runs.run import run_case
 
     left = {}
     for shape in ("trapezoid", "zvd"):
         case = load_case(CASE, [f"motion.trolley.shape={shape}", "run.duration=100 s"])
         result = run_case(case)
-        after = result["time"].values > case.trolley_motion().duration
+        after = result["time"].values > motions_of(case)["trolley"].duration
         left[shape] = float(abs(result["swing_angle"].values[after]).max())
     assert left["trapezoid"] > 5e-3
     assert left["zvd"] < 1e-5

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from towercrane.accuracy.indicators import Vibration
     from towercrane.accuracy.scene import RadialScene
-    from towercrane.results.measures import Tolerance
+    from towercrane.schema.targets import Tolerance
 
     Floats = NDArray[np.float64]
 

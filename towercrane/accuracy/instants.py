@@ -10,8 +10,8 @@ from numpy.polynomial.polynomial import polyder, polyval
 
 from towercrane.accuracy.scene import Setting
 from towercrane.cranes.tower.equations.constants import geometric_stiffness
+from towercrane.cranes.tower.targets import RADIAL
 from towercrane.motions.motion import phases
-from towercrane.results.measures import RADIAL
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

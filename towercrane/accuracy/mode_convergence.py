@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.accuracy.choice import SMALLEST_PEAK, Choice, Estimate, limits
-from towercrane.accuracy.space_scene import IN_PLANE, KINDS, SpaceSetting
-from towercrane.results.measures import MOTIONS, gap, peak
+from towercrane.accuracy.space_scene import SpaceSetting
+from towercrane.cranes.tower.space import IN_PLANE, KINDS
+from towercrane.cranes.tower.targets import MOTIONS
+from towercrane.results.measures import gap, peak
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.system import NoEquilibrium
 
@@ -26,8 +28,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.accuracy.space_scene import SpaceScene
-    from towercrane.results.measures import Tolerance
     from towercrane.results.recording import Recording
+    from towercrane.schema.targets import Tolerance
     from towercrane.simulation.trajectory import Progress
 
     Floats = NDArray[np.float64]

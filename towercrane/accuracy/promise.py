@@ -10,14 +10,19 @@ import numpy as np
 
 from towercrane.accuracy.choice import Choice, Estimate, Indicators, choose, limits
 from towercrane.accuracy.instants import BEYOND
+from towercrane.accuracy.mode_convergence import measured_choice
 from towercrane.accuracy.scene import Setting, provenance, scene_of, setting_of
-from towercrane.results.measures import RADIAL, SPACE, Tolerance, gap, peak, picked_in
+from towercrane.accuracy.space_scene import SpaceSetting, space_scene_of, space_setting_of
+from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+from towercrane.cranes.tower.file.effects import softened
+from towercrane.cranes.tower.targets import RADIAL, SPACE
+from towercrane.results.measures import gap, peak, picked_in
+from towercrane.schema.targets import Targets, Tolerance
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from towercrane.accuracy.space_scene import SpaceSetting
     from towercrane.cases.case import Case
     from towercrane.results.recording import Recording
     from towercrane.simulation.trajectory import Progress
@@ -38,25 +43,25 @@ MORE = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_verti
 """Modes that the model of such a run in space has more."""
 
 
+def targets_of(case: Case) -> Targets:
+    """Errors that a case asks for, by output; none for kinds of crane whose errors cannot be asked for."""
+    asked = getattr(case.checked, "accuracy", None)
+    return asked.targets if asked else {}
+
+
 def outputs_of(case: Case) -> dict[str, str]:
     """Outputs of a case whose error can be asked for, and their units."""
-    return SPACE if case.kind == "space" else RADIAL
+    return SPACE if isinstance(case.checked, SpaceCase) else RADIAL
 
 
 def stated(case: Case) -> dict[str, Any]:
     """Fields of the setting that the case's author wrote: they are not chosen, only checked."""
-    from towercrane.accuracy.space_scene import SpaceSetting
-    from towercrane.cranes.tower.file.effects import softened
-
-    in_space = case.kind == "space"
-    model = case.space.model if in_space else case.model
-    written = {
-        **{key: getattr(model, key) for key in model.model_fields_set},
-        **{key: getattr(case.solver, key) for key in case.solver.model_fields_set},
-    }
-    if not in_space and case.frequency_tolerance is not None:
-        written["weight_softening"] = softened(case)
-    fields = (SpaceSetting if in_space else Setting).__dataclass_fields__
+    tables = case.checked
+    assert isinstance(tables, RadialCase | SpaceCase), "only these ask for errors"
+    written = {key: getattr(table, key) for table in (tables.model, tables.solver) for key in table.model_fields_set}
+    if isinstance(tables, RadialCase) and tables.accuracy.frequency is not None:
+        written["weight_softening"] = softened(tables)
+    fields = (Setting if isinstance(tables, RadialCase) else SpaceSetting).__dataclass_fields__
     return {key: value for key, value in written.items() if key in fields}
 
 
@@ -70,11 +75,8 @@ def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice[Any], R
     KeyboardInterrupt
         If one of the runs that a choice in space needs was interrupted.
     """
-    targets = case.accuracy.targets
-    if case.kind == "space":
-        from towercrane.accuracy.mode_convergence import measured_choice
-        from towercrane.accuracy.space_scene import space_scene_of
-
+    targets = targets_of(case)
+    if isinstance(case.checked, SpaceCase):
         return measured_choice(space_scene_of(case), targets, stated(case), progress)
     scene = scene_of(case)
     choice = choose(scene, targets, stated(case))
@@ -91,7 +93,7 @@ def promise(case: Case, choice: Choice[Any], result: Recording) -> dict[str, Any
         it, ``outputs`` (by output: ``allowed``, ``estimated``, ``peak`` in ``units``), ``setting``, ``stated``,
         ``left_out`` in sentences, ``tried``, ``choice_cpu_seconds``.
     """
-    targets = case.accuracy.targets
+    targets = targets_of(case)
     estimated, allowed, peaks = _figures(outputs_of(case), choice.estimate, targets, result)
     over = [name for name in targets if not estimated[name] <= allowed[name]]
     reasons = list(choice.doubts)
@@ -163,7 +165,9 @@ def verification(case: Case, result: Recording) -> dict[str, Any]:
         If one of its runs was interrupted.
     """
     units = outputs_of(case)
-    setting, better, estimate, doubts, richer = (_in_space if case.kind == "space" else _in_plane)(case, result)
+    setting, better, estimate, doubts, richer = (_in_space if isinstance(case.checked, SpaceCase) else _in_plane)(
+        case, result
+    )
     if richer.attrs["outcome"] == INTERRUPTED:
         raise KeyboardInterrupt
     estimated, _, peaks = _figures(units, estimate, {}, result)
@@ -235,9 +239,6 @@ def _in_plane(case: Case, result: Recording) -> Verified:
 
 
 def _in_space(case: Case, result: Recording) -> Verified:
-    from towercrane.accuracy.mode_convergence import measured_choice
-    from towercrane.accuracy.space_scene import SpaceSetting, space_scene_of, space_setting_of
-
     scene, picked = space_scene_of(case), picked_in(result)
     setting = SpaceSetting(**picked) if picked else space_setting_of(case)
     anything = dict.fromkeys(scene.outputs, Tolerance(1e-3, relative=True))

@@ -9,12 +9,19 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from towercrane.results.measures import RADIAL
+from towercrane.cases.models import motions_of
+from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.tower.file.build import radial_crane
+from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.file.effects import softened
+from towercrane.cranes.tower.planar import RadialModel
+from towercrane.cranes.tower.targets import RADIAL
+from towercrane.simulation.drift import EnergyDriftWarning
+from towercrane.simulation.simulate import looks_per_row, record
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Case
     from towercrane.cranes.tower.modes.parameters import TowerCrane
-    from towercrane.cranes.tower.planar import RadialModel
     from towercrane.kernels.payload import Load
     from towercrane.motions.motion import Motion
     from towercrane.results.recording import Recording
@@ -83,9 +90,6 @@ class Scene(ABC, Generic[AnySetting]):
 
     def run(self, setting: AnySetting, *, progress: Progress | None = None) -> Recording:
         """Simulate the scene, see :func:`towercrane.simulation.simulate.record`."""
-        from towercrane.simulation.drift import EnergyDriftWarning
-        from towercrane.simulation.simulate import looks_per_row, record
-
         with warnings.catch_warnings():
             # What a loose tolerance damps is in the estimate.
             warnings.simplefilter("ignore", EnergyDriftWarning)
@@ -152,8 +156,6 @@ class RadialScene(Scene[Setting]):
 
     def model(self, setting: Setting) -> RadialModel:
         """The crane in the setting's coordinates."""
-        from towercrane.cranes.tower.planar import RadialModel
-
         return RadialModel(
             self.crane,
             self.load,
@@ -170,27 +172,27 @@ class RadialScene(Scene[Setting]):
 
 def scene_of(case: Case) -> RadialScene:
     """The scene of a radial case."""
+    tables = case.tables(RadialCase)
     return RadialScene(
-        crane=case.radial_crane(),
-        load=case.load(),
-        motions=case.motions,
-        duration=case.run.duration,
-        output_step=case.run.output_step,
-        state="equilibrium" if case.start.state == "equilibrium" else "zero",
-        swing_angle=case.start.swing_angle,
-        tower_damping_ratio=case.model.tower_damping_ratio,
-        jib_damping_ratio=case.model.jib_damping_ratio,
-        self_weight=case.start.state != "zero-no-self-weight",
-        rope_as_rod=case.rope.slack == "rod",
+        crane=radial_crane(tables),
+        load=load_of(tables.payload),
+        motions=motions_of(case),
+        duration=tables.run.duration,
+        output_step=tables.run.output_step,
+        state="equilibrium" if tables.start.state == "equilibrium" else "zero",
+        swing_angle=tables.start.swing_angle,
+        tower_damping_ratio=tables.model.tower_damping_ratio,
+        jib_damping_ratio=tables.model.jib_damping_ratio,
+        self_weight=tables.start.state != "zero-no-self-weight",
+        rope_as_rod=tables.rope.slack == "rod",
     )
 
 
 def setting_of(case: Case) -> Setting:
     """The setting that a radial case states."""
-    from towercrane.cranes.tower.file.effects import softened
-
-    model, solver = case.model, case.solver
-    setting = Setting(model.tower_modes, model.jib_modes, weight_softening=softened(case))
+    tables = case.tables(RadialCase)
+    model, solver = tables.model, tables.solver
+    setting = Setting(model.tower_modes, model.jib_modes, weight_softening=softened(tables))
     return replace(setting, method=solver.method, rtol=solver.rtol, atol=solver.atol)
 
 

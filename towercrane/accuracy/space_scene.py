@@ -6,9 +6,13 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from towercrane.accuracy.scene import Scene
-from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cases.models import motions_of
+from towercrane.cranes.tower.file.build import space_parts
+from towercrane.cranes.tower.file.case_tables import SpaceCase
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.results.measures import SPACE
+from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+from towercrane.cranes.tower.space import KINDS, described, model_in_space
+from towercrane.cranes.tower.targets import SPACE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -16,18 +20,7 @@ if TYPE_CHECKING:
     from towercrane.cases.case import Case
     from towercrane.cranes.parts.wind import WindAreas
     from towercrane.cranes.slewing.description import Drive
-    from towercrane.motions.motion import Motion
-
-KINDS = {
-    "tower_modes": "bending of the tower",
-    "torsion_modes": "torsion of the tower",
-    "jib_lateral_modes": "bending of the jib to its sides",
-    "jib_vertical_modes": "bending of the jib up and down",
-}
-"""Kinds of modes, by the field that counts them."""
-
-IN_PLANE = ("tower_modes", "jib_vertical_modes")
-"""Kinds that move in the jib's vertical plane."""
+    from towercrane.cranes.tower.model import FlexibleModel
 
 
 @dataclass(frozen=True)
@@ -109,67 +102,42 @@ class SpaceScene(Scene[SpaceSetting]):
     @property
     def described(self) -> tuple[str, ...]:
         """Kinds of modes for which the crane has data."""
-        missing = {"torsion_modes": self.crane.shaft is None, "jib_lateral_modes": self.crane.jib_lateral is None}
-        return tuple(kind for kind in KINDS if not missing.get(kind, False))
+        return described(self.crane)
 
     def model(self, setting: SpaceSetting) -> FlexibleModel:
         """The crane in the setting's coordinates."""
-        from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
-
-        modes = ModeCounts(*setting.counts.values())
-        return FlexibleModel(
-            flexible_crane(self.crane, modes, self.areas, planes=1 if setting.planar else 2),
+        return model_in_space(
+            self.crane,
             self.load,
-            slewing="fixed" if setting.planar else self.drive or "prescribed",
+            ModeCounts(*setting.counts.values()),
+            planar=setting.planar,
+            drive=self.drive,
             drive_inertia=self.drive_inertia,
+            areas=self.areas,
             damping=self.damping,
             weight_softening=setting.weight_softening,
             self_weight=self.self_weight,
             rope_as_rod=self.rope_as_rod,
-            wind=self.areas is not None,
-            axes=2 if setting.planar else 3,
         )
 
 
-def space_scene_of(case: Case, motions: dict[str, Motion] | None = None) -> SpaceScene:
-    """The scene of a case in space, with its own motions or others."""
-    from towercrane.cranes.parts.wind import WindAreas
-    from towercrane.cranes.slewing.description import Drive
-
-    space, crane = case.space, case.space.crane
-    model = space.model
-    drive = None
-    if crane.drive is not None and space.motion.shaft is not None:
-        coupling, friction = crane.drive, crane.friction
-        drive = Drive(
-            "slewing", coupling.soft_stiffness, coupling.stiff_stiffness, coupling.corner, coupling.damping,
-            friction.law, friction.torque, friction.rate,
-        )  # fmt: skip
+def space_scene_of(case: Case) -> SpaceScene:
+    """The scene of a case in space."""
+    tables = case.tables(SpaceCase)
     return SpaceScene(
-        crane=case.space_crane(),
-        load=case.load(),
-        motions=case.motions if motions is None else motions,
-        duration=case.run.duration,
-        output_step=case.run.output_step,
-        state="equilibrium" if space.start.state == "equilibrium" else "zero",
-        swing_angle=space.start.swing_angle,
-        self_weight=space.start.state != "zero-no-self-weight",
-        rope_as_rod=case.rope.slack == "rod",
-        damping=ModalDamping(
-            model.tower_damping_ratio,
-            model.torsion_damping_ratio,
-            model.jib_lateral_damping_ratio,
-            model.jib_vertical_damping_ratio,
-        ),
-        drive=drive,
-        drive_inertia=crane.drive.inertia if drive is not None and crane.drive is not None else 0.0,
-        areas=WindAreas(**dict(crane.wind_areas)) if space.wind is not None else None,
+        motions=motions_of(case),
+        duration=tables.run.duration,
+        output_step=tables.run.output_step,
+        state="equilibrium" if tables.start.state == "equilibrium" else "zero",
+        swing_angle=tables.start.swing_angle,
+        **space_parts(tables),
     )
 
 
 def space_setting_of(case: Case) -> SpaceSetting:
     """The setting that a case in space states."""
-    model, solver = case.space.model, case.solver
+    tables = case.tables(SpaceCase)
+    model, solver = tables.model, tables.solver
     plain = SpaceSetting(
         weight_softening=model.weight_softening, method=solver.method, rtol=solver.rtol, atol=solver.atol
     )

@@ -21,7 +21,7 @@ from towercrane.bench.scenes.prepared import jib_scene, lumped_scene, radial_sce
 from towercrane.bench.structures.lattice import lattice
 from towercrane.bench.structures.roots import roots
 from towercrane.bench.structures.structure import crane_map, stepped_tower
-from towercrane.simulation.simulate import versions
+from towercrane.results.versions import versions
 
 if TYPE_CHECKING:
     from collections.abc import Callable

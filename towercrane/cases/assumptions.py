@@ -1,11 +1,13 @@
-"""Values that no source gives: which of them a number rests on, and how files, reports and pictures name them."""
+"""What of a case's files a number rests on: values that no source gives, and what is written but not used."""
 
 from __future__ import annotations
 
 import json
 from typing import TYPE_CHECKING
 
-from towercrane.cranes.tower.file.idle import idle_keys
+from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+from towercrane.cranes.tower.file.idle import idle_in_plane, idle_in_space
+from towercrane.schema.text import leaves
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def rests_on(case: Case, *, exact_crane: bool = False, all_modes: bool = False) -> tuple[Assumption, ...]:
-    """Assumptions that enter a case's equations of motion.
+    """Assumptions that enter a case's equations of motion, without those of a check beside them.
 
     Parameters
     ----------
@@ -25,8 +27,25 @@ def rests_on(case: Case, *, exact_crane: bool = False, all_modes: bool = False) 
     all_modes : bool
         Or models with modes of every kind that the crane has, whatever the case takes.
     """
-    unused = tuple(idle_keys(case, exact_crane=exact_crane, all_modes=all_modes))
+    unused = _idle_keys(case, exact_crane=exact_crane, all_modes=all_modes)
     return tuple(a for a in case.assumed if not a.key.startswith(unused))
+
+
+def idle_in_file(case: Case) -> tuple[str, ...]:
+    """Tables and keys of a crane's file that only other cases use."""
+    unused = _idle_keys(case)
+    keys = [key for key, _ in leaves({"crane": case.as_written["crane"]}) if key.startswith(unused)]
+    found = (next(name for name in unused if key.startswith(name)).rstrip(".") for key in keys)
+    return tuple(dict.fromkeys(found))
+
+
+def _idle_keys(case: Case, *, exact_crane: bool = False, all_modes: bool = False) -> tuple[str, ...]:
+    """Beginnings of keys that do not enter the equations of motion."""
+    if isinstance(case.checked, SpaceCase):
+        return tuple(idle_in_space(case.checked, exact_crane=exact_crane, all_modes=all_modes))
+    if isinstance(case.checked, RadialCase):
+        return tuple(idle_in_plane(case.checked, exact_crane=exact_crane))
+    return ()
 
 
 def as_attribute(assumed: Iterable[Assumption]) -> str:

@@ -68,15 +68,17 @@ def _one_of(kinds: Iterable[str]) -> str:
     return "one of " + ", ".join(f'"{kind}"' for kind in kinds)
 
 
-def known_keys(table: type[Table] | None = None, prefix: str = "") -> Iterator[str]:
-    """Every dotted key of a table, without the numbers of list items; without a table, of all kinds of case."""
-    if table is None:
-        yield from dict.fromkeys(key for case in KINDS.values() for key in known_keys(case))
-        return
+def known_keys(table: type[Table], prefix: str = "") -> Iterator[str]:
+    """Every dotted key of a table, without the numbers of list items."""
     for name, field in table.model_fields.items():
         yield prefix + name
         for inner in tables(field.annotation):
             yield from known_keys(inner, f"{prefix}{name}.")
+
+
+def every_key() -> frozenset[str]:
+    """Every dotted key that a case of some kind knows."""
+    return frozenset().union(*(_keys(kind) for kind in KINDS))
 
 
 def knows(kind: str, key: str) -> bool:

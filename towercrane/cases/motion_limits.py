@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 from pydantic import TypeAdapter, ValidationError
 
 from towercrane.cases.kinds import TOWER_CRANES
-from towercrane.cases.plausibility import FARTHEST_TURN, FASTEST, at, fastest_turn, si, si_at
+from towercrane.cases.plausibility import FARTHEST_TURN, FASTEST, fastest_turn
 from towercrane.cases.profiles import plan
 from towercrane.cases.wind_file import CHANNELS, wind_motions
 from towercrane.cranes.tower.file.checks import tower_height
 from towercrane.motions.plans import Move, Plan
 from towercrane.schema.faults import CaseError, Fault, shown
 from towercrane.schema.motions import HoistMotion, JointMotion, TrolleyMotion
+from towercrane.schema.ranges import at, si, si_at
 from towercrane.schema.text import leaves
 
 if TYPE_CHECKING:

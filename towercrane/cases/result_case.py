@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def case_of(result: xr.Dataset) -> Case:
-    """Case of a result of :func:`towercrane.simulation.simulate.run_case`, without its motions.
+    """Case of a result of :func:`towercrane.runs.run.run_case`, without its motions.
 
     Raises
     ------

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cases.plausibility import at, si_at
 from towercrane.schema.csv_table import SHOWN_FAULTS, TIME, Column, read_table
 from towercrane.schema.faults import CaseError, Fault
+from towercrane.schema.ranges import at, si_at
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -89,7 +89,9 @@ def animate(
         _nothing(loaded, finished)
     duration = loaded.run.duration if finished is None else float(finished["time"][-1])
     playback = _playback(duration, start, end, speed, frames_per_second)
-    announce_compilation(*loaded.uses, "runs")
+    from towercrane.cases.models import uses_of
+
+    announce_compilation(*uses_of(loaded), "runs")
     result = _run(loaded) if finished is None else finished
     if (over := float(result["time"][-1])) <= playback.start:
         _nothing(loaded, result)
@@ -170,7 +172,7 @@ def _seconds(option: str, text: str) -> float:
 
 
 def _run(case: Case) -> xr.Dataset:
-    from towercrane.simulation.simulate import record_case
+    from towercrane.runs.run import record_case
 
     result = with_progress(case, record_case)
     if result.attrs["outcome"] == "interrupted":

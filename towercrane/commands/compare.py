@@ -53,7 +53,9 @@ def compare(
         fail(f"--target {target:g}: wanted a fraction between 0 and 1")
     if loaded.kind not in ("radial", "space"):
         fail(f"{case}: wanted a case of kind 'radial' or 'space', whose modes count, got {loaded.kind!r}")
-    announce_compilation(*loaded.uses, "runs")
+    from towercrane.cases.models import uses_of
+
+    announce_compilation(*uses_of(loaded), "runs")
     from towercrane.studies.comparison import TARGET
 
     accepted = target or _asked(loaded) or TARGET
@@ -81,7 +83,9 @@ def compare(
 
 def _asked(case: Case) -> float | None:
     """Relative error that the case asks for, the least of its outputs'."""
-    return min((one.value for one in case.accuracy.targets.values() if one.relative), default=None)
+    from towercrane.accuracy.promise import targets_of
+
+    return min((one.value for one in targets_of(case).values() if one.relative), default=None)
 
 
 def _compared(case: Case, target: float) -> tuple[dict[str, Any], dict[str, Any]]:

@@ -29,7 +29,9 @@ def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) ->
         fail(f"{case}: wanted a case of kind 'radial', got 'space'; try: towercrane modes {case}")
     if loaded.kind != "radial":
         fail(f"{case}: a crane of kind {loaded.kind!r} has no lattice; try: towercrane linearise {case}")
-    if not loaded.has_lattice():
+    from towercrane.cranes.tower.file.members import has_lattice
+
+    if not has_lattice(loaded.crane):
         fail(f"{case}: crane.tower.lattice: wanted the members of the tower, or of each of its segments, got none")
     announce_compilation("structure")
     try:
@@ -61,8 +63,12 @@ def lattice_report(case: Case) -> dict[str, Any]:
     """
     from modal.lattices.lattice_comparison import compare_truss
     from towercrane.cases.assumptions import as_entries
+    from towercrane.cranes.tower.file.build import radial_crane
+    from towercrane.cranes.tower.file.case_tables import RadialCase
+    from towercrane.cranes.tower.file.members import tower_truss
 
-    truss, crane = case.truss(), case.radial_crane()
+    tables = case.tables(RadialCase)
+    truss, crane = tower_truss(tables.crane), radial_crane(tables)
     assert truss is not None
     models = compare_truss(truss, crane.end_body)
     return {

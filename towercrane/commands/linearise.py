@@ -58,18 +58,23 @@ def sensitivity(
         fail(f"--step {step:g}: wanted percents from 1 to 100")
     if not 0.0 < tolerance < 1.0:
         fail(f"--tolerance {tolerance:g}: wanted a fraction between 0 and 1")
-    parameters = loaded.lumped_parameters()
+    from towercrane.cranes.slewing.build import parameters_of as written
+    from towercrane.cranes.slewing.tables import SlewingCase
     from towercrane.studies.sensitivity import parameters_of
+
+    parameters = written(loaded.tables(SlewingCase).crane)
 
     names = parameters_of(parameters, vary or ["*"])
     if not names:
         known = ", ".join(parameters_of(parameters))
         fail(f"--vary {' '.join(vary or [])}: wanted patterns that match some of {known}")
-    announce_compilation(*loaded.uses, "runs")
-    from towercrane.cases.assumptions import as_attribute
+    from towercrane.cases.models import uses_of
+
+    announce_compilation(*uses_of(loaded), "runs")
+    from towercrane.cases.assumptions import as_attribute, rests_on
 
     study = _study(loaded, names, step, tolerance)
-    study.data.attrs["assumed"] = as_attribute(loaded.rests_on)
+    study.data.attrs["assumed"] = as_attribute(rests_on(loaded))
     from towercrane.studies.sensitivity import report
 
     summary = report(study, loaded)
@@ -119,8 +124,11 @@ def linearise(
         if out.suffix.lower() not in FILE_TYPES or out.is_dir():
             fail(f"--out {out}: wanted a file that ends in {' or '.join(FILE_TYPES)}")
         folder_for_results(out.parent)
-    announce_compilation(*loaded.uses, "runs")
-    from towercrane.cases.assumptions import as_notes
+    from towercrane.cases.models import uses_of
+
+    announce_compilation(*uses_of(loaded), "runs")
+    from towercrane.cases.assumptions import as_notes, rests_on
+    from towercrane.cases.models import motions_of
     from towercrane.simulation.system import NoEquilibrium
     from towercrane.studies.linear_report import linear_model, linear_report
 
@@ -130,14 +138,14 @@ def linearise(
         say(f"{failure.outcome}: {failure}")
         raise typer.Exit(ENDED_EARLY) from None
     if out is not None:
-        linear.save(out, as_notes(loaded.rests_on))
+        linear.save(out, as_notes(rests_on(loaded)))
     report = linear_report(loaded, at, linear)
     if as_json:
         tell(json.dumps(report, indent=2, allow_nan=False))
         return
     from towercrane.report.tables.modes import linear_tables
 
-    linear_tables(report, tuple(loaded.motions))
+    linear_tables(report, tuple(motions_of(loaded)))
     if out is not None:
         tell(f"written to {out}")
         suggest("run", case, *options_of(changes))
@@ -181,8 +189,10 @@ def shape(
         fail(f"{case}: wanted a crane of kind {' or '.join(TOWER_CRANES)}, whose modes are known; got {loaded.kind}")
     if not driven(loaded.plans):
         fail(f"{case}: wanted a trolley or a slewing drive that moves, got none")
-    announce_compilation(*loaded.uses, "runs")
-    from towercrane.cases.assumptions import as_attribute, as_entries, as_notes
+    from towercrane.cases.models import uses_of
+
+    announce_compilation(*uses_of(loaded), "runs")
+    from towercrane.cases.assumptions import as_attribute, as_entries, as_notes, rests_on
     from towercrane.cases.models import flexible_model
     from towercrane.report.drive_table import drive_table
     from towercrane.simulation.system import NoEquilibrium
@@ -194,13 +204,13 @@ def shape(
     except NoEquilibrium as failure:
         say(f"{failure.outcome}: {failure}")
         raise typer.Exit(ENDED_EARLY) from None
-    notes, known = as_notes(loaded.rests_on), {"case": loaded.name, "crane": loaded.crane.name}
-    summary = {**known, **report(done), "assumed": as_entries(loaded.rests_on)}
+    notes, known = as_notes(rests_on(loaded)), {"case": loaded.name, "crane": loaded.crane.name}
+    summary = {**known, **report(done), "assumed": as_entries(rests_on(loaded))}
     chosen = done.recommended.candidate
     files: dict[str, Any] = {"shape.json": json.dumps(summary, indent=2, allow_nan=False) + "\n"}
     for channel in driven(loaded.plans):
         unit = "m" if channel == "trolley" else "rad"
-        about = {**known, "drive": channel, "motion": chosen.title, "assumed": as_attribute(loaded.rests_on)}
+        about = {**known, "drive": channel, "motion": chosen.title, "assumed": as_attribute(rests_on(loaded))}
         files[f"drive-{channel}.csv"] = drive_table(chosen.motions[channel], step, unit, about)
     if pictures:
         from towercrane.report.plots.studies import shaping as pictured
@@ -230,12 +240,15 @@ def _reshaped(case: Case, name: str, channels: list[str]) -> list[str]:
 
 def _study(case: Case, names: list[str], step: float, tolerance: float) -> Any:
     """Run a sensitivity study."""
-    from towercrane.cases.models import slewing_builder
+    from towercrane.cases.models import motions_of
+    from towercrane.cranes.slewing.build import builder_of, parameters_of
+    from towercrane.cranes.slewing.tables import SlewingCase
     from towercrane.studies.sensitivity import study
 
+    tables = case.tables(SlewingCase)
     percent = sorted({step * i for i in range(int(200.0 / step) + 1)} | {50.0, 100.0, 150.0})
     run = partial(
-        study, case.lumped_parameters(), slewing_builder(case), case.motions, case.run.duration,
+        study, parameters_of(tables.crane), builder_of(tables), motions_of(case), case.run.duration,
         vary=names, percent=percent, tolerance=tolerance,
     )  # fmt: skip
     return with_bar(f"{len(names)} parameters, {len(percent)} values each", run)

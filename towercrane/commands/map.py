@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
     from modal import CraneFrame
     from towercrane.cases.case import Case
+    from towercrane.cranes.tower.file.case_tables import MapRequest
 
 MOST_MODES = 20
 """Branches beyond which a map takes minutes and cannot be read."""
@@ -71,14 +72,17 @@ def frequency_map(
         fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
     folder = out if out is not None else Path("results") / f"{loaded.name}-map"
     folder_for_results(folder)
-    from towercrane.cranes.registry import MOST_POSITIONS
+    from towercrane.cranes.tower.file.case_tables import MOST_POSITIONS, RadialCase
+    from towercrane.cranes.tower.file.requests import map_of
 
     if positions is not None and not 1 <= positions <= MOST_POSITIONS:
         fail(f"--positions {positions}: wanted 1 to {MOST_POSITIONS}")
     if not 1 <= modes <= MOST_MODES:
         fail(f"--modes {modes}: wanted 1 to {MOST_MODES}")
-    masses = _masses(loaded, payload)
-    reach = loaded.radial_crane().jib.length
+    tables = loaded.tables(RadialCase)
+    asked = map_of(tables)
+    masses = _masses(asked, payload)
+    reach = tables.crane.jib.length
     where = None if shapes is None else _position(shapes, reach)
     announce_compilation("chain")
     import numpy as np
@@ -87,8 +91,8 @@ def frequency_map(
     from towercrane.cranes.tower.file.effects import softened
     from towercrane.studies.map_report import csv_text, map_report, provenance
 
-    frame = crane_frame(loaded, weight=softened(loaded))
-    places = np.unique(loaded.map.trolley_positions)
+    frame = crane_frame(tables, weight=softened(tables))
+    places = np.unique(asked.trolley_positions)
     if positions is not None:
         # A single place is the jib's end, where the load bends it most.
         places = np.linspace(0.0, reach, positions) if positions > 1 else np.array([reach])
@@ -126,11 +130,11 @@ def frequency_map(
         raise typer.Exit(ENDED_EARLY)
 
 
-def _masses(case: Case, written: list[str] | None) -> list[float]:
+def _masses(asked: MapRequest, written: list[str] | None) -> list[float]:
     """Payloads [kg], ascending, each once."""
     from towercrane.schema.units import UnitError, to_si
 
-    masses = set() if written else set(case.map.payload_masses)
+    masses = set() if written else set(asked.payload_masses)
     for text in (part.strip() for option in written or () for part in option.split(",")):
         try:
             mass = to_si(text, "kg")

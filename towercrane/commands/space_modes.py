@@ -37,7 +37,9 @@ def space_modes(case: Case, name: str, changes: list[str] | None, out: Path | No
     """
     if out is not None:
         folder_for_results(out)
-    announce_compilation("modes", *case.tower_uses)
+    from towercrane.cases.models import tower_uses
+
+    announce_compilation("modes", *tower_uses(case))
     from towercrane.studies.space_modes import space_frequencies
 
     report = space_frequencies(case)
@@ -60,20 +62,22 @@ def space_modes(case: Case, name: str, changes: list[str] | None, out: Path | No
 def _pictures(case: Case) -> dict[str, Any]:
     """Modes where the drives stand at the start, none for a tower that buckles, and frequencies over the drives."""
     from towercrane.cases.assumptions import as_notes
-    from towercrane.cases.models import space_model
+    from towercrane.cranes.tower.file.build import space_model
+    from towercrane.cranes.tower.file.case_tables import SpaceCase
     from towercrane.report.plots.studies import space_modes as pictured
     from towercrane.simulation.system import NoEquilibrium
     from towercrane.studies.space_modes import drawn_sweeps, modes_at, modes_rest_on, place_at
 
-    model, place = space_model(case), place_at(case)
+    tables = case.tables(SpaceCase)
+    model, place = space_model(tables), place_at(case)
     notes = as_notes(modes_rest_on(case))
     title = f"{case.crane.name}, load {case.payload.mass:g} kg: "
     where = f"trolley {place.trolley_position:g} m, rope {place.rope_length:g} m"
     swept = pictured.frequencies(drawn_sweeps(case), f"{title}natural frequencies about {where}", notes)
     files: dict[str, Any] = {"frequencies.png": swept}
     try:
-        modes = modes_at(model, place, case.space.modes.count)
+        modes = modes_at(model, place, tables.modes.count)
     except NoEquilibrium:
         return files
-    counter_jib = case.space.crane.counter_jib.length
+    counter_jib = tables.crane.counter_jib.length
     return {"modes.png": pictured.shapes(model, modes, place, counter_jib, f"{title}modes, {where}", notes), **files}

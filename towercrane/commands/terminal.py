@@ -50,7 +50,9 @@ def load(name: str, changes: list[str] | None) -> Case:
 
 def say_notices(case: Case) -> None:
     """Tell what the case's tables do that nobody would expect, where no report does."""
-    for notice in case.notices:
+    from towercrane.cases.table_notices import table_notices
+
+    for notice in table_notices(case):
         say(f"note: {notice}")
 
 

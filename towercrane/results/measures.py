@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,44 +14,11 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-RADIAL = {"tower_tip_displacement": "m", "jib_tip_deflection": "m", "swing_angle": "rad", "rope_tension": "N"}
-"""Outputs of a run in the plane, and their units."""
-
-MOTIONS = {
-    "payload_position": "m",
-    "sway_radial": "rad",
-    "sway_tangential": "rad",
-    "tower_tip_displacement": "m",
-    "tower_tip_displacement_sideways": "m",
-    "tower_tip_twist": "rad",
-    "jib_tip_deflection": "m",
-    "jib_tip_deflection_sideways": "m",
-}
-"""Outputs of a run in space that are motions."""
-
-SPACE = MOTIONS | {
-    "rope_tension": "N",
-    "trolley_force": "N",
-    "slewing_torque": "N m",
-    "jib_root_moment": "N m",
-    "jib_root_moment_sideways": "N m",
-    "base_moment_x": "N m",
-    "base_moment_y": "N m",
-    "base_torque": "N m",
-}
-"""Outputs of a run in space."""
 
 PLACE = "payload_position"
 
 DIGITS = 9
 """Of a time in seconds: looks at two runs that differ by less are at the same time."""
-
-
-class Tolerance(NamedTuple):
-    """Error that is wanted of an output: over its peak, or in its unit."""
-
-    value: float
-    relative: bool
 
 
 def peak(result: Result, name: str) -> float:

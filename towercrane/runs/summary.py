@@ -8,9 +8,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from towercrane.accuracy.promise import AS_ASKED
-from towercrane.cases.kinds import TOWER_CRANES
-from towercrane.cases.models import model_of, radial_model, space_model
+from towercrane.cases.assumptions import idle_in_file
+from towercrane.cases.models import model_of, motions_of
+from towercrane.cases.table_notices import table_notices
 from towercrane.cranes.tower.equations.small_motions import natural_modes
+from towercrane.cranes.tower.file.build import radial_crane, radial_model, space_crane, space_model
+from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+from towercrane.cranes.tower.space import KINDS
 from towercrane.results.measures import picked_in
 from towercrane.runs.vibration import vibration
 from towercrane.simulation import drift
@@ -92,7 +96,7 @@ def summarise(case: Case, result: Result) -> dict[str, Any]:
         "expected": expected(case, result),
         "notices": [*notices(case, result, natural, free), *shown.unseen],
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(result)],
-        "idle": list(case.idle),
+        "idle": list(idle_in_file(case)),
         "solver": {
             key: attributes[key]
             for key in (
@@ -180,7 +184,7 @@ def notices(case: Case, result: Result, natural: Natural, free: slice) -> list[s
         found.append(f"ended at {result.attrs['end_time']:.6g} s: {result.attrs['outcome']}{reason}")
     if (promised := accuracy(result)) and promised["reasons"]:
         found.append(f"the error asked for is {promised['outcome']}: {'; '.join(promised['reasons'])}")
-    found += case.notices
+    found += table_notices(case)
     tension = result["rope_tension"].values
     if case.rope.slack == "rod" and tension.min() < 0.0:
         first = float(result["time"].values[int(np.argmax(tension < 0.0))])
@@ -198,10 +202,11 @@ def notices(case: Case, result: Result, natural: Natural, free: slice) -> list[s
         remedy = "with solver.rtol {:.0e} and solver.atol {:.0e} it would be about a thousandth".format(*tight)
         found.append(f"the energy balance is off by {gap:.1e} of the change: {remedy}")
     lengths: tuple[tuple[str, float], ...] = ()
-    if case.kind in TOWER_CRANES:
-        crane = case.radial_crane()
+    tables = case.checked
+    if isinstance(tables, RadialCase | SpaceCase):
+        crane = radial_crane(tables) if isinstance(tables, RadialCase) else space_crane(tables.crane)
         lengths = (("tower_tip_displacement", crane.tower.length), ("jib_tip_deflection", crane.jib.length))
-    if case.kind == "space":
+    if isinstance(tables, SpaceCase):
         lengths += tuple((f"{name}_sideways", length) for name, length in lengths)
     for name, length in lengths:
         share = float(abs(result[name].values).max()) / length
@@ -233,19 +238,19 @@ def _parametric(result: Result, frequencies: list[float], signal: str, swing: in
 
 def _natural(case: Case, result: Result, at: float) -> Natural:
     """Natural frequencies where the drives are at a time of a run [s]; nothing for a tower that buckles."""
-    picked = picked_in(result)
+    picked, tables = picked_in(result), case.checked
     try:
-        if case.kind not in TOWER_CRANES:
+        if not isinstance(tables, RadialCase | SpaceCase):
             return Natural(_linearised(case, at), [], {})
-        drives = {channel: float(motion(at)) for channel, motion in case.motions.items()}
+        drives = {channel: float(motion(at)) for channel, motion in motions_of(case).items()}
         position, length = drives["trolley"], drives["rope"]
-        if case.kind == "space":
+        if isinstance(tables, SpaceCase):
             angle = drives["shaft" if "shaft" in drives else "slewing"]
             # A load that only swings along the jib may swing across it.
-            model = space_model(case, **{**picked, "planar": False})
+            model = space_model(tables, **{key: picked[key] for key in (*KINDS, "weight_softening") if key in picked})
             return _in_space(natural_modes(model, position, length, angle))
         chosen = {key: picked[key] for key in ("tower_modes", "jib_modes", "weight_softening") if key in picked}
-        frequencies, swing = radial_model(case, **chosen).natural_modes(position, length)
+        frequencies, swing = radial_model(tables, **chosen).natural_modes(position, length)
     except NoEquilibrium:
         return Natural([], [], {})
     return Natural((frequencies / (2 * np.pi)).tolist(), [], {"swing_angle": swing})
@@ -254,7 +259,7 @@ def _natural(case: Case, result: Result, at: float) -> Natural:
 def _at_the_start(case: Case, result: Result, at_the_end: Natural) -> list[float]:
     """Natural frequencies [Hz] where the run began."""
     ways = [result[name].values for name in ("trolley_position", "rope_length") if name in result]
-    if case.kind not in TOWER_CRANES or all(way[0] == way[-1] for way in ways):
+    if not isinstance(case.checked, RadialCase | SpaceCase) or all(way[0] == way[-1] for way in ways):
         return at_the_end.frequencies
     return _natural(case, result, 0.0).frequencies
 
@@ -270,11 +275,11 @@ def _linearised(case: Case, at: float) -> list[float]:
     """Frequencies [Hz] about the equilibrium with the drives where they are at a time [s]."""
     from towercrane.linear.linearise import linearise
 
-    found = linearise(model_of(case), case.motions, time=at, outputs=[]).eigenvalues()
+    found = linearise(model_of(case), motions_of(case), time=at, outputs=[]).eigenvalues()
     return sorted(e.frequency for e in found if e.value.imag > 0.0)
 
 
 def _after_the_drives(case: Case, times: Any) -> slice:
     """Rows after the last drive has stopped."""
-    stop = max(motion.duration for motion in case.motions.values())
+    stop = max(motion.duration for motion in motions_of(case).values())
     return slice(int(np.searchsorted(times, stop)), None)

@@ -12,13 +12,14 @@ import numpy as np
 
 from towercrane.cases.case import Case, load_case
 from towercrane.cases.kinds import knows, plain_key, unit_of
+from towercrane.runs.run import record_case
 from towercrane.runs.summary import accuracy, peaks
 from towercrane.runs.sweep_data import RADIAL_OUTPUTS, Found, dataset
 from towercrane.runs.variants import Variants, change
 from towercrane.schema.faults import CaseError
 from towercrane.schema.units import UnitError, to_si
 from towercrane.simulation.outcomes import INTERRUPTED
-from towercrane.simulation.simulate import looks_per_row, record_case, rows_of
+from towercrane.simulation.simulate import looks_per_row, rows_of
 
 if TYPE_CHECKING:
     import os

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cases.assumptions import as_notes
-from towercrane.cases.kinds import TOWER_CRANES, unit_of
+from towercrane.accuracy.promise import targets_of
+from towercrane.cases.assumptions import as_notes, rests_on
+from towercrane.cases.kinds import unit_of
+from towercrane.results.versions import versions
 from towercrane.simulation.drift import notice
 from towercrane.simulation.outcomes import INTERRUPTED
-from towercrane.simulation.simulate import versions
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -81,8 +82,8 @@ class Found:
         """Note what a run of this case rests on."""
         solver = case.solver
         self.cranes[case.crane.name] = None
-        self.assumed |= dict.fromkeys(as_notes(case.rests_on))
-        if not (case.kind in TOWER_CRANES and case.accuracy.targets):
+        self.assumed |= dict.fromkeys(as_notes(rests_on(case)))
+        if not targets_of(case):
             self.solvers[solver.method, solver.rtol, solver.atol] = None
             if said := notice(solver.method, solver.rtol, solver.atol):
                 self.notices[said] = None

@@ -10,8 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.accuracy.promise import targets_of
 from towercrane.cases.case import load_case
-from towercrane.cases.models import radial_model
+from towercrane.cases.models import motions_of
+from towercrane.cranes.tower.file.build import radial_model
+from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.motions.motion import phases
 from towercrane.schema.faults import CaseError
 from towercrane.simulation.tableaus import TABLEAUS
@@ -106,11 +109,12 @@ class Variants:
     def _lane(self, case: Case) -> LaneRun:
         from towercrane.simulation.lanes.many import LaneRun
 
-        model = radial_model(case)
+        tables, motions = case.tables(RadialCase), motions_of(case)
+        model = radial_model(tables)
         # Written out, floats to the last digit: equal text is equal data.
         crane = repr([getattr(model, f.name) for f in dataclasses.fields(model) if f.name != "load"])
         model = self._models.setdefault(crane, model).with_load(model.load)
-        cut = phases((case.trolley_motion(), case.rope_motion()), case.run.duration)
+        cut = phases((motions["trolley"], motions["rope"]), case.run.duration)
         state = "equilibrium" if case.start.state == "equilibrium" else "zero"
         return LaneRun(model, cut, state, case.start.swing_angle)
 
@@ -154,7 +158,8 @@ def change(key: str, value: Value) -> str:
 
 def _fits_lanes(case: Case) -> bool:
     """Whether a run can share lanes; one that chooses its own model and tolerance for an error cannot."""
-    return case.kind == "radial" and case.solver.method in TABLEAUS and not case.accuracy.targets
+    fits = isinstance(case.checked, RadialCase) and case.solver.method in TABLEAUS
+    return fits and not targets_of(case)
 
 
 def _is_plain(case: Case) -> bool:
@@ -163,5 +168,5 @@ def _is_plain(case: Case) -> bool:
     A hauled rope begins its motion at its length; a ramp may be shaped for the model's frequencies; and what a
     tolerance of frequencies leaves out hangs on the load.
     """
-    shaped = any(plan.needs_model for plan in case.plans.values())
-    return case.checked.motion.hoist is None and not shaped and case.frequency_tolerance is None
+    shaped, tables = any(plan.needs_model for plan in case.plans.values()), case.tables(RadialCase)
+    return tables.motion.hoist is None and not shaped and tables.accuracy.frequency is None

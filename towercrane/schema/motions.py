@@ -265,33 +265,3 @@ JointMotion = Annotated[
     | Points,
     Field(discriminator="shape"),
 ]
-
-
-class Motions(Table):
-    """What the drives of a crane in radial motion do."""
-
-    trolley: TrolleyMotion
-    hoist: HoistMotion | None = None
-
-
-class SpaceMotions(Motions):
-    """What the drives of a tower crane in space do; the head's angle, or that of its drive's shaft."""
-
-    slewing: JointMotion | None = None
-    shaft: JointMotion | None = None
-
-
-class SlewingMotions(Table):
-    """What the drives of a slewing crane do; the shaft's angle is referred to the platform."""
-
-    shaft: JointMotion
-    hoist: HoistMotion | None = None
-
-
-class JibMotions(Table):
-    """What the joints and the winch of a jib crane do; the fold counts from the primary boom's line."""
-
-    slew: JointMotion | None = None
-    luff: JointMotion
-    fold: JointMotion
-    hoist: HoistMotion | None = None

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from pydantic import GetCoreSchemaHandler, model_validator
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from towercrane.results.measures import MOTIONS, RADIAL, SPACE, Tolerance
 from towercrane.schema.faults import did_you_mean, shown
-from towercrane.schema.fields import Table, ToleranceIfAny, refusal
+from towercrane.schema.fields import Table, refusal
 from towercrane.schema.units import UnitError, split, to_si
 
 if TYPE_CHECKING:
@@ -22,6 +21,14 @@ WANTED = (
     f'an error over the peak above 0 to {LARGEST:g}, such as 1e-3 or "0.1 %", an error with a unit, such as '
     '"0.1 mm", or a table with one per output'
 )
+
+
+class Tolerance(NamedTuple):
+    """Error that is wanted of an output: over its peak, or in its unit."""
+
+    value: float
+    relative: bool
+
 
 Targets = dict[str, Tolerance]
 """Tolerance by output."""
@@ -140,18 +147,3 @@ class Asked(Table):
         """Tolerance of every output that is asked for; empty without a target."""
         target = self.target or {}
         return {name: target[name] for name in self.outputs} if self.outputs else target
-
-
-class Accuracy(Asked):
-    """For a crane in radial motion, without a list all outputs with a target; relative for frequencies."""
-
-    outputs: Annotated[tuple[str, ...], OutputsField(RADIAL)] = ()
-    target: Annotated[Targets, TargetField(RADIAL, RADIAL)] | None = None
-    frequency: ToleranceIfAny = None
-
-
-class SpaceAccuracy(Asked):
-    """For a crane in space, without a list all motions with a target."""
-
-    outputs: Annotated[tuple[str, ...], OutputsField(SPACE)] = ()
-    target: Annotated[Targets, TargetField(SPACE, MOTIONS)] | None = None

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from towercrane.schema.faults import CaseError, Fault, did_you_mean, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
 ABOUT = ("assumed", "source")
@@ -84,24 +84,30 @@ class CaseText:
         return replace(fault, file=str(self.path))
 
 
-def read_case(path: Path, overrides: Sequence[str] = ()) -> CaseText:
-    """Read a case file, the crane file it names and the overrides ``key=value``.
+def read_case(path: Path, overrides: Sequence[str], known: Callable[[], frozenset[str]]) -> CaseText:
+    """Read a case file, the crane file it names and the overrides.
+
+    Parameters
+    ----------
+    path : Path
+    overrides : sequence of str
+        ``key=value`` each.
+    known : callable
+        Every dotted key that some kind of case knows. A file without any is no case, and nothing of it is shown.
 
     Raises
     ------
     CaseError
         If the case file cannot be read at all; lesser faults are collected in the result.
     """
-    text = CaseText(path, read_toml(path))
+    text = CaseText(path, read_toml(path, known))
     if not text.tree:
         sections = "crane, [payload], [rope], [motion.trolley], [run]"
         raise CaseError([Fault(str(path), "", f"a case: {sections}", "an empty file")])
-    from towercrane.cases.kinds import known_to
-
     if "crane" not in text.tree and {"tower", "jib"} & set(text.tree):
         hint = 'a case names its crane: crane = "crane.toml"'
         raise CaseError([Fault(str(path), "", "a case: crane, [payload], [rope], ...", "a crane file", hint)])
-    if not any(map(known_to, text.tree)):
+    if known().isdisjoint(text.tree):
         # This is some other file, of which nothing is shown.
         wanted = "a case: crane, [payload], [rope], [motion.trolley], [run]"
         raise CaseError([Fault(str(path), "", wanted, "a file without any of its keys")])
@@ -112,15 +118,21 @@ def read_case(path: Path, overrides: Sequence[str] = ()) -> CaseText:
     for key, value, origin in settings:
         if not key.startswith("crane."):
             _put(text, key, value, origin)
-    _read_crane(text)
+    _read_crane(text, known)
     for key, value, origin in settings:
         if key.startswith("crane."):
             _put(text, key, value, origin)
     return text
 
 
-def read_toml(path: Path) -> dict[str, Any]:
+def read_toml(path: Path, known: Callable[[], frozenset[str]] = frozenset) -> dict[str, Any]:
     """Parse a TOML file.
+
+    Parameters
+    ----------
+    path : Path
+    known : callable
+        Every dotted key of a case: of a text that cannot be parsed a line is shown if it has no other tables.
 
     Raises
     ------
@@ -142,7 +154,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(content)
     except (ValueError, RecursionError) as error:
-        raise CaseError([_syntax_fault(path, content, error)]) from None
+        raise CaseError([_syntax_fault(path, content, error, known)]) from None
 
 
 def in_utf8(override: str) -> str:
@@ -179,7 +191,7 @@ def is_file(path: Path) -> bool:
         return False
 
 
-def _syntax_fault(path: Path, content: str, error: Exception) -> Fault:
+def _syntax_fault(path: Path, content: str, error: Exception, known: Callable[[], frozenset[str]]) -> Fault:
     message = str(error)
     at = re.search(r"\s*\(at line (\d+), column (\d+)\)", message)
     if not at:
@@ -193,7 +205,7 @@ def _syntax_fault(path: Path, content: str, error: Exception) -> Fault:
     elif "Cannot overwrite" in message or "Cannot declare" in message:
         hint = "the same key or table stands in the file twice"
     said = message[: at.start()]
-    if _is_ours(content):
+    if _is_ours(content, known()):
         said = f"{said}: {shown(written)}"
     else:
         # Any file that the program can read may have been named: neither its lines nor its keys are shown.
@@ -201,13 +213,11 @@ def _syntax_fault(path: Path, content: str, error: Exception) -> Fault:
     return Fault(str(path), f"line {at[1]}, column {at[2]}", "TOML", said, hint)
 
 
-def _is_ours(content: str) -> bool:
+def _is_ours(content: str, known: frozenset[str]) -> bool:
     """Whether all tables of a text that cannot be parsed are those of a case or a crane."""
-    from towercrane.cases.kinds import known_keys
-
-    known = {name for key in known_keys() for name in (key, key.removeprefix("crane."))}
+    tables = {name for key in known for name in (key, key.removeprefix("crane."))}
     headings = re.findall(r"^\s*\[+\s*([^\[\]]*?)\s*\]+", content, re.MULTILINE)
-    return bool(headings) and known.issuperset(headings)
+    return bool(headings) and tables.issuperset(headings)
 
 
 def _setting(text: CaseText, override: str) -> tuple[str, Any, str] | None:
@@ -260,7 +270,7 @@ def _index(name: str, items: list[Any]) -> int | None:
     return index if index < len(items) else None
 
 
-def _read_crane(text: CaseText) -> None:
+def _read_crane(text: CaseText, known: Callable[[], frozenset[str]]) -> None:
     """Put the crane file's content in place of its name."""
     name = text.tree.get("crane")
     if name is None or isinstance(name, dict):
@@ -276,7 +286,7 @@ def _read_crane(text: CaseText) -> None:
         text.faults.append(Fault("", "crane", "the name of a crane file", got, hint))
         return
     try:
-        crane = read_toml(path)
+        crane = read_toml(path, known)
     except CaseError as error:
         text.faults += error.faults
         return
@@ -284,9 +294,7 @@ def _read_crane(text: CaseText) -> None:
         wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
         text.faults.append(Fault(str(path), "", wanted, "an empty file"))
         return
-    from towercrane.cases.kinds import known_to
-
-    if not any(known_to(f"crane.{key}") for key in crane):
+    if known().isdisjoint(f"crane.{key}" for key in crane):
         # This is some other file, of which nothing is shown.
         wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
         text.faults.append(Fault(str(path), "", wanted, "a file without any table of a crane"))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import json
-import platform
 import time
 import warnings
 from dataclasses import replace
@@ -14,12 +13,9 @@ from typing import TYPE_CHECKING, Any, ParamSpec
 import numpy as np
 
 from modal.checks import check_positive, number_in
-from towercrane import __version__
-from towercrane.cases.assumptions import as_attribute
-from towercrane.cases.kinds import TOWER_CRANES
-from towercrane.cases.models import flexible_model, model_of
 from towercrane.motions.motion import Motion, phases
 from towercrane.results.recording import Recording
+from towercrane.results.versions import versions
 from towercrane.simulation import drift, energy_balance
 from towercrane.simulation.arguments import check_tolerances
 from towercrane.simulation.integrate import evaluate, integrate
@@ -32,7 +28,6 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from towercrane.cases.case import Case
     from towercrane.simulation.trajectory import Progress
 
 Arguments = ParamSpec("Arguments")
@@ -172,70 +167,20 @@ def _motion(motions: dict[str, Motion], channel: str) -> Motion:
     return found
 
 
-def record_case(case: Case, *, model: Model | None = None, progress: Progress | None = None) -> Recording:
-    """Simulate a case, or another model of its crane: a `Recording`, from :func:`run_case` an `xarray.Dataset`.
-
-    Text and assumed values go into the result's attributes.
-    Where the case asks for an error, model and solver are chosen by it, and the attribute ``accuracy`` says how.
-    """
-    with warnings.catch_warnings():
-        # The summary says it.
-        warnings.simplefilter("ignore", drift.EnergyDriftWarning)
-        chosen = None
-        if model is None:
-            try:
-                chosen = _to_target(case, progress)
-            except NoEquilibrium:
-                # Nothing can be chosen for a tower that its weight buckles; the run says so at its start.
-                model = flexible_model(case, weight_softening=True)
-        result = chosen or record(
-            model_of(case) if model is None else model,
-            case.motions,
-            case.run.duration,
-            output_step=case.run.output_step,
-            looks=looks_per_row(case.run.duration, case.run.output_step),
-            state="equilibrium" if case.start.state == "equilibrium" else "zero",
-            swing_angle=case.start.swing_angle,
-            method=case.solver.method,
-            rtol=case.solver.rtol,
-            atol=case.solver.atol,
-            progress=progress,
-        )
-    result.attrs["title"] = case.title
-    result.attrs["case"] = case.name
-    result.attrs["changes"] = json.dumps(case.changes)
-    result.attrs["case_text"] = json.dumps(case.as_written)
-    result.attrs["notices"] = json.dumps(case.notices)
-    result.attrs["assumed"] = as_attribute(case.rests_on)
-    return result
-
-
-def _to_target(case: Case, progress: Progress | None) -> Recording | None:
-    """The run of a case that asks for an error; None for one that does not."""
-    if case.kind not in TOWER_CRANES or not case.accuracy.targets:
-        return None
-    from towercrane.accuracy.promise import chosen, promise
-
-    choice, result = chosen(case, progress)
-    result.attrs["accuracy"] = json.dumps(promise(case, choice, result))
-    return result
-
-
-def _labelled(name: str, recorded: Callable[Arguments, Recording]) -> Callable[Arguments, xr.Dataset]:
+def labelled(name: str, recorded: Callable[Arguments, Recording]) -> Callable[Arguments, xr.Dataset]:
     """The same simulation, under its own name, with a labelled data set as its result."""
 
     @wraps(recorded)
-    def labelled(*args: Arguments.args, **kwargs: Arguments.kwargs) -> xr.Dataset:
+    def rows(*args: Arguments.args, **kwargs: Arguments.kwargs) -> xr.Dataset:
         return recorded(*args, **kwargs).rows.dataset()
 
-    labelled.__name__ = labelled.__qualname__ = name
+    rows.__name__ = rows.__qualname__ = name
     returns = inspect.signature(recorded).replace(return_annotation="xr.Dataset")
-    labelled.__signature__ = returns  # type: ignore[attr-defined]
-    return labelled
+    rows.__signature__ = returns  # type: ignore[attr-defined]
+    return rows
 
 
-simulate = _labelled("simulate", record)
-run_case = _labelled("run_case", record_case)
+simulate = labelled("simulate", record)
 
 
 def rows_of(duration: float, output_step: float, looks: int = 1) -> np.ndarray[Any, np.dtype[np.float64]]:
@@ -248,20 +193,6 @@ def looks_per_row(duration: float, output_step: float) -> int:
     """Looks per row that leave at most `LOOK` between two, or that make `MOST_LOOKS` of a long run."""
     wanted = int(np.ceil(output_step / LOOK * (1.0 - 1e-12)))
     return max(1, min(wanted, int(MOST_LOOKS * output_step / duration)))
-
-
-def versions() -> dict[str, str]:
-    """Versions of this package and of what its numbers rest on."""
-    import numba
-    import scipy
-
-    return {
-        "towercrane": __version__,
-        "python": platform.python_version(),
-        "numpy": np.__version__,
-        "numba": numba.__version__,
-        "scipy": scipy.__version__,
-    }
 
 
 def _nothing(start: np.ndarray[Any, np.dtype[np.float64]], outcome: str) -> Trajectory:

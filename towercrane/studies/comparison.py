@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cases.assumptions import as_entries, rests_on
-from towercrane.cases.models import flexible_model
+from towercrane.cases.models import flexible_model, motions_of
 from towercrane.results.measures import PLACE, peak
+from towercrane.runs.run import record_case
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
-from towercrane.simulation.simulate import record_case
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
@@ -166,7 +166,7 @@ def gaps(result: xr.Dataset, richest: xr.Dataset) -> Floats:
 
 def _row(case: Case, variant: Variant, result: xr.Dataset, richest: xr.Dataset, departure: float) -> dict[str, Any]:
     """One variant's sway (peak and after the drives have stopped [deg]), torque [N m], errors [m] and cost."""
-    stop = max((m.duration for name, m in case.motions.items() if not name.startswith("wind")), default=0.0)
+    stop = max((m.duration for name, m in motions_of(case).items() if not name.startswith("wind")), default=0.0)
     free = result["time"].values >= stop
     sway = {}
     for name in SWAYS[case.kind]:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cases.assumptions import as_entries
-from towercrane.cases.models import model_of
+from towercrane.cases.assumptions import as_entries, rests_on
+from towercrane.cases.models import model_of, motions_of
 from towercrane.linear.chart import TURNING
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def linear_model(case: Case, at: float) -> StateSpace:
     known = (*getattr(model, "state_names", ()), *model.channels)
     # Outward is along the jib, wherever that points.
     turning = next((angle for angle in TURNING if angle in known), None)
-    return linearise(model, case.motions, time=at, turning=turning)
+    return linearise(model, motions_of(case), time=at, turning=turning)
 
 
 def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
@@ -70,5 +70,5 @@ def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
     for name in "ABCD":
         report[name] = getattr(linear, name.lower()).tolist()
     report["differentiation_error"] = linear.error
-    report["assumed"] = as_entries(case.rests_on)
+    report["assumed"] = as_entries(rests_on(case))
     return report

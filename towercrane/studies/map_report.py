@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cases.assumptions import as_attribute, rests_on
+from towercrane.results.versions import versions
 from towercrane.runs.summary import assumed
-from towercrane.simulation.simulate import versions
 from towercrane.studies.frequency_map import FINISHED, doubtful_steps
 from towercrane.studies.plane_modes import LOADS, OUTPUTS
 

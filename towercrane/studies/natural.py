@@ -9,7 +9,12 @@ import numpy as np
 
 from modal.clock import timed
 from towercrane.cases.assumptions import as_entries
-from towercrane.cases.models import radial_model
+from towercrane.cases.models import motions_of
+from towercrane.cranes.tower.file.build import crane_frame, radial_crane, radial_model
+from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.file.effects import effects_in, effects_report
+from towercrane.cranes.tower.file.members import lattice_of
+from towercrane.cranes.tower.file.requests import modes_of
 from towercrane.simulation.outcomes import TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
 
@@ -47,10 +52,11 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
         one, ``assumed``.
     """
     from modal import Beam
-    from towercrane.cranes.tower.file.effects import effects_in, effects_report
 
-    crane, count, elements = case.radial_crane(), case.modes.count, case.modes.elements
-    jib, effects = crane.jib_modes(count), effects_in(case)
+    tables = case.tables(RadialCase)
+    asked = modes_of(tables, motions_of(case)["trolley"])
+    crane, count, elements = radial_crane(tables), asked.count, asked.elements
+    jib, effects = crane.jib_modes(count), effects_in(tables)
     if isinstance(crane.tower, Beam) and not effects.kept:
         tower, check = _uniform_tower(crane.tower, crane.end_body, count, elements)
     else:
@@ -62,16 +68,16 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
         "jib": {"roots": jib.roots.tolist(), "frequencies_hz": jib.frequencies_hz.tolist()},
         "finite_elements": check,
         "effects": effects_report(effects, actual=actual),
-        "crane_model": {"tower_modes": case.model.tower_modes, "jib_modes": case.model.jib_modes},
+        "crane_model": {"tower_modes": tables.model.tower_modes, "jib_modes": tables.model.jib_modes},
         "rope_length_m": case.rope.length,
         "payload_mass_kg": case.payload.mass,
     }
-    model = radial_model(case)
-    report["crane"] = [_coupled(case, model, position) for position in case.modes.trolley_positions]
-    report["buckling_factor"] = _buckling_factor(case)
-    if case.crane.tower.published_roots and "roots" in tower:
-        report["tower"]["published_roots"] = list(case.crane.tower.published_roots)
-    if (lattice := case.lattice()) is not None:
+    model = radial_model(tables)
+    report["crane"] = [_coupled(tables, model, position) for position in asked.trolley_positions]
+    report["buckling_factor"] = _buckling_factor(tables, asked.trolley_positions[0])
+    if tables.crane.tower.published_roots and "roots" in tower:
+        report["tower"]["published_roots"] = list(tables.crane.tower.published_roots)
+    if (lattice := lattice_of(tables.crane)) is not None:
         report["lattice"] = _lattice(lattice, crane.tower.length)
     report["assumed"] = as_entries(case.assumed)
     return report
@@ -118,41 +124,38 @@ def _checked(solve: Callable[[], Any], exact: Any, elements: int) -> dict[str, A
     }
 
 
-def _coupled(case: Case, model: RadialModel, position: float) -> dict[str, Any]:
+def _coupled(tables: RadialCase, model: RadialModel, position: float) -> dict[str, Any]:
     """Frequencies of the coupled crane with the trolley at a position [m], beside the exact ones of the frame."""
-    from towercrane.cranes.tower.file.build import crane_frame
     from towercrane.cranes.tower.truncation import truncation_error
     from towercrane.studies.mode_pairs import paired_modes
     from towercrane.studies.plane_modes import PlaneCrane
 
     row: dict[str, Any] = {"trolley_position_m": position, "frequencies_hz": []}
     try:
-        found, swing = model.natural_modes(position, case.rope.length)
+        found, swing = model.natural_modes(position, tables.rope.length)
     except NoEquilibrium as failure:
         return row | {"outcome": failure.outcome, "message": str(failure)}
     found = found[:FRAME_MODES]
     row |= {"frequencies_hz": (found / (2 * np.pi)).tolist(), "swing_mode": swing + 1}
     if model.tower_modes and model.jib_modes:
-        exact = PlaneCrane(crane_frame(case, weight=model.weight_softening))
+        exact = PlaneCrane(crane_frame(tables, weight=model.weight_softening))
         pairs = paired_modes(model, exact, position, len(found))
         row["exact_hz"] = pairs.exact_hz
         row["relative_difference"] = [
             None if other is None else own / other - 1.0
             for own, other in zip(pairs.frequencies_hz, pairs.exact_hz, strict=True)
         ]
-        row["predicted_difference"] = truncation_error(model, position, case.rope.length)[: len(found)].tolist()
+        row["predicted_difference"] = truncation_error(model, position, tables.rope.length)[: len(found)].tolist()
         row["missing_from_the_model"] = [{"frequency_hz": f, "member": member} for f, member in pairs.missing]
         row["exact_unlike_the_model_hz"] = pairs.unlike
     return row
 
 
-def _buckling_factor(case: Case) -> float | None:
+def _buckling_factor(tables: RadialCase, position: float) -> float | None:
     """Factor on all weights, trolley and load included, at which the tower buckles; None: it never does."""
     from modal import crane_structure
-    from towercrane.cranes.tower.file.build import crane_frame
 
-    frame = crane_frame(case, weight=True)
-    factor = crane_structure(frame, case.modes.trolley_positions[0]).buckling_factor()
+    factor = crane_structure(crane_frame(tables, weight=True), position).buckling_factor()
     return factor if np.isfinite(factor) else None
 
 

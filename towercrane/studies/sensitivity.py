@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cases.assumptions import as_entries
+from towercrane.cases.assumptions import as_entries, rests_on
 from towercrane.cranes.slewing.reduce import make_rigid
 from towercrane.simulation.outcomes import INTERRUPTED
 from towercrane.simulation.simulate import simulate
@@ -89,7 +89,7 @@ def report(found: Study, case: Case) -> dict[str, Any]:
         "members": found.members,
         "reduced": found.reduced,
         "ended": found.ended,
-        "assumed": as_entries(case.rests_on),
+        "assumed": as_entries(rests_on(case)),
     }
 
 

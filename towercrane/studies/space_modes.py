@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy.space_scene import space_scene_of
 from towercrane.cases.assumptions import as_entries, rests_on
-from towercrane.cases.models import space_model
+from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.equations.small_motions import natural_modes
+from towercrane.cranes.tower.file.build import space_crane, space_model
+from towercrane.cranes.tower.file.case_tables import SpaceCase
+from towercrane.cranes.tower.space import described
 from towercrane.simulation.system import NoEquilibrium
 from towercrane.studies.branches import CLEAR
 from towercrane.studies.mode_pairs import BELONGING
@@ -50,8 +52,9 @@ SWEPT = {"trolley_position": "m", "rope_length": "m", "slewing_angle": "rad"}
 
 def place_at(case: Case, time: float = 0.0) -> Place:
     """Where the drives of a case in space stand at a time [s]."""
-    turning = "shaft" if "shaft" in case.motions else "slewing"
-    return Place(*(float(case.motions[channel](time)) for channel in ("trolley", "rope", turning)))
+    motions = motions_of(case)
+    turning = "shaft" if "shaft" in motions else "slewing"
+    return Place(*(float(motions[channel](time)) for channel in ("trolley", "rope", turning)))
 
 
 def modes_at(model: FlexibleModel, place: Place, count: int) -> list[NaturalMode]:
@@ -67,7 +70,7 @@ def modes_at(model: FlexibleModel, place: Place, count: int) -> list[NaturalMode
 
 def asked_places(case: Case) -> dict[str, tuple[float, ...]]:
     """Values of each drive at which the case wants its modes; without any, those at both ends of its way."""
-    asked, motions = case.space.modes, case.motions
+    asked, motions = case.tables(SpaceCase).modes, motions_of(case)
     turning = motions["shaft" if "shaft" in motions else "slewing"]
     ways = zip(
         SWEPT,
@@ -92,7 +95,8 @@ def space_frequencies(case: Case) -> dict[str, Any]:
         ``at``; outcome and message
         where the tower buckles; ``assumed``.
     """
-    model, count, start = space_model(case), case.space.modes.count, place_at(case)
+    tables = case.tables(SpaceCase)
+    model, count, start = space_model(tables), tables.modes.count, place_at(case)
     report: dict[str, Any] = {
         "case": case.name,
         "name": case.crane.name,
@@ -105,7 +109,7 @@ def space_frequencies(case: Case) -> dict[str, Any]:
     }
     try:
         modes = natural_modes(model, *vars(start).values())
-        report |= beside_a_richer(model, modes, richer_model(case), start, count)
+        report |= beside_a_richer(model, modes, richer_model(tables), start, count)
     except NoEquilibrium as failure:
         report |= {"outcome": failure.outcome, "message": str(failure)}
     report["sweeps"] = {
@@ -116,10 +120,10 @@ def space_frequencies(case: Case) -> dict[str, Any]:
     return report
 
 
-def richer_model(case: Case) -> FlexibleModel:
+def richer_model(tables: SpaceCase) -> FlexibleModel:
     """The case's crane with more modes of every kind that it has, those that the case leaves out too."""
-    scene = space_scene_of(case, {})
-    return space_model(case, **{kind: getattr(case.space.model, kind) + RICHER for kind in scene.described})
+    kinds = described(space_crane(tables.crane))
+    return space_model(tables, **{kind: getattr(tables.model, kind) + RICHER for kind in kinds})
 
 
 def beside_a_richer(
@@ -172,7 +176,8 @@ def modes_rest_on(case: Case) -> list[Assumption]:
 
 def drawn_sweeps(case: Case) -> dict[str, list[dict[str, Any]]]:
     """The sweeps of :func:`space_frequencies` at evenly spaced values between their ends, for pictures."""
-    model, count, start = space_model(case), case.space.modes.count, place_at(case)
+    tables = case.tables(SpaceCase)
+    model, count, start = space_model(tables), tables.modes.count, place_at(case)
     sweeps = {}
     for name, values in asked_places(case).items():
         low, high = min(values), max(values)

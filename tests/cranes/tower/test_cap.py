@@ -9,7 +9,8 @@ import pytest
 from samples.qtz5613 import model, motions
 
 from towercrane import load_case
-from towercrane.cranes.tower.file.build import as_chain
+from towercrane.cranes.tower.file.build import radial_crane
+from towercrane.cranes.tower.file.members import as_chain
 from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.modes.frequency_cap import added_mass
 from towercrane.cranes.tower.planar import RadialModel
@@ -55,7 +56,7 @@ def test_a_capped_run_follows_the_uncapped_one():
 
 @pytest.mark.parametrize("tower", ["beam", "chain"])
 def test_a_capped_crane_keeps_its_energy(tower):
-    crane = load_case("qtz5613/condition-3").radial_crane()
+    crane = radial_crane(load_case("qtz5613/condition-3").checked)
     if tower == "chain":
         crane = replace(crane, tower=as_chain(crane.tower))
     capped = RadialModel(crane, model().load, 4, 6, cap=CAP, rope_as_rod=True)

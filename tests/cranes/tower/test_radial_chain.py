@@ -9,12 +9,15 @@ import pytest
 
 from modal import Chain, EndBody, Foundation, Segment, crane_structure
 from towercrane import load_case
-from towercrane.cranes.tower.file.build import as_chain, crane_frame, joined
+from towercrane.cases.models import motions_of
+from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.tower.file.build import crane_frame, radial_crane
+from towercrane.cranes.tower.file.members import as_chain, joined
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.simulation.simulate import simulate
 
 CASE = load_case("qtz5613/condition-3")
-CRANE = CASE.radial_crane()
+CRANE = radial_crane(CASE.checked)
 EI = CRANE.tower.bending_stiffness
 STEPPED = Chain(
     (Segment(12.0, 350.0, EI, 1.2e8, 40.0), Segment(11.8, 300.0, 0.8 * EI, 1.1e8, 30.0, end_ratio=0.9)),
@@ -25,7 +28,7 @@ STEPPED = Chain(
 
 def frame_on(tower):
     """The crane on another tower, weight included, exactly."""
-    frame = crane_frame(CASE, weight=True)
+    frame = crane_frame(CASE.checked, weight=True)
     top = len(tower.segments)
     body = joined(tower.bodies.get(top, EndBody()), frame.tower.bodies[1])
     return replace(frame, tower=replace(tower, bodies={**tower.bodies, top: body}, gravity=9.81))
@@ -33,7 +36,7 @@ def frame_on(tower):
 
 @pytest.mark.parametrize(("modes", "bound"), [(2, 1e-3), (4, 1e-5), (8, 1e-6)])
 def test_frequencies_converge_to_the_exact_frame(modes, bound):
-    model = RadialModel(replace(CRANE, tower=STEPPED), CASE.load(), modes, modes, weight_softening=True)
+    model = RadialModel(replace(CRANE, tower=STEPPED), load_of(CASE.payload), modes, modes, weight_softening=True)
     exact = crane_structure(frame_on(STEPPED), 41.0).angular_frequencies(4)
     error = model.natural_frequencies(41.0, 18.0)[:4] / exact - 1.0
     assert error.min() > -1e-10
@@ -42,7 +45,9 @@ def test_frequencies_converge_to_the_exact_frame(modes, bound):
 
 def test_a_uniform_tower_as_a_chain_runs_the_same():
     runs = [
-        simulate(RadialModel(replace(CRANE, tower=tower), CASE.load(), 2, 3), CASE.motions, 20.0, rtol=1e-10)
+        simulate(
+            RadialModel(replace(CRANE, tower=tower), load_of(CASE.payload), 2, 3), motions_of(CASE), 20.0, rtol=1e-10
+        )
         for tower in (CRANE.tower, as_chain(CRANE.tower))
     ]
     for name in ("tower_tip_displacement", "swing_angle", "jib_tip_deflection"):
@@ -51,8 +56,8 @@ def test_a_uniform_tower_as_a_chain_runs_the_same():
 
 
 def test_energy_is_kept_on_a_general_tower():
-    model = RadialModel(replace(CRANE, tower=STEPPED), CASE.load(), 3, 3, weight_softening=True)
-    run = simulate(model, CASE.motions, 60.0, rtol=1e-10)
+    model = RadialModel(replace(CRANE, tower=STEPPED), load_of(CASE.payload), 3, 3, weight_softening=True)
+    run = simulate(model, motions_of(CASE), 60.0, rtol=1e-10)
     energy, work = run["total_energy"].values, run["input_work"].values
     assert run.attrs["outcome"] == "finished"
     assert np.abs(energy - energy[0] - work).max() < 1e-8 * np.ptp(energy)

@@ -14,7 +14,8 @@ from towercrane.accuracy.promise import KEPT, OUT_OF_REACH
 from towercrane.accuracy.scene import Setting
 from towercrane.bench.clock import short
 from towercrane.bench.scenes.drawn import scenes
-from towercrane.results.measures import Tolerance, gap, peak
+from towercrane.results.measures import gap, peak
+from towercrane.schema.targets import Tolerance
 from towercrane.simulation.outcomes import FINISHED
 from towercrane.simulation.system import NoEquilibrium
 

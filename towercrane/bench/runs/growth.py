@@ -10,7 +10,8 @@ import numpy as np
 from towercrane.bench.clock import interleaved, whole
 from towercrane.bench.scenes.prepared import unwatched
 from towercrane.cases.case import load_case
-from towercrane.cases.models import radial_model
+from towercrane.cranes.tower.file.build import radial_model
+from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.integrate import evaluate, integrate
 
@@ -71,8 +72,16 @@ def exponent(x: Sequence[float], y: Sequence[float]) -> float:
     return float(np.polyfit(np.log(x), np.log(y), 1)[0])
 
 
+def _model(modes: tuple[int, int]) -> RadialModel:
+    """The crane in so many tower and jib modes."""
+    tables = load_case("qtz5613/condition-3").tables(RadialCase)
+    return radial_model(tables, tower_modes=modes[0], jib_modes=modes[1])
+
+
 def _run(modes: tuple[int, int], span: float) -> Callable[[], Any]:
-    model = radial_model(load_case("qtz5613/condition-3"), tower_modes=modes[0], jib_modes=modes[1])
+    model = radial_model(
+        load_case("qtz5613/condition-3").tables(RadialCase), tower_modes=modes[0], jib_modes=modes[1]
+    )
     cut = phases((rest(23.0), rest(18.0)), span)
     start, grid = model.start(cut.inputs[0], "zero", 0.1), np.linspace(0.0, span, round(20 * span) + 1)
     return lambda: whole(integrate(unwatched(model.system), cut, start, grid, rtol=RTOL, atol=1e-2 * RTOL))
@@ -91,7 +100,9 @@ def _against_modes(repeats: int) -> list[dict[str, Any]]:
     names = {f"{tower}+{jib}": (tower, jib) for tower, jib in MODES}
     found, timings = interleaved({name: _run(modes, 30.0) for name, modes in names.items()}, repeats)
     models = {
-        name: radial_model(load_case("qtz5613/condition-3"), tower_modes=modes[0], jib_modes=modes[1])
+        name: radial_model(
+            load_case("qtz5613/condition-3").tables(RadialCase), tower_modes=modes[0], jib_modes=modes[1]
+        )
         for name, modes in names.items()
     }
     _, single = interleaved({name: _right_hand_side(model) for name, model in models.items()}, 2 * repeats)

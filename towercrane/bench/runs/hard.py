@@ -8,10 +8,10 @@ import numpy as np
 
 from towercrane.bench.clock import short
 from towercrane.cases.case import list_cases, load_case
+from towercrane.runs.run import run_case
 from towercrane.runs.summary import energy_balance, expected
 from towercrane.runs.vibration import SIGNALS, SLEWING_SIGNALS
 from towercrane.simulation.outcomes import INTERRUPTED
-from towercrane.simulation.simulate import run_case
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

@@ -10,7 +10,9 @@ import numpy as np
 
 from towercrane.bench.clock import short, whole
 from towercrane.cases.case import load_case
-from towercrane.cases.models import radial_model
+from towercrane.cases.models import motions_of
+from towercrane.cranes.tower.file.build import radial_model
+from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import evaluate, integrate
@@ -90,8 +92,9 @@ def many_runs(repeats: int) -> dict[str, Any]:
 def _variations(count: int, duration: float) -> list[LaneRun]:
     """Loads from 100 to 2000 kg, ropes from 5 to 23 m, drawn without order."""
     case = load_case(CASE)
-    model = radial_model(case, tower_modes=2, jib_modes=3)
-    cut = phases((case.trolley_motion(), case.rope_motion()), duration)
+    model = radial_model(case.tables(RadialCase), tower_modes=2, jib_modes=3)
+    motions = motions_of(case)
+    cut = phases((motions["trolley"], motions["rope"]), duration)
     random = np.random.default_rng(0)
     runs = []
     for mass, length in zip(random.uniform(100.0, 2000.0, count), random.uniform(5.0, 23.0, count), strict=True):

@@ -11,7 +11,9 @@ from towercrane.bench.clock import differences, interleaved, short, whole
 from towercrane.bench.evaluations import Instant, evaluations
 from towercrane.bench.scenes.prepared import radial_outputs
 from towercrane.cases.case import load_case
-from towercrane.cases.models import radial_model
+from towercrane.cases.models import motions_of
+from towercrane.cranes.tower.file.build import radial_model
+from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import integrate
 
@@ -32,7 +34,7 @@ def right_hand_side(repeats: int) -> dict[str, Any]:
     """One evaluation of the radial right-hand side."""
     models = {}
     for modes in ((0, 0), (2, 2), (2, 3), (4, 4)):
-        model = radial_model(load_case(CASE), tower_modes=modes[0], jib_modes=modes[1])
+        model = radial_model(load_case(CASE).tables(RadialCase), tower_modes=modes[0], jib_modes=modes[1])
         cut, start = _scene(model)
         models[f"{modes[0]} tower + {modes[1]} jib modes"] = Instant(model.system, cut, start, 10.0)
     return evaluations("radial-rhs", "Right-hand side of the radial crane", models, repeats)
@@ -43,7 +45,7 @@ def modes_left_out(repeats: int) -> dict[str, Any]:
     grid = np.linspace(0.0, 120.0, 2401)
 
     def scene(modes: tuple[int, int]) -> tuple[RadialModel, Callable[[float], Trajectory]]:
-        model = radial_model(load_case(CASE), tower_modes=modes[0], jib_modes=modes[1])
+        model = radial_model(load_case(CASE).tables(RadialCase), tower_modes=modes[0], jib_modes=modes[1])
         cut, start = _scene(model)
 
         def solve(rtol: float) -> Trajectory:
@@ -85,5 +87,6 @@ def modes_left_out(repeats: int) -> dict[str, Any]:
 
 def _scene(model: RadialModel) -> tuple[Any, Floats]:
     case = load_case(CASE)
-    cut = phases((case.trolley_motion(), case.rope_motion()), case.run.duration)
+    motions = motions_of(case)
+    cut = phases((motions["trolley"], motions["rope"]), case.run.duration)
     return cut, model.start(cut.inputs[0])

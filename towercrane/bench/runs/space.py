@@ -7,6 +7,9 @@ from typing import Any
 from towercrane.bench.evaluations import Instant, evaluations
 from towercrane.bench.scenes.prepared import SPACE
 from towercrane.cases.case import load_case
+from towercrane.cases.models import motions_of
+from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.tower.file.build import space_crane
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 from towercrane.motions.motion import phases
@@ -31,9 +34,9 @@ def space_right_hand_sides(repeats: int) -> dict[str, Any]:
     case = load_case(SPACE)
     models = {}
     for name, counts, planes in MODELS:
-        crane = flexible_crane(case.space_crane(), counts, planes=planes)
-        model = FlexibleModel(crane, case.load(), slewing="prescribed" if planes == 2 else "fixed")
-        cut = phases(tuple(case.motions[channel] for channel in model.channels), case.run.duration)
+        crane = flexible_crane(space_crane(case.crane), counts, planes=planes)
+        model = FlexibleModel(crane, load_of(case.payload), slewing="prescribed" if planes == 2 else "fixed")
+        cut = phases(tuple(motions_of(case)[channel] for channel in model.channels), case.run.duration)
         models[name] = Instant(model.system, cut, model.start(cut.inputs[0]), AT)
     found = evaluations("space-rhs", "Right-hand side of the crane in space", models, repeats)
     return {**found, "columns": ["modes: tower x+y+torsion / jib lateral+vertical", *found["columns"][1:]]}

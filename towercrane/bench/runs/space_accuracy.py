@@ -13,7 +13,9 @@ from towercrane.accuracy.mode_convergence import measured_choice
 from towercrane.accuracy.promise import KEPT, OUT_OF_REACH, finer_in_space
 from towercrane.bench.runs.accuracy import promises
 from towercrane.bench.scenes.drawn import space_scenes
-from towercrane.results.measures import MOTIONS, Tolerance, gap, peak
+from towercrane.cranes.tower.targets import MOTIONS
+from towercrane.results.measures import gap, peak
+from towercrane.schema.targets import Tolerance
 from towercrane.simulation.outcomes import FINISHED
 from towercrane.simulation.system import NoEquilibrium
 

@@ -12,7 +12,7 @@ from modal.beams.beam import Beam, EndBody
 from modal.beams.chain import Chain, Foundation
 from modal.beams.segment import Segment
 from modal.beams.torsion import Shaft
-from towercrane.cranes.tower.file.build import TAPER_POWERS
+from towercrane.cranes.tower.file.members import TAPER_POWERS
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 
 if TYPE_CHECKING:

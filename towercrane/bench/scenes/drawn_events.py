@@ -14,10 +14,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cases.case import load_case
-from towercrane.cases.models import SLEWING, radial_model, slewing_builder, space_model
+from towercrane.cases.models import SLEWING
+from towercrane.cranes.jib import build as jib
 from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
 from towercrane.cranes.parts.wind import gusts
+from towercrane.cranes.slewing import build as slewing
 from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.slewing.tables import SlewingCase
+from towercrane.cranes.tower.file.build import radial_model, space_model
+from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence, speed_trapezoid
 
@@ -98,11 +103,11 @@ def _load(rng: np.random.Generator, low: float, high: float) -> Load:
 
 def _lumped(rng: np.random.Generator, *, kind: str) -> tuple[Model, dict[str, Motion]]:
     """Laboratory crane with another drive and another friction."""
-    case = _loaded(f"slewing/{kind}/example-1")
+    tables = _loaded(f"slewing/{kind}/example-1").tables(SlewingCase)
     soft = _spread(rng, 5.0, 1e5)
     laws: list[FrictionLaw] = ["none", "tanh", "stick-slip", "stick-slip"]
     parameters = replace(
-        case.lumped_parameters(),
+        slewing.parameters_of(tables.crane),
         drive_soft_stiffness=soft,
         drive_stiff_stiffness=soft * _spread(rng, 1.0, 30.0),
         drive_corner=_spread(rng, 1e-3, 0.3),
@@ -111,7 +116,7 @@ def _lumped(rng: np.random.Generator, *, kind: str) -> tuple[Model, dict[str, Mo
         friction_torque=_spread(rng, 1.0, 100.0),
         friction_rate=_spread(rng, 3e-3, 0.1),
     )
-    model = slewing_builder(case)(parameters)
+    model = slewing.builder_of(tables)(parameters)
     return replace(model, load=_load(rng, 5.0, 100.0)), {"shaft": _turned(rng, 1.0), "rope": _hoisted(rng, 2.0)}
 
 
@@ -148,12 +153,12 @@ def _flexible(rng: np.random.Generator, *, driven: bool) -> tuple[Model, dict[st
 def _space_model() -> Any:
     case = _loaded("qtz5613/soft-drive")
     modes = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 1, "jib_vertical_modes": 1}
-    return replace(space_model(case, **modes), slewing="prescribed", drive_inertia=0.0)
+    return replace(space_model(case.tables(SpaceCase), **modes), slewing="prescribed", drive_inertia=0.0)
 
 
 def _radial(rng: np.random.Generator) -> tuple[Model, dict[str, Motion]]:
     """QTZ5613 in the plane."""
-    model = radial_model(_loaded("qtz5613/condition-3"), tower_modes=2, jib_modes=2).with_load(
+    model = radial_model(_loaded("qtz5613/condition-3").tables(RadialCase), tower_modes=2, jib_modes=2).with_load(
         _load(rng, 200.0, 5000.0)
     )
     trolley = _moved(rng, float(rng.uniform(5.0, 40.0)), 1.0)
@@ -162,7 +167,9 @@ def _radial(rng: np.random.Generator) -> tuple[Model, dict[str, Motion]]:
 
 def _jib(rng: np.random.Generator) -> tuple[Model, dict[str, Motion]]:
     """Jib crane on a plan."""
-    model = PlannedJibCrane(JibCrane(**_loaded("jib-crane/heavy").jib_parameters()), _load(rng, 500.0, 10_000.0))
+    model = PlannedJibCrane(
+        JibCrane(**jib.parameters_of(_loaded("jib-crane/heavy").crane)), _load(rng, 500.0, 10_000.0)
+    )
     joints = {"slew": _turned(rng, 0.3), "luff": _moved(rng, 0.6, 0.05), "fold": _moved(rng, -0.2, 0.05)}
     return model, joints | {"rope": _hoisted(rng, _spread(rng, 4.0, 25.0))}
 

@@ -9,7 +9,8 @@ import numpy as np
 from towercrane.bench.clock import whole
 from towercrane.bench.scenes.prepared import unwatched
 from towercrane.cases.case import load_case
-from towercrane.cases.models import radial_model
+from towercrane.cranes.tower.file.build import radial_model
+from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.cranes.tower.outputs.energy import total_energy
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases, rest
@@ -38,7 +39,9 @@ class FreeVibration:
     """
 
     def __init__(self, tower_modes: int, jib_modes: int) -> None:
-        self.model = radial_model(load_case(CASE), tower_modes=tower_modes, jib_modes=jib_modes, rope_as_rod=True)
+        self.model = radial_model(
+            load_case(CASE).tables(RadialCase), tower_modes=tower_modes, jib_modes=jib_modes, rope_as_rod=True
+        )
         self.motions = {"trolley": rest(TROLLEY), "rope": rest(ROPE)}
         self.frequency = float(self.model.natural_frequencies(TROLLEY, ROPE)[-1] / (2.0 * np.pi))
 

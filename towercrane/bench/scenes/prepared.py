@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cases.case import load_case
-from towercrane.cases.models import model_of, radial_model, space_model
+from towercrane.cases.models import model_of, motions_of
+from towercrane.cranes.tower.file.build import radial_model, space_model
+from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases
 
@@ -84,8 +86,9 @@ def radial_scene(tower_modes: int = 2, jib_modes: int = 3, case: str = "qtz5613/
     from towercrane.bench.scenes.plain import model_states, plain_rhs, plain_state
 
     loaded = load_case(case)
-    model = radial_model(loaded, tower_modes=tower_modes, jib_modes=jib_modes)
-    cut = phases((loaded.trolley_motion(), loaded.rope_motion()), loaded.run.duration)
+    model = radial_model(loaded.tables(RadialCase), tower_modes=tower_modes, jib_modes=jib_modes)
+    motions = motions_of(loaded)
+    cut = phases((motions["trolley"], motions["rope"]), loaded.run.duration)
     start = model.start(cut.inputs[0])
     half = np.append(model.system.scale[: model.coordinates], 1.0)
     plain = Plain(
@@ -115,8 +118,10 @@ def radial_outputs(model: RadialModel, states: Floats) -> Floats:
 def space_scene(duration: float = 30.0) -> Scene:
     """The first seconds of a crane in space that slews, travels and hoists at once, from equilibrium."""
     loaded = load_case(SPACE)
-    model = space_model(loaded, tower_modes=2, torsion_modes=1, jib_lateral_modes=3, jib_vertical_modes=3)
-    motions = loaded.motions
+    model = space_model(
+        loaded.tables(SpaceCase), tower_modes=2, torsion_modes=1, jib_lateral_modes=3, jib_vertical_modes=3
+    )
+    motions = motions_of(loaded)
     cut = phases(tuple(motions[channel] for channel in model.channels), duration)
     grid = np.linspace(0.0, duration, round(20.0 * duration) + 1)
     return Scene(
@@ -139,7 +144,7 @@ def lumped_scene(kind: str) -> Scene:
     """Example 1 of a slewing crane."""
     loaded = load_case(f"slewing/{kind}/example-1")
     model = model_of(loaded)
-    cut = phases(tuple(loaded.motions[channel] for channel in model.channels), loaded.run.duration)
+    cut = phases(tuple(motions_of(loaded)[channel] for channel in model.channels), loaded.run.duration)
     rope: int = model.rope  # type: ignore[attr-defined]
     return Scene(
         kind, f"Example 1 of the slewing crane, {kind} model, {loaded.run.duration:g} s",
@@ -153,7 +158,7 @@ def jib_scene() -> Scene:
     """All joints of the jib crane and the winch at once."""
     loaded = load_case("jib-crane/combined")
     model = model_of(loaded)
-    cut = phases(tuple(loaded.motions[channel] for channel in model.channels), loaded.run.duration)
+    cut = phases(tuple(motions_of(loaded)[channel] for channel in model.channels), loaded.run.duration)
     start = model.start(cut.inputs[0], "equilibrium", 0.0)
     return Scene(
         "jib", f"Jib crane: slewing, luffing, folding and hoisting at once, {loaded.run.duration:g} s",

@@ -13,6 +13,9 @@ from modal.lattices.lattice_comparison import LatticeAnswers, beam_answers, trus
 from towercrane.bench.clock import interleaved, short
 from towercrane.bench.structures.structure import EXACT, NO_MPMATH, transfer_matrices
 from towercrane.cases.case import load_case
+from towercrane.cranes.tower.file.build import radial_crane
+from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.file.members import lattice_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,7 +48,8 @@ def lattice(repeats: int) -> dict[str, Any]:
         exact frequencies (None without mpmath), ``cpu_seconds``.
     """
     case = load_case(CASE)
-    column, crane = case.lattice(), case.radial_crane()
+    tables = case.tables(RadialCase)
+    column, crane = lattice_of(tables.crane), radial_crane(tables)
     assert column is not None, "the benchmark's crane has a lattice"
     panels, mass, body = (
         round(crane.tower.length / column.panel_height),

@@ -8,6 +8,8 @@ import numpy as np
 
 from towercrane.bench.clock import interleaved, short
 from towercrane.cases.case import load_case
+from towercrane.cranes.tower.file.build import radial_crane
+from towercrane.cranes.tower.file.case_tables import RadialCase
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,10 +23,12 @@ CASE = "qtz5613/condition-3"
 
 def roots(repeats: int) -> dict[str, Any]:
     """Characteristic roots of the QTZ5613's tower, dynamic stiffness and finite elements for the same frequencies."""
-    from modal import Chain, Segment, chain_frequencies, characteristic_roots, finite_element_frequencies
+    from modal import Beam, Chain, Segment, chain_frequencies, characteristic_roots, finite_element_frequencies
 
     case = load_case(CASE)
-    tower, body = case.tower_beam(), case.radial_crane().end_body
+    crane = radial_crane(case.tables(RadialCase))
+    tower, body = crane.tower, crane.end_body
+    assert isinstance(tower, Beam), "uniform and clamped"
     ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)
     unit = tower.length**2 * np.sqrt(tower.mass_per_length / tower.bending_stiffness)
 

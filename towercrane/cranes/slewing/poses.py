@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cases.models import slewing_builder
-from towercrane.cases.poses import Poses, sampled
+from towercrane.cranes.parts.poses import Poses, sampled
+from towercrane.cranes.slewing.build import builder_of, parameters_of
 from towercrane.cranes.slewing.models import PLATFORM, TOWER, TOWER_X, TOWER_Y
 from towercrane.cranes.slewing.outputs import position
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from towercrane.cases.case import Case
     from towercrane.cranes.slewing.model import LumpedModel
     from towercrane.cranes.slewing.parameters import SlewingParameters
+    from towercrane.cranes.slewing.tables import SlewingCase
 
     Floats = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ POINTS = 20
 """Points along the tower."""
 
 
-def lumped_poses(case: Case, result: xr.Dataset, times: Floats) -> Poses:
+def slewing_poses(tables: SlewingCase, result: xr.Dataset, times: Floats) -> Poses:
     """Poses of a slewing crane.
 
     Jib and counter-jib are straight between the crane's points; the tower bends as the parabola of a cantilever under
@@ -33,8 +33,7 @@ def lumped_poses(case: Case, result: xr.Dataset, times: Floats) -> Poses:
 
     Parameters
     ----------
-    case : Case
-        Of kind "multi-mass", "enhanced" or "basic".
+    tables : SlewingCase
     result : xarray.Dataset
     times : ndarray, shape (f,)
         [s]
@@ -44,8 +43,8 @@ def lumped_poses(case: Case, result: xr.Dataset, times: Floats) -> Poses:
     ValueError
         If the result lacks one of the crane's coordinates.
     """
-    parameters = case.lumped_parameters()
-    model = slewing_builder(case)(parameters)
+    parameters = parameters_of(tables.crane)
+    model = builder_of(tables)(parameters)
     names, angles = model.crane.coordinates, model.crane.angles
     q = np.stack([sampled(result, name, times) for name in names], axis=1)
     heading = q[:, names.index(PLATFORM)]

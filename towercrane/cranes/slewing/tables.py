@@ -1,4 +1,4 @@
-"""Crane files of slewing and jib cranes: one table per kind of crane."""
+"""Crane and case files of slewing cranes: one table per kind."""
 
 from __future__ import annotations
 
@@ -6,25 +6,29 @@ from typing import Literal
 
 from pydantic import Field
 
+from towercrane.cranes.parts.tables import Drive, Friction
 from towercrane.schema.fields import (
     Acceleration,
-    Corner,
+    Angle,
     Damping,
     Drag,
+    Expect,
     HingeDamping,
     Inertia,
     Length,
     Mass,
     MassMomentOrNone,
     MassOrNone,
-    MassPerLength,
+    Payload,
     Reach,
+    Rope,
     RotaryStiffness,
+    Run,
+    Solver,
     Stiffness,
     Table,
-    TorqueOrNone,
-    TurningOrNone,
 )
+from towercrane.schema.motions import HoistMotion, JointMotion  # noqa: TC001 - pydantic reads annotations
 
 
 class Geometry(Table):
@@ -127,23 +131,6 @@ class MultiMassDamping(EnhancedDamping):
     counter_jib_lateral: HingeDamping = 0.0
 
 
-class Drive(Table):
-    """Coupling of shaft and platform: soft up to the corner, stiff beyond it."""
-
-    soft_stiffness: RotaryStiffness
-    stiff_stiffness: RotaryStiffness
-    corner: Corner
-    damping: HingeDamping = 0.0
-
-
-class Friction(Table):
-    """Friction of the slewing bearing; the rate is the platform's at which tanh bends."""
-
-    law: Literal["tanh", "stick-slip", "none"]
-    torque: TorqueOrNone = 0.0
-    rate: TurningOrNone = 0.0
-
-
 class BasicDrag(Table):
     """Air drag of the structure."""
 
@@ -211,27 +198,48 @@ class MultiMassCrane(SlewingCrane):
     drag: MultiMassDrag = Field(default_factory=MultiMassDrag)
 
 
-class Post(Table):
-    """Post of a jib crane."""
+class SlewingMotions(Table):
+    """What the drives of a slewing crane do; the shaft's angle is referred to the platform."""
 
-    height: Reach = 0.0
-    inertia: Inertia
-
-
-class Boom(Table):
-    """Rigid uniform boom."""
-
-    length: Length
-    mass_per_length: MassPerLength
+    shaft: JointMotion
+    hoist: HoistMotion | None = None
 
 
-class JibCrane(Table):
-    """Jib crane: a post that slews, a boom that luffs and a boom that folds."""
+class SlewingStart(Table):
+    """Initial state of a slewing crane; the angle is the rope's from the vertical, positive outward."""
 
-    name: str
-    source: str = ""
-    kind: Literal["jib"]
-    gravity: Acceleration = 9.81
-    post: Post
-    primary_boom: Boom
-    secondary_boom: Boom
+    state: Literal["equilibrium", "zero"] = "equilibrium"
+    swing_angle: Angle = 0.0
+
+
+class SlewingCase(Table):
+    """Case of a lumped slewing crane."""
+
+    title: str = ""
+    crane: SlewingCrane
+    payload: Payload
+    rope: Rope
+    motion: SlewingMotions
+    start: SlewingStart = Field(default_factory=SlewingStart)
+    run: Run
+    solver: Solver = Field(default_factory=Solver)
+    allow_implausible: tuple[str, ...] = ()
+    expect: Expect | None = None
+
+
+class MultiMassCase(SlewingCase):
+    """Case of the multi-mass model."""
+
+    crane: MultiMassCrane
+
+
+class BasicCase(SlewingCase):
+    """Case of the basic model."""
+
+    crane: BasicCrane
+
+
+class EnhancedCase(SlewingCase):
+    """Case of the enhanced model."""
+
+    crane: EnhancedCrane

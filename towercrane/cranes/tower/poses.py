@@ -6,14 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cases.poses import Poses, sampled
+from towercrane.cranes.parts.poses import Poses, sampled
+from towercrane.cranes.tower.file.build import radial_crane, space_crane
 from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from towercrane.cases.case import Case
+    from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
 
     Floats = NDArray[np.float64]
 
@@ -24,14 +26,28 @@ IN_PLANE = {"tower_x": "tower", "jib_vertical": "jib"}
 """What a result in the plane calls coordinates."""
 
 
-def flexible_poses(case: Case, result: xr.Dataset, times: Floats) -> Poses:
-    """Poses of a case of kind "radial" or "space" with the modes that the result has.
+def radial_poses(tables: RadialCase, result: xr.Dataset, times: Floats) -> Poses:
+    """Poses of a case in the plane, with the modes that the result has; see `_poses`."""
+    return _poses(radial_crane(tables), IN_PLANE, np.zeros(len(times)), result, times)
+
+
+def space_poses(tables: SpaceCase, result: xr.Dataset, times: Floats) -> Poses:
+    """Poses of a case in space, with the modes that the result has; see `_poses`."""
+    return _poses(space_crane(tables.crane), {}, sampled(result, "slewing_angle", times), result, times)
+
+
+def _poses(written: TowerCrane, names: dict[str, str], heading: Floats, result: xr.Dataset, times: Floats) -> Poses:
+    """Poses of a tower crane.
 
     The positions are those of the equations of motion, in which tilt and twist of the head are finite rotations.
 
     Parameters
     ----------
-    case : Case
+    written : TowerCrane
+    names : dict of str to str
+        What the result calls coordinates.
+    heading : ndarray, shape (f,)
+        [rad]
     result : xarray.Dataset
     times : ndarray, shape (f,)
         [s]
@@ -43,9 +59,8 @@ def flexible_poses(case: Case, result: xr.Dataset, times: Floats) -> Poses:
     """
     from scipy.spatial.transform import Rotation
 
-    in_space = case.kind == "space"
     q = {
-        kind: _coordinates(result, kind if in_space else IN_PLANE.get(kind, kind), times)
+        kind: _coordinates(result, names.get(kind, kind), times)
         for kind in ("tower_x", "tower_y", "torsion", "jib_lateral", "jib_vertical")
     }
     counts = ModeCounts(
@@ -54,9 +69,7 @@ def flexible_poses(case: Case, result: xr.Dataset, times: Floats) -> Poses:
         lateral=q["jib_lateral"].shape[1],
         vertical=q["jib_vertical"].shape[1],
     )
-    written = case.space_crane() if in_space else case.radial_crane()
     crane, height = flexible_crane(written, counts), written.tower.length
-    heading = sampled(result, "slewing_angle", times) if in_space else np.zeros(len(times))
 
     up = np.linspace(0.0, height, POINTS)
     upright = np.broadcast_to(np.stack([0.0 * up, 0.0 * up, up], axis=1), (len(times), POINTS, 3))

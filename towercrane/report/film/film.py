@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from towercrane.cases.poses import Poses
+    from towercrane.cranes.parts.poses import Poses
     from towercrane.report.film.playback import Playback
 
 SIZE = (9.6, 5.4)

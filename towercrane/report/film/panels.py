@@ -49,7 +49,7 @@ class View:
     seen : tuple of int
         Coordinates to the right and up in the picture.
     undeformed, true, drawn : mapping of str to ndarray, shapes (frames, points, 3)
-        As in :class:`towercrane.cases.poses.Poses`; ``drawn`` is magnified.
+        As in :class:`towercrane.cranes.parts.poses.Poses`; ``drawn`` is magnified.
     load : ndarray, shape (frames, 1, 3)
     shaded : bool
         Whether the true crane is drawn beside the magnified one.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cases.poses import ROUND
+from towercrane.cranes.parts.poses import ROUND
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

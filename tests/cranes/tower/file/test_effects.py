@@ -9,8 +9,8 @@ import pytest
 
 from modal import Beam, Chain
 from towercrane import load_case
-from towercrane.cases.models import radial_model
-from towercrane.cranes.tower.file.effects import effects_in, effects_report
+from towercrane.cranes.tower.file.build import radial_model
+from towercrane.cranes.tower.file.effects import effects_in, effects_report, kept_tower
 from towercrane.studies.natural import natural_frequencies
 
 CASE = "qtz5613/condition-3"
@@ -22,7 +22,7 @@ SOFT = (
 
 
 def test_a_plain_case_keeps_nothing_but_tells_what_its_lattice_and_weight_would_do():
-    effects = effects_in(load_case(CASE))
+    effects = effects_in(load_case(CASE).checked)
     assert effects.kept == ()
     assert set(effects.left_out) == {"shear", "weight", "rotary inertia"}
     np.testing.assert_allclose(100 * effects.influence.changes["shear"], [-0.72, -17.5, -42.3, -57.1], atol=0.06)
@@ -31,9 +31,9 @@ def test_a_plain_case_keeps_nothing_but_tells_what_its_lattice_and_weight_would_
 
 def test_what_a_case_describes_is_in_its_results():
     case = load_case(CASE, (*SOFT, "model.weight_softening=true"))
-    assert effects_in(case).kept == ("shear", "weight", "rotary inertia", "foundation")
-    assert isinstance(case.tower(), Chain)
-    assert radial_model(case).weight_softening
+    assert effects_in(case.checked).kept == ("shear", "weight", "rotary inertia", "foundation")
+    assert isinstance(kept_tower(case.checked), Chain)
+    assert radial_model(case.checked).weight_softening
 
 
 @pytest.mark.parametrize(
@@ -46,33 +46,32 @@ def test_what_a_case_describes_is_in_its_results():
 )
 def test_a_tolerance_keeps_what_matters_and_the_results_follow(tolerance, kept):
     case = load_case(CASE, (*SOFT, "modes.count=2", f"accuracy.frequency={tolerance}"))
-    effects = effects_in(case)
+    effects = effects_in(case.checked)
     assert set(effects.kept) == kept
     lost = sum(np.abs(effects.influence.changes[effect]) for effect in effects.left_out)
     assert np.max(lost) <= tolerance
-    model = radial_model(case)
+    model = radial_model(case.checked)
     assert model.weight_softening == ("weight" in kept)
-    assert case.tower().segments[0].rotary_inertia == (250.0 if "rotary inertia" in kept else 0.0)
+    assert kept_tower(case.checked).segments[0].rotary_inertia == (250.0 if "rotary inertia" in kept else 0.0)
     # All effects of this tower together, against the ones that are kept.
-    whole = radial_model(load_case(CASE, (*SOFT, "modes.count=2", "accuracy.frequency=1e-9")))
+    whole = radial_model(load_case(CASE, (*SOFT, "modes.count=2", "accuracy.frequency=1e-9")).checked)
     gap = model.natural_frequencies(41.0, 18.0)[:4] / whole.natural_frequencies(41.0, 18.0)[:4] - 1.0
     assert np.abs(gap).max() < 2 * tolerance
 
 
 def test_softening_that_a_case_asks_for_is_not_left_out():
     changes = ("model.weight_softening=true", "accuracy.frequency=0.05")
-    assert "weight" in effects_in(load_case(CASE, changes)).kept
-    assert (
-        "weight" not in effects_in(load_case(CASE, ("model.weight_softening=false", "accuracy.frequency=1e-6"))).kept
-    )
+    assert "weight" in effects_in(load_case(CASE, changes).checked).kept
+    stated = load_case(CASE, ("model.weight_softening=false", "accuracy.frequency=1e-6"))
+    assert "weight" not in effects_in(stated.checked).kept
 
 
 def test_a_uniform_clamped_tower_stays_a_beam():
-    assert isinstance(load_case(CASE, ("accuracy.frequency=1e-3",)).tower(), Beam)
+    assert isinstance(kept_tower(load_case(CASE, ("accuracy.frequency=1e-3",)).checked), Beam)
 
 
 def test_report_is_plain_json_with_both_values_when_asked():
-    effects = effects_in(load_case(CASE))
+    effects = effects_in(load_case(CASE).checked)
     report = json.loads(json.dumps(effects_report(effects, actual=True)))
     assert report["left_out"] == ["shear", "weight", "rotary inertia"]
     assert report["left_out_may_cost"] == pytest.approx(0.599, abs=1e-3)

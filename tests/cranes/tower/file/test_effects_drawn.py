@@ -14,9 +14,9 @@ from modal.structures.structure_modes import structure_modes
 from towercrane import load_case
 from towercrane.accuracy.promise import stated
 from towercrane.accuracy.scene import setting_of
-from towercrane.cases.models import radial_model
-from towercrane.cranes.tower.file.build import as_chain, joined
-from towercrane.cranes.tower.file.effects import effects_in, effects_report
+from towercrane.cranes.tower.file.build import radial_model
+from towercrane.cranes.tower.file.effects import effects_in, effects_report, kept_tower
+from towercrane.cranes.tower.file.members import as_chain, joined
 from towercrane.studies.natural import natural_frequencies
 
 BLOCK = (
@@ -41,7 +41,7 @@ DRAWN = 25
 
 def test_a_block_at_the_foot_vibrates_on_the_springs_that_a_clamped_tower_does_not_see():
     case = load_case("qtz5613/condition-3", [*BLOCK, "accuracy.frequency=2e-2"])
-    effects = effects_in(case)
+    effects = effects_in(case.checked)
     assert "foundation" in effects.kept
     # 500 t on 8 GN/m: 20.1 Hz, below the clamped tower's fourth frequency of 50 Hz.
     assert effects.influence.changes["foundation"][3] == -1.0
@@ -99,20 +99,20 @@ def test_what_is_left_out_of_drawn_towers_costs_less_than_the_tolerance(tmp_path
     for number in range(DRAWN):
         path, tolerance = drawn_case(random, tmp_path)
         case = load_case(path, [f"accuracy.frequency={tolerance}"])
-        everything = effects_in(load_case(path, ["accuracy.frequency=1e-9"]))
+        everything = effects_in(load_case(path, ["accuracy.frequency=1e-9"]).checked)
         assert everything.left_out == ()
-        effects, whole = effects_in(case), chain_frequencies(everything.results_tower, 4)
+        effects, whole = effects_in(case.checked), chain_frequencies(everything.results_tower, 4)
         results = chain_frequencies(effects.results_tower, 4)
         lost = np.abs(results / whole - 1.0).max()
         assert lost <= tolerance
         assert lost <= effects_report(effects)["left_out_may_cost"] / (1.0 - tolerance) + 1e-15
         # What is said to be in the results is there: in the run's model, and by another method in the table.
-        assert set(effects_of(as_chain(case.tower()))) == set(effects.kept) - {"weight"}
+        assert set(effects_of(as_chain(kept_tower(case.checked)))) == set(effects.kept) - {"weight"}
         if number % 8 == 0:
             report = natural_frequencies(case)
             assert_allclose(report["tower"]["frequencies_hz"], results / (2.0 * np.pi), rtol=1e-12)
             assert_allclose(report["finite_elements"]["relative_difference"], 0.0, atol=1e-5)
-        assert radial_model(case).weight_softening is ("weight" in effects.kept)
+        assert radial_model(case.checked).weight_softening is ("weight" in effects.kept)
         left_out, kept = left_out + len(effects.left_out), kept + len(effects.kept)
         for effect, change in effects.influence.changes.items():
             small = np.abs(change) < 0.02
@@ -125,7 +125,7 @@ def test_what_is_left_out_of_drawn_towers_costs_less_than_the_tolerance(tmp_path
 
 def test_weight_that_is_in_the_results_is_in_every_table():
     case = load_case("towers/laced", ["accuracy.frequency=1e-3"])
-    assert "weight" in effects_in(case).kept
+    assert "weight" in effects_in(case.checked).kept
     report = natural_frequencies(case)
     assert report["tower"]["frequencies_hz"][0] == pytest.approx(0.468927, abs=1e-6)
     assert report["finite_elements"]["frequencies_hz"][0] == pytest.approx(0.468927, abs=1e-6)
@@ -142,10 +142,8 @@ def test_a_tower_that_its_weight_buckles_has_no_frequencies():
     report = natural_frequencies(load_case("hard/buckled"))
     assert report["tower"]["outcome"] == "tower buckled"
     assert report["tower"]["frequencies_hz"] == []
-    assert (
-        effects_report(effects_in(load_case("hard/buckled", ["model.weight_softening=false"])))["left_out_may_cost"]
-        == 1.0
-    )
+    without = load_case("hard/buckled", ["model.weight_softening=false"])
+    assert effects_report(effects_in(without.checked))["left_out_may_cost"] == 1.0
 
 
 def test_a_map_has_the_weight_that_a_tolerance_keeps(tmp_path):

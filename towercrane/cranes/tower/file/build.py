@@ -1,48 +1,32 @@
-"""Towers of case files as beams and chains, and the whole crane of a case as an exact structure."""
+"""What the checked tables of a tower crane's case describe: the crane, its exact structure and its models."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from modal import Beam, Chain, ColumnTruss, CraneFrame, EndBody, Foundation, LacedColumn, Segment
-from modal.lattices.lattice_taper import column_segments
+from modal import Beam, CraneFrame, EndBody
+from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.tower.file.effects import kept_tower, softened
+from towercrane.cranes.tower.file.members import as_chain, counter_jib_of, crane_on, tower_of, with_end_body
 
 if TYPE_CHECKING:
-    from towercrane.cases.case import Case
+    from modal import Chain
+    from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
     from towercrane.cranes.tower.file.tables import Crane
-    from towercrane.cranes.tower.file.tower_tables import BeamChoice, Lattice, Section, Tower, TowerSegment
+    from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.parameters import TowerCrane
-
-TAPER_POWERS = {"legs": (0.0, 2.0, 0.0), "wedge": (1.0, 3.0, 1.0), "cone": (2.0, 4.0, 2.0)}
-"""Powers of the breadth that mass, bending and shear stiffness go with where these are stated: four legs that draw
-together and so carry a part of the shear, whose lacing is taken to stay as stiff; a plate whose depth tapers; a solid
-section that tapers both ways."""
+    from towercrane.cranes.tower.planar import RadialModel
 
 
-def tower_of(crane: Crane) -> Beam | Chain:
-    """The tower of a checked crane file, without the slewing part and without weight.
+def radial_crane(tables: RadialCase) -> TowerCrane:
+    """The crane in the plane, on a tower without what the case's tolerance leaves out."""
+    return crane_on(kept_tower(tables), tables.crane)
 
-    A uniform tower on rigid ground without shear strain, rotary inertia and bodies is a `Beam`, which has closed
-    forms; any other, and one that is written as segments, is a `Chain`.
-    """
-    tower = crane.tower
-    foundation = Foundation(**dict(crane.foundation))
-    segments = tuple(segment for piece in _pieces(tower) for segment in _segments(tower, piece))
-    chain = Chain(segments, foundation=foundation, shear_theory=tower.shear_theory)
-    for body in tower.bodies:
-        # The sum of the segments may fall short of the stated height by rounding.
-        chain, node = chain.with_node(min(body.height, chain.length))
-        more = EndBody(body.mass, body.rotary_inertia, body.offset)
-        chain = replace(chain, bodies={**chain.bodies, node: joined(chain.bodies.get(node, EndBody()), more)})
-    plain = segments[0].shear_stiffness == inf and segments[0].rotary_inertia == 0.0
-    if tower.segments or tower.bodies or foundation != Foundation() or not plain:
-        return chain
-    modulus = tower.youngs_modulus
-    assert modulus is not None, "the file is checked to give one"
-    stiffness = segments[0].bending_stiffness
-    return Beam(segments[0].length, segments[0].mass_per_length, modulus, stiffness / modulus)
+
+def space_crane(crane: Crane) -> TowerCrane:
+    """The crane in space: with its torsion, its jib's bending to the sides and its roll inertia where given."""
+    return in_space(crane_on(tower_of(crane), crane), crane)
 
 
 def in_space(plane: TowerCrane, crane: Crane) -> TowerCrane:
@@ -58,74 +42,7 @@ def in_space(plane: TowerCrane, crane: Crane) -> TowerCrane:
     return replace(plane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
 
 
-def beam_choice(tower: Tower, section: Section) -> BeamChoice:
-    """Where the beam of a section comes from.
-
-    A stated second moment of area holds, unless the key ``beam`` of a uniform tower asks for its lattice instead.
-    """
-    if section.second_moment_of_area is None:
-        return tower.beam or "shear-flexible"
-    return "stated" if tower.segments else tower.beam or "stated"
-
-
-def laced_column(lattice: Lattice, youngs_modulus: float) -> LacedColumn:
-    """Members of a crane file as a laced column."""
-    return LacedColumn(**dict(lattice), youngs_modulus=youngs_modulus)
-
-
-def _segments(tower: Tower, piece: TowerSegment) -> tuple[Segment, ...]:
-    """A piece of the tower as segments, its beam stated or that of its lattice."""
-    modulus, choice = piece.youngs_modulus or tower.youngs_modulus, beam_choice(tower, piece)
-    assert modulus is not None, "the file is checked to give one"
-    if piece.lattice is None or choice == "stated":
-        assert piece.second_moment_of_area is not None, "the file is checked to give one"
-        stiffness, shear = modulus * piece.second_moment_of_area, piece.shear_stiffness
-        taper = (piece.top_breadth_ratio, *TAPER_POWERS[piece.taper])
-        leaning = piece.taper == "legs" and piece.top_breadth_ratio != 1.0
-        rotary = piece.rotary_inertia_per_length
-        return (Segment(piece.length, piece.mass_per_length, stiffness, shear, rotary, *taper, leaning),)
-    column = laced_column(piece.lattice, modulus)
-    laced = column_segments(column, piece.length, piece.top_breadth_ratio, piece.mass_per_length, choice)
-    if not piece.rotary_inertia_per_length:
-        return laced
-    # Stated at the foot; it goes with the bending stiffness.
-    per_stiffness = piece.rotary_inertia_per_length / laced[0].bending_stiffness
-    return tuple(replace(one, rotary_inertia=per_stiffness * one.bending_stiffness) for one in laced)
-
-
-def tower_truss(crane: Crane) -> ColumnTruss | None:
-    """The lattices of a tower, one on the other, as a truss of whole panels; None where a piece has none.
-
-    Bodies, foundation and the slewing part are left out.
-
-    Raises
-    ------
-    ValueError
-        If a truss is a mechanism, or legs do not stand on those below.
-    """
-    tower = crane.tower
-    found: ColumnTruss | None = None
-    for piece in reversed(_pieces(tower)):
-        modulus = piece.youngs_modulus or tower.youngs_modulus
-        if piece.lattice is None or modulus is None:
-            return None
-        column = laced_column(piece.lattice, modulus)
-        height = max(1, round(piece.length / column.panel_height)) * column.panel_height
-        found = ColumnTruss(column, height, piece.mass_per_length, piece.top_breadth_ratio, found)
-    return found
-
-
-def _pieces(tower: Tower) -> tuple[TowerSegment, ...]:
-    """The segments of a tower; a uniform one has one."""
-    from towercrane.cranes.tower.file.tower_tables import Section, TowerSegment
-
-    if tower.segments:
-        return tower.segments
-    whole = {name: getattr(tower, name) for name in Section.model_fields}
-    return (TowerSegment.model_construct(length=tower.height, **whole),)
-
-
-def crane_frame(case: Case, *, weight: bool = False) -> CraneFrame:
+def crane_frame(tables: RadialCase, *, weight: bool = False) -> CraneFrame:
     """Tower, jib, trolley and load of a radial case in their common vertical plane.
 
     A counter-jib that has a bending stiffness bends, with the counterweight at its end; without one it is rigid, a
@@ -133,12 +50,13 @@ def crane_frame(case: Case, *, weight: bool = False) -> CraneFrame:
 
     Parameters
     ----------
-    case : Case
+    tables : RadialCase
     weight : bool
         Whether the weight softens the tower.
     """
-    counter_jib = _flexible_counter_jib(case.crane)
-    return frame_of(case.radial_crane(), case.payload.mass, case.rope.length, weight=weight, counter_jib=counter_jib)
+    counter_jib = counter_jib_of(tables.crane)
+    crane, load = radial_crane(tables), tables.payload
+    return frame_of(crane, load.mass, tables.rope.length, weight=weight, counter_jib=counter_jib)
 
 
 def frame_of(
@@ -164,33 +82,59 @@ def frame_of(
     )
 
 
-def _flexible_counter_jib(crane: Crane) -> Chain | None:
-    """The counter-jib with its counterweight; None where it is rigid."""
-    jib = crane.counter_jib
-    if jib.youngs_modulus is None or jib.second_moment_of_area is None:
-        return None
-    segment = Segment(jib.length, jib.mass_per_length, jib.youngs_modulus * jib.second_moment_of_area)
-    return Chain((segment,), {1: EndBody(jib.counterweight)})
+def radial_model(tables: RadialCase, **changes: Any) -> RadialModel:
+    """Model of a radial case; keyword arguments replace what the case chose."""
+    from towercrane.cranes.tower.planar import RadialModel
+
+    chosen = {
+        "tower_modes": tables.model.tower_modes,
+        "jib_modes": tables.model.jib_modes,
+        "weight_softening": softened(tables),
+        "tower_damping_ratio": tables.model.tower_damping_ratio,
+        "jib_damping_ratio": tables.model.jib_damping_ratio,
+        "rope_as_rod": tables.rope.slack == "rod",
+        "self_weight": tables.start.state != "zero-no-self-weight",
+    }
+    return RadialModel(radial_crane(tables), load_of(tables.payload), **{**chosen, **changes})
 
 
-def as_chain(beam: Beam | Chain) -> Chain:
-    """A uniform beam as a chain of one segment; a chain as it is."""
-    if isinstance(beam, Chain):
-        return beam
-    return Chain((Segment(beam.length, beam.mass_per_length, beam.bending_stiffness),))
+def space_model(tables: SpaceCase, **changes: Any) -> FlexibleModel:
+    """Model of a case in space; keyword arguments replace what the case chose, or keep it in the plane."""
+    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+    from towercrane.cranes.tower.space import KINDS, model_in_space
+
+    chosen = {key: getattr(tables.model, key) for key in (*KINDS, "weight_softening")} | changes
+    counts = ModeCounts(*(chosen.pop(key) for key in KINDS))
+    return model_in_space(counts=counts, **chosen, **space_parts(tables))
 
 
-def with_end_body(tower: Chain, body: EndBody) -> Chain:
-    """The tower with one body more on its end."""
-    top = len(tower.segments)
-    return replace(tower, bodies={**tower.bodies, top: joined(tower.bodies.get(top, EndBody()), body)})
+def space_parts(tables: SpaceCase) -> dict[str, Any]:
+    """What a case in space says of its crane but how many modes it has, by the arguments of
+    :func:`towercrane.cranes.tower.space.model_in_space`."""
+    from towercrane.cranes.parts.wind import WindAreas
+    from towercrane.cranes.slewing.description import Drive
+    from towercrane.cranes.tower.modes.damping import ModalDamping
 
-
-def joined(first: EndBody, second: EndBody) -> EndBody:
-    """Two bodies on one node as one."""
-    mass = first.mass + second.mass
-    if mass == 0.0:
-        return EndBody(0.0, first.rotary_inertia + second.rotary_inertia)
-    offset = (first.mass * first.offset + second.mass * second.offset) / mass
-    inertia = sum(body.rotary_inertia + body.mass * (body.offset - offset) ** 2 for body in (first, second))
-    return EndBody(mass, inertia, offset)
+    crane, model = tables.crane, tables.model
+    drive = None
+    if crane.drive is not None and tables.motion.shaft is not None:
+        coupling, friction = crane.drive, crane.friction
+        drive = Drive(
+            "slewing", coupling.soft_stiffness, coupling.stiff_stiffness, coupling.corner, coupling.damping,
+            friction.law, friction.torque, friction.rate,
+        )  # fmt: skip
+    return {
+        "crane": space_crane(crane),
+        "load": load_of(tables.payload),
+        "self_weight": tables.start.state != "zero-no-self-weight",
+        "rope_as_rod": tables.rope.slack == "rod",
+        "damping": ModalDamping(
+            model.tower_damping_ratio,
+            model.torsion_damping_ratio,
+            model.jib_lateral_damping_ratio,
+            model.jib_vertical_damping_ratio,
+        ),
+        "drive": drive,
+        "drive_inertia": crane.drive.inertia if drive is not None and crane.drive is not None else 0.0,
+        "areas": WindAreas(**dict(crane.wind_areas)) if tables.wind is not None else None,
+    }

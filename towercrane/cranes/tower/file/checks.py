@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cases.plausibility import at, si_at
 from towercrane.cranes.tower.file.tower_tables import Tower, TowerSegment
 from towercrane.schema.faults import Fault, closest, shown
+from towercrane.schema.ranges import at, si_at
 from towercrane.schema.units import wanted
 
 if TYPE_CHECKING:

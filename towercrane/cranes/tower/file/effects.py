@@ -13,15 +13,15 @@ from modal import Beam, Chain, chain_frequencies, chain_structure
 from modal.structures.influence import EFFECTS, Effect, Influence, effects_of, influence, keeping
 from modal.structures.members import Unstable
 from modal.structures.structure_modes import structure_modes
-from towercrane.cranes.tower.file.build import as_chain, laced_column, tower_of, with_end_body
+from towercrane.cranes.tower.file.members import as_chain, crane_on, laced_column, tower_of, with_end_body
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
     from numpy.typing import NDArray
 
-    from towercrane.cases.case import Case
-    from towercrane.cranes.tower.file.tables import Crane
+    from towercrane.cranes.tower.file.case_tables import RadialCase
+    from towercrane.cranes.tower.file.tables import RadialCrane
 
     Floats = NDArray[np.float64]
 
@@ -85,8 +85,7 @@ class Effects:
         return chain_frequencies(self.with_effects(effects), self.plain_frequencies.size)
 
 
-@lru_cache(maxsize=8)
-def effects_in(case: Case) -> Effects:
+def effects_in(tables: RadialCase) -> Effects:
     """Effects known of a radial case's tower, how much each is predicted to matter, and those that are kept.
 
     Without ``accuracy.frequency`` the results hold what the case describes, and the weight's softening where
@@ -94,22 +93,30 @@ def effects_in(case: Case) -> Effects:
     effect is predicted alone, from modes without the others: the frequencies without what is left out are solved
     beside those with it, and what a prediction cannot vouch for stays in.
     """
-    crane, tolerance = case.crane, case.frequency_tolerance
+    model, tolerance = tables.model, tables.accuracy.frequency
+    asked = "weight_softening" in model.model_fields_set
+    return _effects(tables.crane, tables.payload.mass, tables.modes.count, model.weight_softening, asked, tolerance)
+
+
+@lru_cache(maxsize=8)
+def _effects(
+    crane: RadialCrane, payload_mass: float, count: int, softened: bool, asked: bool, tolerance: float | None
+) -> Effects:
+    """Effects of a crane's tower in so many modes; whether the weight softens it may be asked for or a default."""
     written = tower_of(crane)
-    described, head = as_chain(written), case.crane_on(written).end_body
-    known = replace(with_end_body(_with_lattice(case, described), head), gravity=crane.gravity)
-    above = crane.trolley.mass + case.payload.mass
-    plain = structure_modes(chain_structure(keeping(known, ())), case.modes.count)
+    described, head = as_chain(written), crane_on(written, crane).end_body
+    known = replace(with_end_body(_with_lattice(crane, described), head), gravity=crane.gravity)
+    above = crane.trolley.mass + payload_mass
+    plain = structure_modes(chain_structure(keeping(known, ())), count)
     found = influence(plain, known, above)
     of_the_case = set(effects_of(described))
-    asked = "weight_softening" in case.model.model_fields_set
-    if case.model.weight_softening or (tolerance is not None and not asked):
+    if softened or (tolerance is not None and not asked):
         of_the_case.add("weight")
     kept = tuple(effect for effect in EFFECTS if effect in of_the_case)
     effects = Effects(known, above, plain.angular_frequencies, found, kept, tolerance)
     if tolerance is None:
         return effects
-    fixed = ("weight",) if case.model.weight_softening else ()
+    fixed = ("weight",) if softened else ()
     negligible = Influence({effect: found.changes[effect] for effect in kept}).negligible(tolerance)
     left_out = [effect for effect in negligible if effect not in fixed]
 
@@ -121,24 +128,24 @@ def effects_in(case: Case) -> Effects:
     return replace(effects, kept=without())
 
 
-def softened(case: Case) -> bool:
+def softened(tables: RadialCase) -> bool:
     """Whether the weight softens the tower in a radial case's results: as it says, or by its tolerance."""
-    if case.frequency_tolerance is None:
-        return case.model.weight_softening
-    return "weight" in effects_in(case).kept
+    if tables.accuracy.frequency is None:
+        return tables.model.weight_softening
+    return "weight" in effects_in(tables).kept
 
 
-def kept_tower(case: Case, crane: Crane) -> Beam | Chain:
+def kept_tower(tables: RadialCase) -> Beam | Chain:
     """The tower of a case, without the slewing part and without weight, as the case's tolerance keeps it."""
-    tower = tower_of(crane)
-    if isinstance(tower, Beam) or case.frequency_tolerance is None:
+    tower = tower_of(tables.crane)
+    if isinstance(tower, Beam) or tables.accuracy.frequency is None:
         return tower
-    return keeping(tower, effects_in(case).kept)
+    return keeping(tower, effects_in(tables).kept)
 
 
-def _with_lattice(case: Case, tower: Chain) -> Chain:
+def _with_lattice(crane: RadialCrane, tower: Chain) -> Chain:
     """The tower with shear and rotary inertia of a lattice that stands beside its stated beam."""
-    crane, (segment, *others) = case.crane, tower.segments
+    segment, *others = tower.segments
     lattice, modulus = crane.tower.lattice, crane.tower.youngs_modulus
     if others or lattice is None or modulus is None:
         return tower

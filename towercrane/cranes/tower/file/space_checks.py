@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cases.plausibility import at, si_at
-from towercrane.cranes.registry import SpaceModel
+from towercrane.cranes.tower.file.case_tables import SpaceModel
 from towercrane.schema.faults import Fault, shown
+from towercrane.schema.ranges import at, si_at
 from towercrane.schema.units import wanted
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from towercrane.cranes.slewing.tables import Drive, Friction
+from towercrane.cranes.parts.tables import Drive, Friction
 from towercrane.cranes.tower.file.tower_tables import Foundation, Tower
 from towercrane.schema.fields import (
     Acceleration,

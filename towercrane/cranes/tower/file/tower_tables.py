@@ -35,7 +35,7 @@ BeamChoice = Literal["stated", "shear-flexible", "euler", "code-equivalent"]
 """Where a tower's beam comes from: its stated second moment of area, or one of three readings of its lattice."""
 
 Taper = Literal["legs", "wedge", "cone"]
-"""How a section changes with its breadth, see :data:`towercrane.cranes.tower.file.build.TAPER_POWERS`."""
+"""How a section changes with its breadth, see :data:`towercrane.cranes.tower.file.members.TAPER_POWERS`."""
 
 
 class Lattice(Table):

@@ -1,0 +1,177 @@
+"""Members of tower crane files as beams, chains, lattices and bodies."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf
+from typing import TYPE_CHECKING
+
+from modal import Beam, Chain, ColumnTruss, EndBody, Foundation, LacedColumn, Segment
+from modal.lattices.lattice_taper import column_segments
+from towercrane.cranes.tower.modes.parameters import TowerCrane
+
+if TYPE_CHECKING:
+    from towercrane.cranes.tower.file.tables import Crane
+    from towercrane.cranes.tower.file.tower_tables import BeamChoice, Lattice, Section, Tower, TowerSegment
+
+TAPER_POWERS = {"legs": (0.0, 2.0, 0.0), "wedge": (1.0, 3.0, 1.0), "cone": (2.0, 4.0, 2.0)}
+"""Powers of the breadth that mass, bending and shear stiffness go with where these are stated: four legs that draw
+together and so carry a part of the shear, whose lacing is taken to stay as stiff; a plate whose depth tapers; a solid
+section that tapers both ways."""
+
+
+def tower_of(crane: Crane) -> Beam | Chain:
+    """The tower of a checked crane file, without the slewing part and without weight.
+
+    A uniform tower on rigid ground without shear strain, rotary inertia and bodies is a `Beam`, which has closed
+    forms; any other, and one that is written as segments, is a `Chain`.
+    """
+    tower = crane.tower
+    foundation = Foundation(**dict(crane.foundation))
+    segments = tuple(segment for piece in _pieces(tower) for segment in _segments(tower, piece))
+    chain = Chain(segments, foundation=foundation, shear_theory=tower.shear_theory)
+    for body in tower.bodies:
+        # The sum of the segments may fall short of the stated height by rounding.
+        chain, node = chain.with_node(min(body.height, chain.length))
+        more = EndBody(body.mass, body.rotary_inertia, body.offset)
+        chain = replace(chain, bodies={**chain.bodies, node: joined(chain.bodies.get(node, EndBody()), more)})
+    plain = segments[0].shear_stiffness == inf and segments[0].rotary_inertia == 0.0
+    if tower.segments or tower.bodies or foundation != Foundation() or not plain:
+        return chain
+    modulus = tower.youngs_modulus
+    assert modulus is not None, "the file is checked to give one"
+    stiffness = segments[0].bending_stiffness
+    return Beam(segments[0].length, segments[0].mass_per_length, modulus, stiffness / modulus)
+
+
+def beam_choice(tower: Tower, section: Section) -> BeamChoice:
+    """Where the beam of a section comes from.
+
+    A stated second moment of area holds, unless the key ``beam`` of a uniform tower asks for its lattice instead.
+    """
+    if section.second_moment_of_area is None:
+        return tower.beam or "shear-flexible"
+    return "stated" if tower.segments else tower.beam or "stated"
+
+
+def laced_column(lattice: Lattice, youngs_modulus: float) -> LacedColumn:
+    """Members of a crane file as a laced column."""
+    return LacedColumn(**dict(lattice), youngs_modulus=youngs_modulus)
+
+
+def _segments(tower: Tower, piece: TowerSegment) -> tuple[Segment, ...]:
+    """A piece of the tower as segments, its beam stated or that of its lattice."""
+    modulus, choice = piece.youngs_modulus or tower.youngs_modulus, beam_choice(tower, piece)
+    assert modulus is not None, "the file is checked to give one"
+    if piece.lattice is None or choice == "stated":
+        assert piece.second_moment_of_area is not None, "the file is checked to give one"
+        stiffness, shear = modulus * piece.second_moment_of_area, piece.shear_stiffness
+        taper = (piece.top_breadth_ratio, *TAPER_POWERS[piece.taper])
+        leaning = piece.taper == "legs" and piece.top_breadth_ratio != 1.0
+        rotary = piece.rotary_inertia_per_length
+        return (Segment(piece.length, piece.mass_per_length, stiffness, shear, rotary, *taper, leaning),)
+    column = laced_column(piece.lattice, modulus)
+    laced = column_segments(column, piece.length, piece.top_breadth_ratio, piece.mass_per_length, choice)
+    if not piece.rotary_inertia_per_length:
+        return laced
+    # Stated at the foot; it goes with the bending stiffness.
+    per_stiffness = piece.rotary_inertia_per_length / laced[0].bending_stiffness
+    return tuple(replace(one, rotary_inertia=per_stiffness * one.bending_stiffness) for one in laced)
+
+
+def tower_truss(crane: Crane) -> ColumnTruss | None:
+    """The lattices of a tower, one on the other, as a truss of whole panels; None where a piece has none.
+
+    Bodies, foundation and the slewing part are left out.
+
+    Raises
+    ------
+    ValueError
+        If a truss is a mechanism, or legs do not stand on those below.
+    """
+    tower = crane.tower
+    found: ColumnTruss | None = None
+    for piece in reversed(_pieces(tower)):
+        modulus = piece.youngs_modulus or tower.youngs_modulus
+        if piece.lattice is None or modulus is None:
+            return None
+        column = laced_column(piece.lattice, modulus)
+        height = max(1, round(piece.length / column.panel_height)) * column.panel_height
+        found = ColumnTruss(column, height, piece.mass_per_length, piece.top_breadth_ratio, found)
+    return found
+
+
+def _pieces(tower: Tower) -> tuple[TowerSegment, ...]:
+    """The segments of a tower; a uniform one has one."""
+    from towercrane.cranes.tower.file.tower_tables import Section, TowerSegment
+
+    if tower.segments:
+        return tower.segments
+    whole = {name: getattr(tower, name) for name in Section.model_fields}
+    return (TowerSegment.model_construct(length=tower.height, **whole),)
+
+
+def as_chain(beam: Beam | Chain) -> Chain:
+    """A uniform beam as a chain of one segment; a chain as it is."""
+    if isinstance(beam, Chain):
+        return beam
+    return Chain((Segment(beam.length, beam.mass_per_length, beam.bending_stiffness),))
+
+
+def with_end_body(tower: Chain, body: EndBody) -> Chain:
+    """The tower with one body more on its end."""
+    top = len(tower.segments)
+    return replace(tower, bodies={**tower.bodies, top: joined(tower.bodies.get(top, EndBody()), body)})
+
+
+def joined(first: EndBody, second: EndBody) -> EndBody:
+    """Two bodies on one node as one."""
+    mass = first.mass + second.mass
+    if mass == 0.0:
+        return EndBody(0.0, first.rotary_inertia + second.rotary_inertia)
+    offset = (first.mass * first.offset + second.mass * second.offset) / mass
+    inertia = sum(body.rotary_inertia + body.mass * (body.offset - offset) ** 2 for body in (first, second))
+    return EndBody(mass, inertia, offset)
+
+
+def jib_of(crane: Crane) -> Beam:
+    """The jib of a checked crane file."""
+    jib = crane.jib
+    return Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.second_moment_of_area)
+
+
+def counter_jib_of(crane: Crane) -> Chain | None:
+    """The counter-jib with its counterweight; None where it is rigid."""
+    jib = crane.counter_jib
+    if jib.youngs_modulus is None or jib.second_moment_of_area is None:
+        return None
+    segment = Segment(jib.length, jib.mass_per_length, jib.youngs_modulus * jib.second_moment_of_area)
+    return Chain((segment,), {1: EndBody(jib.counterweight)})
+
+
+def crane_on(tower: Beam | Chain, crane: Crane) -> TowerCrane:
+    """The crane of a file, in the plane of its jib, on a tower that may differ from the file's."""
+    return TowerCrane(
+        name=crane.name,
+        tower=tower,
+        jib=jib_of(crane),
+        counter_jib_length=crane.counter_jib.length,
+        counter_jib_mass_per_length=crane.counter_jib.mass_per_length,
+        counterweight=crane.counter_jib.counterweight,
+        trolley_mass=crane.trolley.mass,
+        gravity=crane.gravity,
+    )
+
+
+def lattice_of(crane: Crane) -> LacedColumn | None:
+    """The members of a uniform tower; None where the file has none."""
+    tower = crane.tower
+    if tower.lattice is None or tower.youngs_modulus is None:
+        return None
+    return laced_column(tower.lattice, tower.youngs_modulus)
+
+
+def has_lattice(crane: Crane) -> bool:
+    """Whether the tower, or each of its segments, has its members given."""
+    tower = crane.tower
+    return all(piece.lattice is not None for piece in tower.segments or (tower,))

@@ -1,0 +1,82 @@
+"""A tower crane in space in a number of modes of each kind."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.modal_crane import flexible_crane
+
+if TYPE_CHECKING:
+    from towercrane.cranes.parts.wind import WindAreas
+    from towercrane.cranes.slewing.description import Drive
+    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
+    from towercrane.kernels.payload import Load
+
+
+KINDS = {
+    "tower_modes": "bending of the tower",
+    "torsion_modes": "torsion of the tower",
+    "jib_lateral_modes": "bending of the jib to its sides",
+    "jib_vertical_modes": "bending of the jib up and down",
+}
+"""Kinds of modes, by the key that counts them, in the order of
+:class:`towercrane.cranes.tower.modal_crane.ModeCounts`."""
+
+IN_PLANE = ("tower_modes", "jib_vertical_modes")
+"""Kinds that move in the jib's vertical plane."""
+
+
+def described(crane: TowerCrane) -> tuple[str, ...]:
+    """Kinds of modes for which a crane has data."""
+    missing = {"torsion_modes": crane.shaft is None, "jib_lateral_modes": crane.jib_lateral is None}
+    return tuple(kind for kind in KINDS if not missing.get(kind, False))
+
+
+def model_in_space(
+    crane: TowerCrane,
+    load: Load,
+    counts: ModeCounts,
+    *,
+    planar: bool = False,
+    drive: Drive | None = None,
+    drive_inertia: float = 0.0,
+    areas: WindAreas | None = None,
+    damping: ModalDamping | None = None,
+    weight_softening: bool = True,
+    self_weight: bool = True,
+    rope_as_rod: bool = False,
+) -> FlexibleModel:
+    """Equations of motion of a crane in space.
+
+    Parameters
+    ----------
+    crane : TowerCrane
+        With its shaft and its jib's lateral beam where it has them.
+    load : Load
+    counts : ModeCounts
+    planar : bool
+        Whether all stays in the jib's vertical plane, along x; then the head does not turn.
+    drive : Drive, optional
+        What turns the head in place of the motion "slewing".
+    drive_inertia : float
+        [kg m^2]
+    areas : WindAreas, optional
+        What the wind meets; without it there is none.
+    damping, weight_softening, self_weight, rope_as_rod
+        As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
+    """
+    return FlexibleModel(
+        flexible_crane(crane, counts, areas, planes=1 if planar else 2),
+        load,
+        slewing="fixed" if planar else drive or "prescribed",
+        drive_inertia=drive_inertia,
+        damping=damping or ModalDamping(),
+        weight_softening=weight_softening,
+        self_weight=self_weight,
+        rope_as_rod=rope_as_rod,
+        wind=areas is not None,
+        axes=2 if planar else 3,
+    )
