@@ -21,7 +21,7 @@ from towercrane.cases.models import motions_of
 from towercrane.commands import linearise as studies
 from towercrane.cranes.tower.file.build import radial_model
 from towercrane.motions.motion import phases
-from towercrane.simulation.integrate import METHODS
+from towercrane.simulation.methods.registry import METHODS
 
 
 @pytest.fixture(scope="module")

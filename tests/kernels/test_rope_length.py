@@ -12,8 +12,9 @@ from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.directions import restore, restore_rows
-from towercrane.simulation.integrate import METHODS, integrate
+from towercrane.simulation.integrate import integrate
 from towercrane.simulation.lanes.many import LaneRun, integrate_many
+from towercrane.simulation.methods.registry import METHODS
 from towercrane.simulation.simulate import simulate
 
 GRAVITY = qtz5613.CRANE.gravity

@@ -1,6 +1,7 @@
 """Energy drift of the solvers: figures as data, warnings, refusals; both sides of every limit."""
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,25 +12,31 @@ from towercrane.bench.scenes.free_vibration import FreeVibration
 from towercrane.cases.case import CaseError, load_case
 from towercrane.runs.run import run_case
 from towercrane.runs.summary import summarise
-from towercrane.simulation import drift
-from towercrane.simulation.integrate import METHODS
+from towercrane.simulation.methods import method as drift
+from towercrane.simulation.methods.registry import METHODS
+from towercrane.simulation.methods.tableaus import DOPRI5
 from towercrane.simulation.simulate import simulate
 
 CASE = "qtz5613/condition-3"
 
 
-def test_every_method_has_its_figures_loosest_first():
-    assert set(drift.ENERGY_DRIFT) == set(METHODS)
-    for rows in drift.ENERGY_DRIFT.values():
-        tolerances = [rtol for rtol, _ in rows]
-        assert tolerances == sorted(tolerances, reverse=True)
-        # Each ends where a run has nothing to say, so that there is always something to recommend.
-        assert abs(rows[-1][1]) < drift.NAMED
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_every_method_has_its_figures_loosest_first(method):
+    tolerances = [rtol for rtol, _ in method.energy_drift]
+    assert tolerances == sorted(tolerances, reverse=True)
+    # Each ends where a run has nothing to say, so that there is always something to recommend.
+    assert abs(method.energy_drift[-1][1]) < drift.NAMED
+
+
+@pytest.mark.parametrize("figures", [((1e-4, 0.001), (1e-3, 0.5)), ((1e-3, 0.5), (1e-4, -0.01))])
+def test_figures_out_of_order_or_without_a_good_end_make_no_method(figures):
+    with pytest.raises(ValueError, match="dopri5: wanted energy_drift loosest first, down to less than 1%"):
+        replace(DOPRI5, energy_drift=figures)
 
 
 @pytest.mark.parametrize(("method", "rtol"), [("dopri5", 1e-3), ("dopri5", 1e-4), ("dop853", 1e-3), ("dop853", 1e-5)])
 def test_stated_figures_are_those_of_the_solver(method, rtol):
-    stated = drift.energy_drift(method, rtol, 1e-2 * rtol)
+    stated = METHODS[method].energy_change(rtol, 1e-2 * rtol)
     found = []
     for modes in ((1, 1), (2, 3)):
         scene = FreeVibration(*modes)
@@ -42,7 +49,7 @@ def test_stated_figures_are_those_of_the_solver(method, rtol):
 
 def test_a_method_that_blows_up_is_refused_for_that():
     scene = FreeVibration(2, 3)
-    assert drift.refusal("dopri5", 1e-2, 1e-4)
+    assert DOPRI5.refusal(1e-2, 1e-4)
     assert scene.energy_change(scene.run("dopri5", 1e-2, 600.0)) > 1e4
 
 
@@ -65,10 +72,10 @@ def test_a_method_that_blows_up_is_refused_for_that():
     ],
 )
 def test_notice_and_refusal_on_both_sides_of_their_limits(method, rtol, atol, said, refused):
-    assert bool(drift.refusal(method, rtol, atol)) is refused
+    assert bool(METHODS[method].refusal(rtol, atol)) is refused
     if refused:
         return
-    notice = drift.notice(method, rtol, atol)
+    notice = METHODS[method].notice(rtol, atol)
     assert bool(notice) is bool(said)
     assert said in notice
 

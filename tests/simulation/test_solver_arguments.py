@@ -8,8 +8,9 @@ from samples import qtz5613
 from towercrane.cases.case import load_case
 from towercrane.motions.motion import phases
 from towercrane.runs.run import record_case
-from towercrane.simulation.integrate import METHODS, evaluate, integrate
+from towercrane.simulation.integrate import evaluate, integrate
 from towercrane.simulation.lanes.many import LaneRun, integrate_many
+from towercrane.simulation.methods.registry import METHODS
 from towercrane.simulation.simulate import record, simulate
 
 

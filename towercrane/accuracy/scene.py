@@ -16,7 +16,7 @@ from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.cranes.tower.file.effects import softened
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.cranes.tower.targets import RADIAL
-from towercrane.simulation.drift import EnergyDriftWarning
+from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import looks_per_row, record
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from towercrane.cases.kinds import knows, plain_key
 from towercrane.schema.faults import Fault, did_you_mean, shown
 from towercrane.schema.ranges import ANGLES, AREAS, LENGTHS, ROTARY_SPRINGS, SPRINGS, TURNS, Range, at, si_at
 from towercrane.schema.text import leaves
-from towercrane.simulation.drift import refusal
+from towercrane.simulation.methods.registry import METHODS
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -145,14 +145,21 @@ def check_values(tree: dict[str, Any]) -> Iterator[Fault]:
 
 
 def _check_method(tree: dict[str, Any]) -> Iterator[Fault]:
-    """A solver that cannot follow friction from sticking to slipping, or that feeds vibration."""
-    law, method = at(tree, "crane.friction.law"), at(tree, "solver.method")
-    if law == "stick-slip" and isinstance(method, str) and method.startswith("scipy-"):
+    """A solver that is none, that cannot follow friction from sticking to slipping, or that feeds vibration."""
+    law, name = at(tree, "crane.friction.law"), at(tree, "solver.method")
+    if not isinstance(name, str):
+        return
+    if (method := METHODS.get(name)) is None:
+        wanted = "one of " + ", ".join(map(shown, METHODS))
+        yield Fault("", "solver.method", wanted, shown(name), did_you_mean(name, METHODS))
+        return
+    if law == "stick-slip" and not method.follows_switches:
+        able = " or ".join(shown(own.name) for own in METHODS.values() if own.follows_switches)
         hint = 'friction that sticks and slips switches equations; "tanh" friction needs no switching'
-        yield Fault("", "solver.method", '"dop853" or "dopri5" with stick-slip friction', shown(method), hint)
+        yield Fault("", "solver.method", f"{able} with stick-slip friction", shown(name), hint)
     rtol, atol = si_at(tree, "solver.rtol", "1", 1e-8), si_at(tree, "solver.atol", "1", 1e-10)
-    if isinstance(method, str) and rtol and atol and (reason := refusal(method, rtol, atol)):
-        yield Fault("", "solver.rtol", f"tolerances at which {method} is stable", f"{rtol:g}, atol {atol:g}", reason)
+    if rtol and atol and (reason := method.refusal(rtol, atol)):
+        yield Fault("", "solver.rtol", f"tolerances at which {name} is stable", f"{rtol:g}, atol {atol:g}", reason)
 
 
 def _check_output(tree: dict[str, Any]) -> Iterator[Fault]:

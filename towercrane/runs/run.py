@@ -10,7 +10,7 @@ from towercrane.accuracy.promise import chosen, promise, targets_of
 from towercrane.cases.assumptions import as_attribute, rests_on
 from towercrane.cases.models import flexible_model, model_of, motions_of
 from towercrane.cases.table_notices import table_notices
-from towercrane.simulation.drift import EnergyDriftWarning
+from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import labelled, looks_per_row, record
 from towercrane.simulation.system import NoEquilibrium
 

@@ -17,9 +17,9 @@ from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
 from towercrane.cranes.tower.space import KINDS
 from towercrane.results.measures import picked_in
 from towercrane.runs.vibration import vibration
-from towercrane.simulation import drift
 from towercrane.simulation.arguments import TIGHTEST
 from towercrane.simulation.energy_balance import NOT_CONSERVED
+from towercrane.simulation.methods.registry import method_of
 from towercrane.simulation.outcomes import FINISHED
 from towercrane.simulation.system import NoEquilibrium
 
@@ -192,7 +192,7 @@ def notices(case: Case, result: Result, natural: Natural, free: slice) -> list[s
             f"the rope pushes from {first:.2f} s on (down to {tension.min():.0f} N): "
             "a real rope would be slack there; this case takes it as a rod"
         )
-    said = drift.notice(*(result.attrs[name] for name in ("method", "rtol", "atol")))
+    said = method_of(result.attrs["method"]).notice(result.attrs["rtol"], result.attrs["atol"])
     # A promised error holds what the solver damps.
     if said and (accuracy(result) or {}).get("outcome") not in AS_ASKED:
         found.append(said)

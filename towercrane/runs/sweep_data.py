@@ -12,7 +12,7 @@ from towercrane.accuracy.promise import targets_of
 from towercrane.cases.assumptions import as_notes, rests_on
 from towercrane.cases.kinds import unit_of
 from towercrane.results.versions import versions
-from towercrane.simulation.drift import notice
+from towercrane.simulation.methods.registry import method_of
 from towercrane.simulation.outcomes import INTERRUPTED
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ class Found:
         self.assumed |= dict.fromkeys(as_notes(rests_on(case)))
         if not targets_of(case):
             self.solvers[solver.method, solver.rtol, solver.atol] = None
-            if said := notice(solver.method, solver.rtol, solver.atol):
+            if said := method_of(solver.method).notice(solver.rtol, solver.atol):
                 self.notices[said] = None
 
 

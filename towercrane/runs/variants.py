@@ -17,7 +17,7 @@ from towercrane.cranes.tower.file.build import radial_model
 from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.motions.motion import phases
 from towercrane.schema.faults import CaseError
-from towercrane.simulation.tableaus import TABLEAUS
+from towercrane.simulation.methods.registry import METHODS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -158,7 +158,7 @@ def change(key: str, value: Value) -> str:
 
 def _fits_lanes(case: Case) -> bool:
     """Whether a run can share lanes; one that chooses its own model and tolerance for an error cannot."""
-    fits = isinstance(case.checked, RadialCase) and case.solver.method in TABLEAUS
+    fits = isinstance(case.checked, RadialCase) and METHODS[case.solver.method].compiled
     return fits and not targets_of(case)
 
 

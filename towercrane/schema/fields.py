@@ -175,7 +175,7 @@ class Run(Table):
 class Solver(Table):
     """Time integration."""
 
-    method: Literal["dop853", "dopri5", "scipy-dop853", "scipy-rk45", "scipy-radau", "scipy-lsoda"] = "dop853"
+    method: str = "dop853"
     rtol: Annotated[float, Quantity("1", least=1e-13, most=0.1)] = 1e-8
     atol: Annotated[float, Quantity("1", above=0)] = 1e-10
 

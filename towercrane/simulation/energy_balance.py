@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.simulation.drift import effective_tolerance
+from towercrane.simulation.methods.method import effective_tolerance
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.motions.motion import SAME_INSTANT
 from towercrane.simulation.arguments import check_times, check_tolerances
 from towercrane.simulation.directions import restore_rows
-from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, STALLED
-from towercrane.simulation.tableaus import TABLEAUS, Tableau
+from towercrane.simulation.methods.method import DEFAULT
+from towercrane.simulation.methods.registry import METHODS, method_of
+from towercrane.simulation.outcomes import FINISHED
 from towercrane.simulation.trajectory import ACCEPTED, EVALUATIONS, REJECTED, WRITTEN, Run, Trajectory, phase_of
 
 if TYPE_CHECKING:
@@ -23,21 +23,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-SCIPY_METHODS = {
-    "scipy-dop853": "DOP853",
-    "scipy-rk45": "RK45",
-    "scipy-radau": "Radau",
-    "scipy-lsoda": "LSODA",
-}
-METHODS = (*TABLEAUS, *SCIPY_METHODS)
-"""Names of all methods; those of SciPy run the same right-hand side as a cross-check."""
-
-STEPS_PER_CALL = 20_000
-"""Steps between two looks at progress and the keyboard."""
-
-MOST_STALLED = 20
-"""Switches in a row without time passing at which a run is given up."""
-
 
 def integrate(
     system: System,
@@ -45,7 +30,7 @@ def integrate(
     start: Floats,
     sample_times: Floats,
     *,
-    method: str = "dop853",
+    method: str = DEFAULT,
     rtol: float = 1e-8,
     atol: float = 1e-10,
     split: bool = True,
@@ -63,7 +48,7 @@ def integrate(
     sample_times : ndarray, shape (p,)
         Increasing times at which states are wanted [s].
     method : str
-        One of METHODS.
+        One of :data:`towercrane.simulation.methods.registry.METHODS`.
     rtol, atol : float
         Tolerances per step, from 1e-13 and 1e-20 to 1; atol is multiplied by ``system.scale``.
     split : bool
@@ -77,29 +62,24 @@ def integrate(
     ValueError
         If an argument is out of its range, or the combination is not offered: SciPy's methods know no switch.
     """
-    if method not in METHODS:
-        raise ValueError(f"method: wanted one of {', '.join(METHODS)}, got {method!r}")
+    solver = method_of(method)
     check_tolerances(rtol, atol)
     check_times(sample_times)
     if np.shape(start) != (system.size,):
         raise ValueError(f"start: wanted {system.size} states in one row, got the shape {np.shape(start)}")
-    if method not in TABLEAUS and system.switch is not None and system.switch.changes_equations:
+    if not solver.follows_switches and system.switch is not None and system.switch.changes_equations:
         # They would take a sign for a smooth function and creep to a halt at the first reversal.
+        able = ", ".join(name for name, own in METHODS.items() if own.follows_switches)
         raise ValueError(
-            f"method: wanted one of {', '.join(TABLEAUS)} for equations that switch, as friction that sticks, "
-            f"got {method!r}"
+            f"method: wanted one of {able} for equations that switch, as friction that sticks, got {method!r}"
         )
+    if not (split or solver.crosses_phases):
+        able = ", ".join(name for name, own in METHODS.items() if own.crosses_phases)
+        raise ValueError(f"split=False: wanted one of {able}, got {method!r}")
     began, began_cpu = time.perf_counter(), time.process_time()
     run = Run(system, rtol, atol, np.array(start, dtype=float), np.empty((len(sample_times), system.size)))
     restore_rows(run.state, system.directions)
-    if method not in TABLEAUS:
-        from towercrane.simulation.scipy_solver import solve
-
-        outcome = solve(run, phases, sample_times, SCIPY_METHODS[method], split, progress)
-    elif split:
-        outcome = _compiled(run, phases, sample_times, TABLEAUS[method], progress)
-    else:
-        raise ValueError(f"split=False: wanted one of {', '.join(SCIPY_METHODS)}, got {method!r}")
+    outcome = solver.carry(run, phases, sample_times, split, progress)
     written = int(run.counts[WRITTEN])
     # Between steps the dense output keeps a direction as well as it keeps anything.
     restore_rows(run.samples[:written], system.directions)
@@ -120,90 +100,6 @@ def integrate(
         cpu_seconds=time.process_time() - began_cpu,
         wall_seconds=time.perf_counter() - began,
     )
-
-
-def _compiled(run: Run, phases: Phases, sample_times: Floats, tableau: Tableau, progress: Progress | None) -> str:
-    from towercrane.simulation import stepper
-
-    system = run.system
-    guards, numbers, floors = np.empty(len(system.guards)), system.numbers.copy(), system.floors.copy()
-    ranges = np.empty((2, len(guards)))
-    k, scratch = np.empty((len(tableau.a), system.size)), np.empty((3, system.size))
-    work, step = np.zeros(system.work_shape), 0.0
-    owner = phase_of(sample_times, phases)
-    for phase, inputs in enumerate(phases.inputs):
-        begin, t_end = float(phases.times[phase]), float(phases.times[phase + 1] - phases.times[phase])
-        clock = np.array([0.0, step, run.smallest_step, tableau.longest_step(system.fastest)])
-        mine = owner == phase
-        first = int(np.count_nonzero(owner < phase))
-        counts = np.zeros(len(run.counts), dtype=np.int64)
-        constants = (numbers, *system.constants[1:])
-
-        def guards_at(inputs: Floats = inputs, clock: Floats = clock, constants: Any = constants) -> Floats:
-            system.rhs(clock[stepper.TIME], run.state, scratch[0], inputs, *constants, work, guards)
-            return guards
-
-        if system.switch is not None:
-            system.switch.begin(run.state, numbers, floors, guards_at)
-        arguments = (
-            system.rhs, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
-            tableau.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, system.directions, k, scratch,
-            np.minimum(sample_times[mine] - begin, t_end), run.samples[first : first + np.count_nonzero(mine)],
-            STEPS_PER_CALL, inputs, *constants, work, guards, ranges, floors,
-        )  # fmt: skip
-        status, interrupted, stalled, fresh = stepper.PAUSED, False, 0, True
-        while status == stepper.PAUSED and not interrupted:
-            before = clock[stepper.TIME]
-            try:
-                if fresh:
-                    guards_at()
-                    status = _enter(run, scratch[0], guards, floors, clock, counts, t_end)
-                    k[0], fresh = scratch[0], False
-                if status == stepper.PAUSED:
-                    status = stepper.advance(*arguments)
-                if progress is not None:
-                    progress(begin + clock[stepper.TIME])
-            except KeyboardInterrupt:
-                interrupted = True
-            if status == stepper.GUARD and system.switch is not None:
-                # Switches that follow each other without time passing would go on for ever.
-                stalled = stalled + 1 if clock[stepper.TIME] - before < SAME_INSTANT else 0
-                if stalled > MOST_STALLED:
-                    run.counts += counts
-                    run.time, run.smallest_step = begin + float(clock[stepper.TIME]), float(clock[stepper.SMALLEST])
-                    return STALLED
-                crossed = int(counts[stepper.GUARD_INDEX])
-                if system.switch.cross(crossed, run.state, numbers, floors, guards_at):
-                    status, fresh = stepper.PAUSED, True
-        run.counts += counts
-        run.time, run.smallest_step = begin + float(clock[stepper.TIME]), float(clock[stepper.SMALLEST])
-        step = float(clock[stepper.STEP])
-        if interrupted:
-            return INTERRUPTED
-        if status == stepper.GUARD:
-            return system.guards[int(counts[stepper.GUARD_INDEX])]
-        if status == stepper.COLLAPSED:
-            return COLLAPSED
-        if status == stepper.NOT_FINITE:
-            return NOT_FINITE
-    return FINISHED
-
-
-def _enter(
-    run: Run, slope: Floats, guards: Floats, floors: Floats, clock: Floats, counts: NDArray[np.int64], t_end: float
-) -> int:
-    """Whether the run goes on, with the slope and the guards where it stands; a first step if it has none."""
-    from towercrane.simulation import stepper
-
-    counts[EVALUATIONS] += 1
-    if not np.all(np.isfinite(slope)):
-        return stepper.NOT_FINITE
-    if len(fallen := np.flatnonzero(guards < floors)):
-        counts[stepper.GUARD_INDEX] = fallen[0]
-        return stepper.GUARD
-    if clock[stepper.STEP] <= 0.0:
-        clock[stepper.STEP] = stepper.first_step(run.state, slope, run.rtol, run.atol, t_end)
-    return stepper.PAUSED
 
 
 def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> tuple[Floats, Floats]:

@@ -16,9 +16,11 @@ from modal.checks import check_positive, number_in
 from towercrane.motions.motion import Motion, phases
 from towercrane.results.recording import Recording
 from towercrane.results.versions import versions
-from towercrane.simulation import drift, energy_balance
+from towercrane.simulation import energy_balance
 from towercrane.simulation.arguments import check_tolerances
 from towercrane.simulation.integrate import evaluate, integrate
+from towercrane.simulation.methods.method import DEFAULT, EnergyDriftWarning
+from towercrane.simulation.methods.registry import method_of
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.system import Model, NoEquilibrium, start_inputs
 from towercrane.simulation.trajectory import Trajectory
@@ -47,7 +49,7 @@ def record(
     output_step: float = 0.05,
     state: str = "equilibrium",
     swing_angle: float = 0.0,
-    method: str = "dop853",
+    method: str = DEFAULT,
     rtol: float = 1e-8,
     atol: float = 1e-10,
     split: bool = True,
@@ -98,11 +100,11 @@ def record(
         raise ValueError(f"output_step, duration: wanted 0 < step <= duration, got {output_step}, {duration}")
     check_tolerances(rtol, atol)
     number_in("swing_angle", swing_angle, "a finite number")
-    if method in drift.ENERGY_DRIFT:
-        if reason := drift.refusal(method, rtol, atol):
-            raise ValueError(f"rtol, atol: {reason}, got {rtol:g}, {atol:g}")
-        if said := drift.notice(method, rtol, atol):
-            warnings.warn(said, drift.EnergyDriftWarning, stacklevel=3)
+    solver = method_of(method)
+    if reason := solver.refusal(rtol, atol):
+        raise ValueError(f"rtol, atol: {reason}, got {rtol:g}, {atol:g}")
+    if said := solver.notice(rtol, atol):
+        warnings.warn(said, EnergyDriftWarning, stacklevel=3)
     began = time.perf_counter()
     cut = phases(tuple(_motion(motions, channel) for channel in model.channels), duration)
     if "rope" in model.channels and (shortest := float(cut.inputs[:, model.channels.index("rope"), 0].min())) <= 0.0:

@@ -161,7 +161,7 @@ def advance(
     rhs, inputs, numbers, vectors, matrices, tables, work
         As in :func:`towercrane.simulation.system.rhs_signature`.
     stages, a, c, error, dense, error_order
-        As in :class:`towercrane.simulation.tableaus.Tableau`.
+        As in :class:`towercrane.simulation.methods.runge_kutta.RungeKutta`.
     clock, counts : ndarray, shapes (4,) and (5,)
         Read and written.
     y : ndarray, shape (size,)

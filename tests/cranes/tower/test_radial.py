@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, s_curve, sequence, trapezoid
-from towercrane.simulation.drift import EnergyDriftWarning
+from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import simulate
 
 RUN_OPTIONS = ("state", "rtol", "atol", "output_step", "method")

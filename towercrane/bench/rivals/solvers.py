@@ -69,8 +69,7 @@ class Family:
 
 
 def own(method: str, split: bool = True) -> Solve:
-    """A method of :data:`towercrane.simulation.integrate.METHODS`, SciPy's among them, on the compiled right-hand
-    side."""
+    """A method of :data:`towercrane.simulation.methods.registry.METHODS`, on the compiled right-hand side."""
 
     def solve(scene: Scene, rtol: float) -> tuple[Floats, int]:
         run = whole(

@@ -8,9 +8,8 @@ import numpy as np
 
 from towercrane.bench.clock import signed
 from towercrane.bench.scenes.free_vibration import CASE, FreeVibration
-from towercrane.simulation.drift import ATOL_SHARE
-from towercrane.simulation.integrate import METHODS
-from towercrane.simulation.tableaus import TABLEAUS
+from towercrane.simulation.methods.method import ATOL_SHARE
+from towercrane.simulation.methods.registry import METHODS
 
 HOUR = 3600.0
 """[s]"""
@@ -70,7 +69,7 @@ def one_hour(quick: bool) -> dict[str, Any]:
 
 def _measured(method: str, rtol: float, modes: tuple[int, int], quick: bool) -> bool:
     """Whether a run is made: SciPy's take minutes."""
-    if method in TABLEAUS:
+    if METHODS[method].compiled:
         return True
     return not quick and (modes == MODES[0] or (method != "scipy-radau" and rtol == RTOLS[0]))
 

@@ -11,9 +11,8 @@ from towercrane.bench.clock import short, signed
 from towercrane.bench.runs.one_hour import one_hour
 from towercrane.bench.scenes.free_vibration import CASE, SWING, TROLLEY, FreeVibration
 from towercrane.bench.scenes.prepared import radial_outputs
-from towercrane.simulation.drift import ATOL_SHARE, NAMED, SPAN, energy_drift, notice, refusal
-from towercrane.simulation.integrate import METHODS
-from towercrane.simulation.tableaus import TABLEAUS
+from towercrane.simulation.methods.method import ATOL_SHARE, NAMED, SPAN
+from towercrane.simulation.methods.registry import METHODS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -59,7 +58,7 @@ def drift(quick: bool) -> dict[str, Any]:
     scenes = [(modes, FreeVibration(*modes)) for modes in DRIFT_MODES]
     records = []
     for method in METHODS:
-        compiled = method in TABLEAUS
+        compiled = METHODS[method].compiled
         for rtol in TOLERANCES:
             if quick and not compiled and (method == "scipy-radau" or rtol < 1e-4):
                 continue
@@ -97,9 +96,10 @@ def _drift_record(
     method: str, rtol: float, changes: dict[str, float], worst: float, *, complete: bool
 ) -> dict[str, Any]:
     atol = ATOL_SHARE * rtol
-    refused = bool(refusal(method, rtol, atol))
-    stated = None if refused else energy_drift(method, rtol, atol)
-    verdict = "refused" if refused else "warning" if notice(method, rtol, atol) else "nothing"
+    known = METHODS[method]
+    refused = bool(known.refusal(rtol, atol))
+    stated = None if refused else known.energy_change(rtol, atol)
+    verdict = "refused" if refused else "warning" if known.notice(rtol, atol) else "nothing"
     met = agrees(worst, stated) if complete else True
     return {
         "method": method, "rtol": rtol, "changes": changes, "worst": worst, "stated": stated,
@@ -186,7 +186,7 @@ def failure_map(quick: bool) -> dict[str, Any]:
 
 def _mapped(method: str, modes: tuple[int, int], quick: bool) -> bool:
     """Whether a cell of the map is measured: SciPy's methods take minutes on stiff models."""
-    if method in TABLEAUS:
+    if METHODS[method].compiled:
         return modes != MAP_MODES[-1] or not quick
     if quick:
         return modes == MAP_MODES[0] and method != "scipy-radau"

@@ -14,8 +14,8 @@ from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.cranes.tower.outputs.energy import total_energy
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases, rest
-from towercrane.simulation.drift import ATOL_SHARE
 from towercrane.simulation.integrate import integrate
+from towercrane.simulation.methods.method import ATOL_SHARE
 from towercrane.simulation.outcomes import FINISHED
 
 if TYPE_CHECKING:

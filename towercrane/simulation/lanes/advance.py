@@ -111,7 +111,7 @@ def advance(
     queue, answers, lanes
         See :mod:`towercrane.simulation.lanes.queue`.
     stages, a, c, error, dense, error_order
-        As in :class:`towercrane.simulation.tableaus.Tableau`.
+        As in :class:`towercrane.simulation.methods.runge_kutta.RungeKutta`.
     rtol : float
         Relative tolerance per step.
     most_steps : int

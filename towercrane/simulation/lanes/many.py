@@ -39,9 +39,10 @@ from towercrane.simulation.lanes.queue import (
 from towercrane.simulation.lanes.queue import COLLAPSED as COLLAPSED_CODE
 from towercrane.simulation.lanes.queue import FINISHED as FINISHED_CODE
 from towercrane.simulation.lanes.queue import NOT_FINITE as NOT_FINITE_CODE
+from towercrane.simulation.methods.method import DEFAULT
+from towercrane.simulation.methods.registry import pair_of
 from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
-from towercrane.simulation.tableaus import TABLEAUS, Tableau
 from towercrane.simulation.trajectory import phase_of
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.tower.planar import RadialModel
     from towercrane.motions.motion import Phases
+    from towercrane.simulation.methods.runge_kutta import RungeKutta
     from towercrane.simulation.system import System
 
     Floats = NDArray[np.float64]
@@ -119,7 +121,7 @@ def integrate_many(
     runs: Sequence[LaneRun],
     sample_times: Floats,
     *,
-    method: str = "dop853",
+    method: str = DEFAULT,
     rtol: float = 1e-8,
     atol: float = 1e-10,
     threads: int | None = None,
@@ -134,7 +136,8 @@ def integrate_many(
         With the same numbers of modes and the same shapes of the jib's modes.
     sample_times : ndarray, shape (p,)
         Increasing times at which the outputs are looked at [s].
-    method : {"dop853", "dopri5"}
+    method : str
+        Name of a Runge-Kutta pair.
     rtol, atol : float
         Tolerances, as in :func:`towercrane.simulation.integrate.integrate`.
     threads : int, optional
@@ -149,15 +152,14 @@ def integrate_many(
     ValueError
         If the runs cannot share lanes, or an argument is out of its range.
     """
-    if method not in TABLEAUS:
-        raise ValueError(f"method: wanted one of {', '.join(TABLEAUS)}, got {method!r}")
+    pair = pair_of(method)
     check_tolerances(rtol, atol)
     check_times(sample_times)
     if threads is not None and threads < 1:
         raise ValueError(f"threads: wanted one or more, got {threads!r}")
     if not runs:
         raise ValueError("runs: wanted one or more, got none")
-    tableau, system = TABLEAUS[method], runs[0].model.system
+    system = runs[0].model.system
     if any(not _alike(run.model.system, system) for run in runs):
         raise ValueError("runs: wanted the same numbers and shapes of modes in all, got different ones")
     answers = _answers(len(runs), system, len(sample_times) if series else 0)
@@ -168,13 +170,13 @@ def integrate_many(
     def work(first: int) -> None:
         task = slice(first, first + share)
         mine = Answers(*(array[task] for array in answers))
-        queue = _queue(runs[task], mine, sample_times, atol, tableau)
-        lanes = lanes_for(queue, len(tableau.a), system.work_shape, len(OUTPUTS))
+        queue = _queue(runs[task], mine, sample_times, atol, pair)
+        lanes = lanes_for(queue, len(pair.a), system.work_shape, len(OUTPUTS))
         left = True
         while left and not stop.is_set():
             left = advance(
-                rhs, queue, mine, lanes, tableau.stages, tableau.a, tableau.c, tableau.error, tableau.dense,
-                tableau.error_order, rtol, STEPS_PER_CALL,
+                rhs, queue, mine, lanes, pair.stages, pair.a, pair.c, pair.error, pair.dense,
+                pair.error_order, rtol, STEPS_PER_CALL,
             )  # fmt: skip
         record_ends(runs[task], queue, mine)
         mine.outcomes[(mine.outcomes > NO_START) & off_balance(runs[task], queue, mine, rtol, atol)] = OFF_BALANCE
@@ -218,7 +220,7 @@ def _start(run: LaneRun) -> tuple[Floats, int]:
         return run.model.start(inputs, "zero", run.swing_angle), NO_START
 
 
-def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, tableau: Tableau) -> Queue:
+def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, pair: RungeKutta) -> Queue:
     """The runs' data as the compiled steps want them; runs with fewer phases are padded."""
     systems = [run.model.system for run in runs]
     starts = np.empty((len(runs), systems[0].size))
@@ -249,7 +251,7 @@ def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol
         waiting=np.flatnonzero(answers.outcomes == WAITING),
         starts=starts,
         atol=atol * np.array([system.scale for system in systems]),
-        longest_steps=np.array([tableau.longest_step(system.fastest) for system in systems]),
+        longest_steps=np.array([pair.longest_step(system.fastest) for system in systems]),
         numbers=np.array([system.numbers for system in systems]),
         vectors=np.array([system.vectors for system in systems]),
         matrices=np.array([system.matrices for system in systems]),

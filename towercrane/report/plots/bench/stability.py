@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.report.plots.style import COLOURS, MARKERS, figure_of
-from towercrane.simulation.drift import NAMED, SPAN
+from towercrane.simulation.methods.method import NAMED, SPAN
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
