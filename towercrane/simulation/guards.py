@@ -22,14 +22,21 @@ Between two stages, at most 0.3 of a step apart, a parabola falls by 0.09 of its
 vibration of which the whole step is one period by 0.21.
 """
 
+FEW_LOOKS = 8
+"""Points of a step that show whether a guard that may be near its floor is close to it."""
+
+CLOSE = 0.15
+"""A guard is close to its floor where it comes closer to it than this part of its range, as so many points see it.
+
+Between two of them a parabola falls by 0.016 of its range, and a vibration of which the whole step is one period by
+0.04, of which it is two by 0.15.
+"""
+
 LOOKS = 32
-"""Points of a step at which the guards are looked at once one of them is near its floor.
+"""Points of a step at which the guards are looked at once one of them is close to its floor.
 
 What dips between two of them is at most 0.001 of a parabola's range deep, 0.0025 of a vibration's.
 """
-
-FEW_LOOKS = 8
-"""Points of a step that show whether a guard is near its floor, where a solver's stages are its own."""
 
 NARROWEST = 1e-12
 """Part of a step within which a fall is found."""
@@ -53,9 +60,9 @@ def widen(lowest: Any, highest: Any, guards: Any) -> None:
 
 
 @kernel()
-def is_near(lowest: float, highest: float, floor: float) -> bool:
-    """Whether a guard with this range in a step has fallen below its floor, or may have between two stages."""
-    return bool(lowest < floor or lowest - floor < NEAR * (highest - lowest))
+def is_near(lowest: float, highest: float, floor: float, part: float) -> bool:
+    """Whether a guard of this range has fallen below its floor, or come closer than that part of its range."""
+    return bool(lowest < floor or lowest - floor < part * (highest - lowest))
 
 
 def first_fall(
@@ -79,7 +86,7 @@ def first_fall(
 
     _, found = seen(FEW_LOOKS)
     lowest, highest = found.min(axis=0), found.max(axis=0)
-    if not any(is_near(low, high, 0.0) for low, high in zip(lowest, highest, strict=True)):
+    if not any(is_near(low, high, 0.0, CLOSE) for low, high in zip(lowest, highest, strict=True)):
         return None
     times, found = seen(LOOKS)
     below = np.flatnonzero((found < 0.0).any(axis=1))

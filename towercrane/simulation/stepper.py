@@ -13,7 +13,7 @@ from numba import types
 
 from modal.compiler.compiled import kernel
 from towercrane.simulation.directions import restore
-from towercrane.simulation.guards import LOOKS, NARROWEST, fallen, is_near, widen
+from towercrane.simulation.guards import CLOSE, FEW_LOOKS, LOOKS, NARROWEST, NEAR, fallen, is_near, widen
 from towercrane.simulation.system import rhs_signature
 
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
@@ -62,12 +62,12 @@ def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, ato
 
 
 @kernel()
-def _near(lowest: Any, highest: Any, floors: Any) -> int:
-    """Index of the first guard with these ranges in a step that is near its floor, or -1."""
+def _near(lowest: Any, highest: Any, floors: Any, part: float) -> bool:
+    """Whether one of the guards with these ranges in a step is closer to its floor than that part of its range."""
+    found = False
     for g in range(floors.size):
-        if is_near(lowest[g], highest[g], floors[g]):
-            return g
-    return -1
+        found = found or is_near(lowest[g], highest[g], floors[g], part)
+    return found
 
 
 @kernel()
@@ -205,14 +205,12 @@ def advance(
             counts[EVALUATIONS] += 1
             for m in range(y.size):
                 k[i, m] = slope[m]
-            if i > stages:
-                continue
             widen(lowest, highest, guards)
             if i == stages:
                 for m in range(y.size):
                     new[m] = trial[m]
                 norm = _error_norm(error, k, y, new, step, rtol, atol)
-                suspect = _near(lowest, highest, floors) >= 0
+                suspect = _near(lowest, highest, floors, NEAR)
                 wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
                 # The stages beyond are for the dense output alone.
                 if not (norm <= 1.0 and (suspect or wanted)):
@@ -226,6 +224,14 @@ def advance(
             continue
 
         # A stage is only an estimate of the state there, and blind beside it; the dense output decides.
+        if suspect:
+            for look in range(1, FEW_LOOKS + 1):
+                x = look / FEW_LOOKS
+                _dense(y, dense, k, step, x, trial)
+                rhs(t + x * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                counts[EVALUATIONS] += 1
+                widen(lowest, highest, guards)
+            suspect = _near(lowest, highest, floors, CLOSE)
         low, high, crossed = 0.0, 1.0 / LOOKS, -1
         while suspect:
             x = high if crossed < 0 else 0.5 * (low + high)

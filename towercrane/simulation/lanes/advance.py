@@ -18,7 +18,7 @@ from towercrane.kernels.arrays import in_lanes, lane_rhs_signature, lent
 from towercrane.kernels.choices import choose
 from towercrane.kernels.vector import LANES
 from towercrane.simulation.directions import restore
-from towercrane.simulation.guards import LOOKS, widen
+from towercrane.simulation.guards import FEW_LOOKS, LOOKS, widen
 from towercrane.simulation.lanes import dense_output as looks
 from towercrane.simulation.lanes import queue as lane_queue
 from towercrane.simulation.lanes import stepper as lane_stepper
@@ -205,6 +205,15 @@ def advance(
             )  # fmt: skip
             lane_stepper.count(looking, places, counts, a.shape[0] - 1 - stages)
             # A stage is only an estimate of the state there, and blind beside it; the dense output decides.
+            look, looking = 1, looks.look_along(places, clock, 1, FEW_LOOKS)
+            while looking:
+                looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
+                rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                lane_stepper.count(looking, places, counts, 1)
+                widen(lowest, highest, guards)
+                look += 1
+                looking = looks.look_along(places, clock, look, FEW_LOOKS)
+            looks.keep_close(places, lane_lowest, lane_highest, lane_floors)
             suspect, looking = False, looks.look_for_falls(places, clock, LOOKS)
             while looking:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)

@@ -6,7 +6,7 @@ from typing import Any
 
 from modal.compiler.compiled import kernel
 from towercrane.kernels.vector import LANES
-from towercrane.simulation.guards import NARROWEST, is_near
+from towercrane.simulation.guards import CLOSE, NARROWEST, is_near
 from towercrane.simulation.lanes.queue import (
     ACCEPTED_STEP,
     BEGIN,
@@ -41,12 +41,12 @@ def fallen(guards: Any, floors: Any, lane: int) -> int:
 
 
 @kernel()
-def near(lowest: Any, highest: Any, floors: Any, lane: int) -> int:
-    """Index of a lane's first guard that has been near its floor, or -1."""
+def near(lowest: Any, highest: Any, floors: Any, part: float, lane: int) -> bool:
+    """Whether one of a lane's guards is closer to its floor than that part of its range in a step."""
+    found = False
     for g in range(floors.shape[0]):
-        if is_near(lowest[g, lane], highest[g, lane], floors[g, lane]):
-            return g
-    return -1
+        found = found or is_near(lowest[g, lane], highest[g, lane], floors[g, lane], part)
+    return found
 
 
 @kernel()
@@ -121,8 +121,28 @@ def dense_states(y: Any, dense: Any, k: Any, h: Any, x: Any, out: Any) -> None:
 
 
 @kernel()
+def look_along(places: Any, clock: Any, look: int, few: int) -> int:
+    """Lanes with a guard near its floor that look at this of a few points of their steps, as bits."""
+    looking = 0
+    for lane in range(LANES):
+        if look <= few and clock[ACCEPTED_STEP, lane] and places[SUSPECT, lane]:
+            looking |= 1 << lane
+        clock[FRACTION, lane] = look / few
+        clock[MOMENT, lane] = clock[TIME, lane] + clock[FRACTION, lane] * clock[TRIAL, lane]
+    return looking
+
+
+@kernel()
+def keep_close(places: Any, lowest: Any, highest: Any, floors: Any) -> None:
+    """Suspect only lanes with a guard that has come close to its floor."""
+    for lane in range(LANES):
+        if places[SUSPECT, lane]:
+            places[SUSPECT, lane] = near(lowest, highest, floors, CLOSE, lane)
+
+
+@kernel()
 def look_for_falls(places: Any, clock: Any, looks: int) -> int:
-    """Lanes that have to look once more for the fall of a guard near its floor, as bits, and where in their steps.
+    """Lanes that have to look once more for the fall of a guard close to its floor, as bits, and where in steps.
 
     The bracket is empty before the first look. It moves along the step, and is halved once a guard has fallen at
     its upper end.

@@ -12,6 +12,7 @@ import numpy as np
 
 from modal.compiler.compiled import kernel
 from towercrane.kernels.vector import LANES
+from towercrane.simulation.guards import NEAR
 from towercrane.simulation.lanes.dense_output import fallen, near, wants_sample
 from towercrane.simulation.lanes.queue import (
     ACCEPTED,
@@ -131,7 +132,7 @@ def judge_steps(
             clock[STEP, lane] = step * min(growth, max(SHRINK, factor))
         clock[GROWTH, lane] = GROW
         clock[LOW, lane], clock[HIGH, lane], places[CROSSED, lane] = 0.0, 0.0, -1
-        places[SUSPECT, lane] = near(lowest, highest, floors, lane) >= 0
+        places[SUSPECT, lane] = near(lowest, highest, floors, NEAR, lane)
         if places[SUSPECT, lane] or wants_sample(places, clock, sample_times, lane):
             looking |= 1 << lane
     return looking
