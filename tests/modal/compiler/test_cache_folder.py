@@ -1,0 +1,80 @@
+"""Folders of machine code: those of other sources go when nobody has used them for long, nothing else does."""
+
+import os
+import time
+
+import platformdirs
+import pytest
+
+from modal.compiler import folder
+from modal.compiler.folder import DIGITS, KEPT, cache_folder, obstacle
+
+DAY = 24.0 * 3600.0
+
+
+@pytest.fixture
+def home(tmp_path, monkeypatch):
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    monkeypatch.setattr(platformdirs, "user_cache_dir", lambda *_, **__: str(tmp_path / "cache"))
+    obstacle.cache_clear()
+    (tmp_path / "cache").mkdir()
+    yield tmp_path / "cache"
+    obstacle.cache_clear()
+
+
+def made(home, name, days):
+    """A folder with a file in it, last used so many days ago."""
+    path = home / name
+    (path / "kernels_1").mkdir(parents=True)
+    (path / "kernels_1" / "rhs.nbi").write_bytes(b"code")
+    aged(path, days)
+    return path
+
+
+def aged(path, days):
+    os.utime(path, (time.time() - days * DAY,) * 2)
+
+
+def test_a_new_folder_clears_away_what_nobody_has_used_for_long(home):
+    old, recent = made(home, "0" * DIGITS, KEPT + 1.0), made(home, "1" * DIGITS, KEPT - 1.0)
+    others = [made(home, name, 1000.0) for name in ("results", "0" * (DIGITS - 1), "g" * DIGITS, "0" * DIGITS + "1")]
+    assert obstacle(cache_folder.__wrapped__()) == ""
+    assert not old.exists()
+    assert recent.exists()
+    assert all(list(path.rglob("*.nbi")) for path in others)
+    assert cache_folder.__wrapped__().parent == home
+
+
+def test_a_folder_that_is_there_clears_nothing_away_and_counts_as_used(home):
+    own, old = cache_folder.__wrapped__(), made(home, "0" * DIGITS, KEPT + 1.0)
+    own.mkdir()
+    aged(own, KEPT + 1.0)
+    assert obstacle(own) == ""
+    assert old.exists()
+    assert time.time() - own.stat().st_mtime < DAY
+
+
+def test_a_folder_of_the_user_s_choice_keeps_its_neighbours(home, tmp_path):
+    old = made(tmp_path / "elsewhere", "0" * DIGITS, 1000.0)
+    assert obstacle(tmp_path / "elsewhere" / ("1" * DIGITS)) == ""
+    assert old.exists()
+
+
+def test_what_a_link_leads_to_and_what_cannot_be_removed_stay_without_a_word(home, tmp_path, monkeypatch):
+    target = made(tmp_path, "target", KEPT + 1.0)
+    link, stuck = home / ("0" * DIGITS), made(home, "1" * DIGITS, KEPT + 1.0)
+    link.symlink_to(target, target_is_directory=True)
+    monkeypatch.setattr(os, "rmdir", refuse)
+    assert obstacle(cache_folder.__wrapped__()) == ""
+    assert link.is_symlink()
+    assert list(target.rglob("*.nbi"))
+    assert stuck.exists()
+
+
+def test_a_folder_that_cannot_be_looked_through_is_left_alone(home, monkeypatch):
+    monkeypatch.setattr(folder.Path, "iterdir", refuse)
+    assert obstacle(cache_folder.__wrapped__()) == ""
+
+
+def refuse(*_, **__):
+    raise PermissionError(13, "Permission denied")
