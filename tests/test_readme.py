@@ -9,11 +9,11 @@ import pytest
 from modal import Beam, EndBody, cantilever_modes
 from towercrane import load_case
 from towercrane.cases.models import motions_of
-from towercrane.commands.lattice import lattice_report
 from towercrane.cranes.slewing.build import builder_of, parameters_of
 from towercrane.results.measures import gap
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import summarise
+from towercrane.studies.lattice import lattice_report
 from towercrane.studies.sensitivity import OUTPUTS, study
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")

@@ -189,7 +189,7 @@ def test_folder_that_cannot_be_is_refused_before_the_run(out, words, tmp_path, m
     (tmp_path / "f").write_text("", "utf-8")
     monkeypatch.chdir(tmp_path)
     # Without the compiler nothing can begin.
-    monkeypatch.setattr("towercrane.cli.announce_compilation", None)
+    monkeypatch.setattr("towercrane.kernels.compilation.missing_kernels", None)
     for command in (("run", RUN[1], "--out"), ("modes", RUN[1], "--out"), ("figures", "--out"), ("cases", "copy")):
         done = CliRunner().invoke(app, [*command, out])
         assert (done.exit_code, done.stdout) == (2, "")
@@ -198,7 +198,7 @@ def test_folder_that_cannot_be_is_refused_before_the_run(out, words, tmp_path, m
 
 
 def test_folder_in_place_of_a_file_is_refused_before_the_run(tmp_path, monkeypatch):
-    monkeypatch.setattr("towercrane.cli.announce_compilation", None)
+    monkeypatch.setattr("towercrane.kernels.compilation.missing_kernels", None)
     (tmp_path / "result.nc").mkdir()
     done = CliRunner().invoke(app, [*RUN, "--out", str(tmp_path)])
     assert done.exit_code == 2

@@ -10,24 +10,21 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
+from towercrane.commands.skeleton import Task, begin, end_of_run
 from towercrane.commands.terminal import (
     ENDED_EARLY,
-    NOT_AS_EXPECTED,
     Changes,
-    announce_compilation,
     fail,
     folder_for_results,
     held_interrupts,
-    load,
-    options_of,
-    path_of,
+    out_option,
     say,
-    say_notices,
     suggest,
     tell,
     with_bar,
     with_progress,
 )
+from towercrane.simulation import outcomes
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -54,15 +51,7 @@ def animate(
         str,
         typer.Argument(metavar="CASE", help="A case file, the name of a shipped case, or a result.nc of a run."),
     ],
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out",
-            metavar="FILE",
-            help="The film, .gif or (where there is ffmpeg) .mp4.",
-            parser=path_of,
-        ),
-    ] = None,
+    out: Annotated[Path | None, out_option("The film, .gif or (where there is ffmpeg) .mp4.", "FILE")] = None,
     changes: Changes = None,
     speed: Annotated[
         float | None,
@@ -78,8 +67,9 @@ def animate(
 ) -> None:
     """Film a run: the crane from the side and from above, its deformation magnified beside true scale."""
     finished = _finished(case, changes) if case.endswith(".nc") else None
-    loaded = load(case, changes) if finished is None else _case_of(case, finished)
-    say_notices(loaded)
+    task = begin(case, changes) if finished is None else Task(case, [], _case_of(case, finished))
+    task.say_notices()
+    loaded = task.case
     if out is None:
         out = Path("results") / f"{loaded.name}.gif" if finished is None else Path(case).with_suffix(".gif")
     _check_film(out, frames_per_second)
@@ -89,15 +79,13 @@ def animate(
         _nothing(loaded, finished)
     duration = loaded.run.duration if finished is None else float(finished["time"][-1])
     playback = _playback(duration, start, end, speed, frames_per_second)
-    from towercrane.cases.models import uses_of
-
-    announce_compilation(*uses_of(loaded), "runs")
+    task.compile()
     result = _run(loaded) if finished is None else finished
     if (over := float(result["time"][-1])) <= playback.start:
         _nothing(loaded, result)
     playback = replace(playback, end=min(playback.end, over))
     _film(case, loaded, result, playback, magnify, out)
-    suggest(*(("run", case, *options_of(changes)) if finished is None else _slower(case, playback)))
+    suggest(*(task.command("run") if finished is None else _slower(case, playback)))
     _exit(loaded, result)
 
 
@@ -175,7 +163,7 @@ def _run(case: Case) -> xr.Dataset:
     from towercrane.runs.run import record_case
 
     result = with_progress(case, record_case)
-    if result.attrs["outcome"] == "interrupted":
+    if result.attrs["outcome"] == outcomes.INTERRUPTED:
         raise KeyboardInterrupt
     return result.dataset()
 
@@ -245,10 +233,4 @@ def _exit(case: Case, result: xr.Dataset) -> None:
     """Exit codes as of `run`."""
     from towercrane.runs.summary import expected
 
-    found = expected(case, result)
-    if found and not found["met"]:
-        say("\n".join(found["misses"]))
-        raise typer.Exit(NOT_AS_EXPECTED)
-    if result.attrs["outcome"] != "finished":
-        say(f"the run ended at {result.attrs['end_time']:.6g} s: {result.attrs['outcome']}")
-        raise typer.Exit(ENDED_EARLY)
+    end_of_run(expected(case, result), result.attrs["outcome"], result.attrs["end_time"])

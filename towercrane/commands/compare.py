@@ -2,30 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.commands.terminal import (
-    AsJson,
-    CaseName,
-    Changes,
-    Out,
-    Pictures,
-    announce_compilation,
-    fail,
-    folder_for_results,
-    load,
-    options_of,
-    say_notices,
-    suggest,
-    tell,
-    with_bar,
-    write,
-)
+from towercrane.commands.skeleton import Task, as_text, begin, kinds_for
+from towercrane.commands.terminal import AsJson, CaseName, Changes, Out, Pictures, fail, options_of, with_bar
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Case
@@ -45,40 +28,23 @@ def compare(
     pictures: Pictures = True,
 ) -> None:
     """Run a case in models from rigid to rich; which modes it needs for an error, and why."""
-    loaded = load(case, changes)
-    say_notices(loaded)
-    folder = out if out is not None else Path("results") / f"{loaded.name}-compare"
-    folder_for_results(folder)
+    task = begin(case, changes, as_json=as_json, notices=True)
+    task.into(out, "compare")
     if target is not None and not 0.0 < target < 1.0:
         fail(f"--target {target:g}: wanted a fraction between 0 and 1")
-    if loaded.kind not in ("radial", "space"):
-        fail(f"{case}: wanted a case of kind 'radial' or 'space', whose modes count, got {loaded.kind!r}")
-    from towercrane.cases.models import uses_of
-
-    announce_compilation(*uses_of(loaded), "runs")
+    if not task.serves("compare"):
+        task.refuse(f"wanted a case of kind {kinds_for('compare')}, whose modes count, got {task.case.kind!r}")
+    task.compile()
+    from towercrane.report.tables.space import comparison_tables
     from towercrane.studies.comparison import TARGET
 
-    accepted = target or _asked(loaded) or TARGET
-    report, results = _compared(loaded, accepted)
-    files: dict[str, Any] = {"compare.json": json.dumps(report, indent=2, allow_nan=False) + "\n"}
+    report, results = _compared(task.case, target or _asked(task.case) or TARGET)
+    files: dict[str, Any] = {"compare.json": as_text(report) + "\n"}
     if pictures:
         from towercrane.report.plots.studies.comparison import paths
 
         files["paths.png"] = paths(report, results)
-    write(folder, files)
-    if as_json:
-        tell(json.dumps(report, indent=2, allow_nan=False))
-        return
-    from towercrane.report.tables.space import comparison_tables
-
-    comparison_tables(report)
-    tell(f"written to {folder}: {', '.join(files)}")
-    counts: dict[str, int] = next(
-        (row["modes"] for row in report["rows"] if row["name"] == report["recommended"]), {}
-    )
-    suggest(
-        "run", case, *options_of(changes), *options_of([f"model.{key}={count}" for key, count in counts.items()])
-    )  # fmt: skip
+    task.finish(report, comparison_tables, _recommended(task, report), files)
 
 
 def _asked(case: Case) -> float | None:
@@ -96,3 +62,11 @@ def _compared(case: Case, target: float) -> tuple[dict[str, Any], dict[str, Any]
         return with_bar(f"models of {case.name}", partial(compared, case, target))
     except ValueError as error:
         fail(f"{case.path}: {error}")
+
+
+def _recommended(task: Task, report: dict[str, Any]) -> tuple[str, ...]:
+    """A run with the modes that the error needs."""
+    counts: dict[str, int] = next(
+        (row["modes"] for row in report["rows"] if row["name"] == report["recommended"]), {}
+    )
+    return task.command("run", *options_of([f"model.{key}={count}" for key, count in counts.items()]))

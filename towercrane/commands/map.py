@@ -2,32 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.commands.terminal import (
-    ENDED_EARLY,
-    AsJson,
-    CaseName,
-    Changes,
-    Out,
-    Pictures,
-    announce_compilation,
-    fail,
-    folder_for_results,
-    load,
-    options_of,
-    say,
-    suggest,
-    tell,
-    with_bar,
-    write,
-)
+from towercrane.commands.skeleton import as_text, begin
+from towercrane.commands.terminal import ENDED_EARLY, AsJson, CaseName, Changes, Out, Pictures, fail, say, with_bar
+from towercrane.simulation.outcomes import FINISHED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -65,13 +48,10 @@ def frequency_map(
     pictures: Pictures = True,
 ) -> None:
     """Natural frequencies of the plane crane over trolley position and payload; the tower's buckling load."""
-    loaded = load(case, changes)
-    if loaded.kind == "space":
-        fail(f"{case}: wanted a case of kind 'radial', got 'space'; try: towercrane modes {case}")
-    if loaded.kind != "radial":
-        fail(f"{case}: a crane of kind {loaded.kind!r} has no beams; try: towercrane linearise {case}")
-    folder = out if out is not None else Path("results") / f"{loaded.name}-map"
-    folder_for_results(folder)
+    task = begin(case, changes, as_json=as_json)
+    task.need("map", "beams")
+    task.into(out, "map")
+    loaded = task.case
     from towercrane.cranes.tower.file.case_tables import MOST_POSITIONS, RadialCase
     from towercrane.cranes.tower.file.requests import map_of
 
@@ -84,11 +64,12 @@ def frequency_map(
     masses = _masses(asked, payload)
     reach = tables.crane.jib.length
     where = None if shapes is None else _position(shapes, reach)
-    announce_compilation("chain")
+    task.compile("chain")
     import numpy as np
 
     from towercrane.cranes.tower.file.build import crane_frame
     from towercrane.cranes.tower.file.effects import softened
+    from towercrane.report.tables.modes import map_tables
     from towercrane.studies.map_report import csv_text, map_report, provenance
 
     frame = crane_frame(tables, weight=softened(tables))
@@ -102,7 +83,7 @@ def frequency_map(
     files: dict[str, Any] = {
         "map.nc": data,
         "map.csv": csv_text(data),
-        "map.json": json.dumps(report, indent=2) + "\n",
+        "map.json": as_text(report) + "\n",
     }
     if pictures:
         from towercrane.report.plots.studies import frequency_map as pictured
@@ -110,21 +91,11 @@ def frequency_map(
         files["map.png"] = pictured.frequencies(data)
     if where is not None:
         files |= _mode_picture(loaded, frame, where, modes)
-    write(folder, files)
-    if as_json:
-        tell(json.dumps(report, indent=2))
-    else:
-        from towercrane.report.tables.modes import map_tables
-
-        map_tables(report)
-        tell(f"written to {folder}: {', '.join(files)}")
-        if where is None:
-            suggest("map", case, *options_of(changes), "--shapes", f"{0.5 * reach:g} m")
-        else:
-            suggest("run", case, *options_of(changes))
-    if report["outcome"] != "finished":
+    following = task.command("map", "--shapes", f"{0.5 * reach:g} m") if where is None else task.command("run")
+    task.finish(report, map_tables, following, files)
+    if report["outcome"] != FINISHED:
         for row in report["payloads"]:
-            if row["outcome"] != "finished":
+            if row["outcome"] != FINISHED:
                 factor = f"{row['buckling_factor']:.4g} times the weights"
                 say(f"load {row['payload_kg']:g} kg: {row['outcome']} at {factor}")
         raise typer.Exit(ENDED_EARLY)

@@ -1,16 +1,14 @@
-"""The command that runs a case over a grid of values."""
+"""The command `sweep`: a case over a grid of values."""
 
 from __future__ import annotations
 
-import json
 import time
-from collections import Counter
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from towercrane.commands.skeleton import begin
 from towercrane.commands.terminal import (
     INTERRUPTED,
     NOT_AS_EXPECTED,
@@ -19,26 +17,17 @@ from towercrane.commands.terminal import (
     Changes,
     Out,
     Pictures,
-    announce_compilation,
     fail,
-    folder_for_results,
-    load,
     options_of,
     say,
-    say_notices,
-    suggest,
-    tell,
     with_bar,
-    write,
 )
+from towercrane.simulation import outcomes
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from towercrane.cases.case import Case
-
-INTERRUPTED_RUN = "interrupted"
-"""Outcome of runs that Ctrl-C did not let end."""
 
 MOST_RUNS = 1_000_000
 """Runs beyond which a grid is more likely a slip."""
@@ -62,17 +51,18 @@ def sweep(
     pictures: Pictures = True,
 ) -> None:
     """Run a case over a grid of values; write sweep.nc, sweep.csv and a picture."""
-    loaded = load(case, changes)
-    say_notices(loaded)
-    folder = out if out is not None else Path("results") / f"{loaded.name}-sweep"
-    folder_for_results(folder)
-    values = _values(loaded, vary)
+    task = begin(case, changes, as_json=as_json, notices=True)
+    task.into(out, "sweep")
+    values = _values(task.case, vary)
     from towercrane.runs.sweep import grid
 
-    announce_compilation("lanes" if loaded.kind == "radial" else loaded.kind, "runs")
+    task.compile("lanes" if task.serves("lanes") else task.case.kind, "runs")
+    from towercrane.report.tables.studies import sweep_tables
+    from towercrane.runs.sweep_report import report, runs_csv, worst
+
     began = time.perf_counter()
-    data = _with_progress(loaded, grid(values), threads)
-    if not set(data["outcome"].values) - {INTERRUPTED_RUN}:
+    data = _with_progress(task.case, grid(values), threads)
+    if not set(data["outcome"].values) - {outcomes.INTERRUPTED}:
         say("interrupted before the first run had ended: nothing is written")
         raise typer.Exit(INTERRUPTED)
     summary = report(data, time.perf_counter() - began)
@@ -81,92 +71,12 @@ def sweep(
         from towercrane.report.plots.studies import sweep as pictured
 
         files |= pictured.extremes(data)
-    write(folder, files)
-    if as_json:
-        tell(json.dumps(summary, indent=2, allow_nan=False))
-    else:
-        from towercrane.report.tables.studies import sweep_tables
-
-        sweep_tables(summary)
-        tell(f"written to {folder}: {', '.join(files)}")
-        suggest("run", case, *options_of([*(changes or []), *_worst(data)]))
-    if INTERRUPTED_RUN in summary["outcomes"]:
+    task.finish(summary, sweep_tables, task.command("run", *options_of(worst(data))), files)
+    if outcomes.INTERRUPTED in summary["outcomes"]:
         raise typer.Exit(INTERRUPTED)
     if faults := summary["faults"]:
         say(f"bad input in {len(faults)} of {summary['runs']} runs, the first: {faults[0]['fault']}")
         raise typer.Exit(NOT_AS_EXPECTED)
-
-
-def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
-    """Largest and smallest value of every output over all runs and where they occur, ready for JSON."""
-    import numpy as np
-
-    from towercrane.runs.summary import assumed
-
-    varied = {key: data[key.replace(".", "_")] for key in json.loads(data.attrs["varied"])}
-
-    def where(place: int) -> dict[str, Any]:
-        return {key: values.values[place].item() for key, values in varied.items()}
-
-    def at(name: str, place: int) -> dict[str, Any]:
-        return {"value": float(data[name].values[place]), "at": where(place)}
-
-    extremes = {}
-    for name in json.loads(data.attrs["outputs"]):
-        largest, smallest = data[f"{name}_max"].values, data[f"{name}_min"].values
-        if np.any(np.isfinite(largest)):
-            high, low = int(np.nanargmax(largest)), int(np.nanargmin(smallest))
-            units = data[f"{name}_max"].attrs["units"]
-            extremes[name] = {"largest": at(f"{name}_max", high), "smallest": at(f"{name}_min", low), "units": units}
-    runs = len(data["run"])
-    ended = int((data["outcome"] != INTERRUPTED_RUN).sum())
-    notices = json.loads(data.attrs["notices"])
-    faults = data["fault"].values.tolist() if "fault" in data else []
-    if "accuracy" in data:
-        promised = Counter(data["accuracy"].values.tolist())
-        notices.append("error asked for: " + ", ".join(f"{count} {name}" for name, count in promised.items() if name))
-    return {
-        "case": data.attrs["case"],
-        "title": data.attrs["title"],
-        "crane": data.attrs["crane"],
-        "changes": json.loads(data.attrs["changes"]),
-        "runs": runs,
-        "outcomes": dict(Counter(data["outcome"].values.tolist()).most_common()),
-        "varied": [
-            {"key": key, "units": values.attrs["units"], "values": sorted(set(values.values.tolist()))}
-            for key, values in varied.items()
-        ],
-        "extremes": extremes,
-        "faults": [{"at": where(place), "fault": fault} for place, fault in enumerate(faults) if fault],
-        "notices": notices,
-        "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(data)],
-        "seconds": seconds,
-        "runs_per_second": ended / seconds,
-    }
-
-
-def runs_csv(data: xr.Dataset) -> str:
-    """A line per run: the varied values, then everything that is known of it."""
-    import csv
-    import io
-
-    from towercrane.runs.summary import assumed
-
-    keys = [key.replace(".", "_") for key in json.loads(data.attrs["varied"])]
-    # In the header, and not as lines above it: a row per run is all that readers of tables find.
-    notes = "; ".join(f"{key} = {value}" for key, value, _ in assumed(data))
-    tail = [f"assumed, given by no source: {notes}"] if notes else []
-    names = ["run", *keys, *(str(name) for name, variable in data.data_vars.items() if variable.dims == ("run",))]
-    units = (data[name].attrs.get("units") for name in names)
-    header = [f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)]
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*header, *tail])
-    columns = [data[name].values.tolist() for name in names]
-    for row in zip(*columns, strict=True):
-        cells = [f"{value:.12g}" if isinstance(value, float) else value for value in row]
-        writer.writerow([*cells, *("" for _ in tail)])
-    return text.getvalue()
 
 
 def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
@@ -230,24 +140,6 @@ def _number(text: str) -> Any:
         except ValueError:
             continue
     return text
-
-
-def _worst(data: xr.Dataset) -> list[str]:
-    """The varied values of the first run that ended early, or else of that with the largest first output."""
-    # What is bad input cannot be run.
-    import numpy as np
-
-    from towercrane.runs.sweep_data import BAD_INPUT
-
-    outcomes, first = data["outcome"].values, json.loads(data.attrs["outputs"])[:1]
-    early = np.flatnonzero(~np.isin(outcomes, ["finished", INTERRUPTED_RUN, BAD_INPUT]))
-    if len(early):
-        run = int(early[0])
-    elif first and np.any(np.isfinite(data[f"{first[0]}_max"].values)):
-        run = int(np.nanargmax(data[f"{first[0]}_max"].values))
-    else:
-        run = 0
-    return [f"{key}={data[key.replace('.', '_')].values[run].item()}" for key in json.loads(data.attrs["varied"])]
 
 
 def _with_progress(case: Case, values: dict[str, list[Any]], threads: int | None) -> xr.Dataset:

@@ -36,7 +36,12 @@ def path_of(text: str) -> Path:
     return Path(text)
 
 
-Out = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for the results.", parser=path_of)]
+def out_option(what: str, metavar: str = "DIR") -> Any:
+    """Where a command puts its files."""
+    return typer.Option("--out", metavar=metavar, help=what, parser=path_of)
+
+
+Out = Annotated[Path | None, out_option("Folder for the results.")]
 Pictures = Annotated[bool, typer.Option(help="Draw the pictures.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")]
 
@@ -46,14 +51,6 @@ def load(name: str, changes: list[str] | None) -> Case:
     from towercrane.cases.case import load_case
 
     return load_case(name, changes or [])
-
-
-def say_notices(case: Case) -> None:
-    """Tell what the case's tables do that nobody would expect, where no report does."""
-    from towercrane.cases.table_notices import table_notices
-
-    for notice in table_notices(case):
-        say(f"note: {notice}")
 
 
 def announce_compilation(*uses: str) -> None:

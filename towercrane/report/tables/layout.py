@@ -2,36 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-from rich.console import Console
-from rich.table import Table
-
-from towercrane.schema.faults import printable
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rich.text import Text
+    from rich.console import Console
+    from rich.table import Table
 
 WIDTH_OF_A_PIPE = 120
 """Columns where no terminal tells its width."""
 
 
-class ReportConsole(Console):
-    """Console on which text is text: brackets and colons mark nothing, what a terminal would obey is spelled out."""
-
-    def render_str(self, text: str, **options: Any) -> Text:
-        """Text as it is printed."""
-        lines = "\n".join(printable(line) for line in text.split("\n"))
-        return super().render_str(lines, **{**options, "markup": False, "emoji": False, "highlight": False})
-
-
 def console_of_reports() -> Console:
     """Console as wide as the terminal, or as a pipe should be."""
-    return ReportConsole(width=None if Console().is_terminal else WIDTH_OF_A_PIPE)
+    from towercrane.report.tables.console import ReportConsole
+
+    return ReportConsole(width=None if ReportConsole().is_terminal else WIDTH_OF_A_PIPE)
 
 
 def report_table(title: str, *columns: str, left: int = 1) -> Table:
     """Empty table with a title and columns, the first ``left`` of them aligned left."""
+    from rich.table import Table
+
     table = Table(title=title, title_justify="left", title_style="bold", header_style="bold")
     for number, column in enumerate(columns):
         table.add_column(column, justify="left" if number < left else "right", overflow="fold")

@@ -121,7 +121,7 @@ def _effects(console: Console, report: dict[str, Any]) -> None:
 
 
 def lattice_tables(report: dict[str, Any]) -> None:
-    """Truss and beams as :func:`towercrane.commands.lattice.lattice_report` gives them."""
+    """Truss and beams as :func:`towercrane.studies.lattice.lattice_report` gives them."""
     console = _console()
     title = f"{report['name']}: lattice of {report['height_m']:g} m as beams; errors relative to the truss [%]"
     columns = ("force", "moment", "f1 bare", "f2 bare", "f1 with body", "f2 with body", "time [ms]")

@@ -93,7 +93,7 @@ def shape_tables(report: dict[str, Any]) -> None:
 
 
 def sweep_tables(report: dict[str, Any]) -> None:
-    """Extremes over all runs, as :func:`towercrane.commands.sweep.report` gives them."""
+    """Extremes over all runs, as :func:`towercrane.runs.sweep_report.report` gives them."""
     console = _console()
     keys = [varied["key"] for varied in report["varied"]]
     units = {varied["key"]: varied["units"] for varied in report["varied"]}

@@ -1,0 +1,85 @@
+"""The command `modes`: natural frequencies of a tower crane, in the jib's plane or in space."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from towercrane.commands.pictures import mode_picture
+from towercrane.commands.skeleton import Task, begin
+from towercrane.commands.terminal import ENDED_EARLY, AsJson, CaseName, Changes, out_option
+
+if TYPE_CHECKING:
+    from towercrane.cases.case import Case
+
+
+def modes(
+    case: CaseName,
+    changes: Changes = None,
+    out: Annotated[Path | None, out_option("Folder for pictures of the modes.")] = None,
+    actual: Annotated[
+        bool, typer.Option("--actual", help="Solve for the effect of shear, weight, ... beside its prediction.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Natural frequencies of tower, jib and crane, each checked a second way; what matters for them."""
+    task = begin(case, changes, as_json=as_json)
+    task.need("modes", "beams")
+    if out is not None:
+        task.into(out)
+    if task.serves("map"):
+        _in_plane(task, actual)
+    else:
+        _in_space(task)
+
+
+def _in_plane(task: Task, actual: bool) -> None:
+    task.compile("modes", "chain")
+    from towercrane.report.tables.modes import modes_tables
+    from towercrane.studies.natural import natural_frequencies
+
+    report = natural_frequencies(task.case, actual=actual)
+    files = {"modes.png": mode_picture(task.case)} if task.folder is not None else {}
+    task.finish(report, modes_tables, task.command("run"), files)
+    if any("outcome" in row for row in report["crane"]):
+        raise typer.Exit(ENDED_EARLY)
+
+
+def _in_space(task: Task) -> None:
+    from towercrane.cases.models import tower_uses
+
+    task.compile("modes", *tower_uses(task.case))
+    from towercrane.report.tables.space import space_modes_tables
+    from towercrane.studies.space_modes import space_frequencies
+
+    report = space_frequencies(task.case)
+    files = _pictures(task.case) if task.folder is not None else {}
+    task.finish(report, space_modes_tables, task.command("run"), files)
+    if "outcome" in report or any("outcome" in row for rows in report["sweeps"].values() for row in rows):
+        raise typer.Exit(ENDED_EARLY)
+
+
+def _pictures(case: Case) -> dict[str, Any]:
+    """Modes where the drives stand at the start, none for a tower that buckles, and frequencies over the drives."""
+    from towercrane.cases.assumptions import as_notes
+    from towercrane.cranes.tower.file.build import space_model
+    from towercrane.cranes.tower.file.case_tables import SpaceCase
+    from towercrane.report.plots.studies import space_modes as pictured
+    from towercrane.simulation.system import NoEquilibrium
+    from towercrane.studies.space_modes import drawn_sweeps, modes_at, modes_rest_on, place_at
+
+    tables = case.tables(SpaceCase)
+    model, place = space_model(tables), place_at(case)
+    notes = as_notes(modes_rest_on(case))
+    title = f"{case.crane.name}, load {case.payload.mass:g} kg: "
+    where = f"trolley {place.trolley_position:g} m, rope {place.rope_length:g} m"
+    swept = pictured.frequencies(drawn_sweeps(case), f"{title}natural frequencies about {where}", notes)
+    files: dict[str, Any] = {"frequencies.png": swept}
+    try:
+        modes = modes_at(model, place, tables.modes.count)
+    except NoEquilibrium:
+        return files
+    counter_jib = tables.crane.counter_jib.length
+    return {"modes.png": pictured.shapes(model, modes, place, counter_jib, f"{title}modes, {where}", notes), **files}

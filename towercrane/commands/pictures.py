@@ -1,0 +1,36 @@
+"""Pictures of a case's run and modes, as its kind of crane has them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from towercrane.cases.case import Case
+
+
+def run_pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
+    """Pictures of a run by the names of their files."""
+    from towercrane.report.plots.runs import jib, radial, slewing, space
+
+    of_kind = {"radial": radial.run_pictures, "space": space.run_pictures, "jib": jib.run_pictures}
+    drawn = dict(of_kind.get(case.kind, slewing.run_pictures)(result))
+    return {**drawn, "modes.png": mode_picture(case)} if case.kind in WITH_MODES else drawn
+
+
+WITH_MODES = ("radial",)
+"""Kinds of case whose runs show the modes of their members."""
+
+
+def mode_picture(case: Case) -> Any:
+    """Modes of a plane crane's tower and jib."""
+    from towercrane.cases.assumptions import as_notes, rests_on
+    from towercrane.cranes.tower.file.build import radial_crane
+    from towercrane.cranes.tower.file.case_tables import RadialCase
+    from towercrane.report.plots.runs import radial
+
+    tables = case.tables(RadialCase)
+    crane, count = radial_crane(tables), tables.modes.count
+    notes = as_notes(a for a in rests_on(case) if a.key.startswith("crane."))
+    return radial.modes(crane.tower_modes(count), crane.jib_modes(count), notes)
