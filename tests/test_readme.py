@@ -1,4 +1,4 @@
-"""Figures in README.md that are cheap to compute are those that the program gives."""
+"""Figures in the READMEs that are cheap to compute are those that the program gives; the files they name are there."""
 
 import re
 from pathlib import Path
@@ -16,8 +16,37 @@ from towercrane.runs.summary import summarise
 from towercrane.studies.lattice import lattice_report
 from towercrane.studies.sensitivity import OUTPUTS, study
 
-README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+TOP = Path(__file__).parents[1]
+PAGES = (
+    TOP / "README.md",
+    *sorted(path for room in ("cases", "modal", "towercrane") for path in (TOP / room).rglob("README.md")),
+)
+README = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
 NUMBER = re.compile(r"(?<![\w.^])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def test_newcomers_find_two_commands_and_short_pages():
+    first = PAGES[0].read_text(encoding="utf-8")
+    assert sum(line.startswith("python3 -m venv") for line in first.splitlines()) == 2
+    assert len(first) < 15_000
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(TOP).as_posix())
+def test_pages_name_files_that_are_there(page):
+    text = page.read_text(encoding="utf-8")
+    links = re.findall(r"\]\(([^)#:]+)\)", text)
+    assert all((page.parent / link).exists() for link in links), links
+    named = re.findall(r"`((?:modal|towercrane|tests)/[\w/]*[\w.]*)`", text)
+    assert [name for name in named if not (TOP / name).exists()] == []
+    # In a list of files those after the first stand in its folder.
+    for folder, rest in re.findall(r"`((?:modal|towercrane)/[\w/]*/)\w+\.py`((?:, `\w+\.py`)+)", text):
+        missing = [name for name in re.findall(r"\w+\.py", rest) if not (TOP / folder / name).exists()]
+        assert missing == [], folder
+
+
+def test_every_page_is_linked_from_the_first():
+    first = PAGES[0].read_text(encoding="utf-8")
+    assert [page for page in PAGES[1:] if f"({page.relative_to(TOP).as_posix()})" not in first] == []
 
 
 def cells(start, number=0):
