@@ -1,4 +1,4 @@
-"""Figures in the READMEs that are cheap to compute are those that the program gives; the files they name are there."""
+"""Figures in the READMEs that are cheap to compute are those of the program; files that they name are there."""
 
 import re
 from pathlib import Path

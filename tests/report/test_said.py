@@ -80,7 +80,7 @@ def test_a_run(capsys):
         "energy balance        0.023 J off, 5.6e-09 of the change",
         "solver                dop853, rtol 3e-07, 4321 evaluations, 0.125 s of 0.750 s wall",
         "note     look twice",
-        "idle     crane.x, crane.y: in the crane file, of no use to this run",
+        "unused   crane.x, crane.y: keys of the crane file that this run has no use for",
         "assumed  a.key = 3 m: some reason",
     ]
 

@@ -42,9 +42,11 @@ def modes_tables(report: dict[str, Any]) -> None:
         cells = [f"{f:.6f}" + ("*" if i == swing else "") for i, f in enumerate(row["frequencies_hz"], start=1)]
         table.add_row(f"{row['trolley_position_m']:g}", *cells)
         if "relative_difference" in row:
-            table.add_row("  less exact", *(_signed(d) for d in row["relative_difference"]), style="dim")
             table.add_row(
-                "  by the jib modes, predicted", *(f"{d:+.1e}" for d in row["predicted_difference"]), style="dim"
+                "  difference from exact crane", *(_signed(d) for d in row["relative_difference"]), style="dim"
+            )
+            table.add_row(
+                "  predicted: jib modes left out", *(f"{d:+.1e}" for d in row["predicted_difference"]), style="dim"
             )
     console.print(table)
     for row in report["crane"]:
@@ -151,8 +153,11 @@ def map_tables(report: dict[str, Any]) -> None:
     console = _console()
     places = report["positions_m"]
     shown = sorted({round(i * (len(places) - 1) / 4) for i in range(5)})
-    weight = "softened by the weight" if report["weight_softening"] else "without the weight's softening"
-    title = f"{report['name']}: natural frequencies [Hz], rope {report['rope_length_m']:g} m, tower {weight}"
+    softened = "softened" if report["weight_softening"] else "not softened"
+    title = (
+        f"{report['name']}: natural frequencies [Hz], rope {report['rope_length_m']:g} m, "
+        f"tower {softened} by its weight"
+    )
     table = _table(title, "branch", "load [kg]", *(f"at {places[i]:.4g} m" for i in shown), "energy", left=1)
     stable = [row for row in report["payloads"] if row["outcome"] == "finished"]
     for k, name in enumerate(report["branches"]):

@@ -64,7 +64,7 @@ def run_tables(summary: dict[str, Any]) -> None:
     for notice in summary["notices"]:
         console.print(f"note     {notice}", style="bold")
     if summary["idle"]:
-        console.print(f"idle     {', '.join(summary['idle'])}: in the crane file, of no use to this run")
+        console.print(f"unused   {', '.join(summary['idle'])}: keys of the crane file that this run has no use for")
     _assumed(console, summary["assumed"])
 
 

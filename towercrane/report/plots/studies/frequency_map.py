@@ -58,8 +58,8 @@ def frequencies(data: xr.Dataset) -> Figure:
         axes.text(0.5, 0.5, "the tower buckles under every payload", ha="center", transform=axes.transAxes)
     axes.grid(which="both", color="0.92", lw=0.6)
     figure.legend(handles=[*branches, *payloads], loc="outside right upper", fontsize=8, frameon=False)
-    weight = "softened by the weight" if data.attrs["weight_softening"] else "without the weight's softening"
-    figure.suptitle(f"{data.attrs['crane']}: rope {data.attrs['rope_length']:g} m, tower {weight}", fontsize=10)
+    tower = f"tower {'softened' if data.attrs['weight_softening'] else 'not softened'} by its weight"
+    figure.suptitle(f"{data.attrs['crane']}: rope {data.attrs['rope_length']:g} m, {tower}", fontsize=10)
     footnote(figure, assumed(data))
     return figure
 
