@@ -6,7 +6,6 @@ from typing import Annotated
 
 import typer
 
-from towercrane.__main__ import main
 from towercrane.commands.animate import animate
 from towercrane.commands.bench import bench
 from towercrane.commands.cases import cases_app
@@ -16,6 +15,7 @@ from towercrane.commands.lattice import lattice
 from towercrane.commands.linearise import linearise
 from towercrane.commands.map import frequency_map
 from towercrane.commands.modes import modes
+from towercrane.commands.program import program
 from towercrane.commands.run import run
 from towercrane.commands.sensitivity import sensitivity
 from towercrane.commands.shape import shape
@@ -59,6 +59,11 @@ def _options(
     ] = False,
 ) -> None:
     pass
+
+
+def main() -> None:
+    """Run the commands."""
+    program(lambda: app)
 
 
 if __name__ == "__main__":
