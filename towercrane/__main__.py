@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from towercrane.commands.program import program
+from towercrane.commands.shared.program import program
 
 if TYPE_CHECKING:
     from typer import Typer

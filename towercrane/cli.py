@@ -15,12 +15,12 @@ from towercrane.commands.lattice import lattice
 from towercrane.commands.linearise import linearise
 from towercrane.commands.map import frequency_map
 from towercrane.commands.modes import modes
-from towercrane.commands.program import program
 from towercrane.commands.run import run
 from towercrane.commands.sensitivity import sensitivity
 from towercrane.commands.shape import shape
+from towercrane.commands.shared.program import program
+from towercrane.commands.shared.terminal import tell
 from towercrane.commands.sweep import sweep
-from towercrane.commands.terminal import tell
 
 app = typer.Typer(
     help="How a tower crane vibrates and how its load swings.",

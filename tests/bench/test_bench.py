@@ -18,7 +18,7 @@ from towercrane.bench.scenes.plain import model_states, plain_rhs, plain_state
 from towercrane.bench.scenes.prepared import jib_scene, lumped_scene, radial_scene, space_scene
 from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
-from towercrane.commands.skeleton import as_text
+from towercrane.commands.shared.skeleton import as_text
 from towercrane.cranes.tower.file.build import radial_model
 from towercrane.motions.motion import phases
 from towercrane.simulation.methods.registry import METHODS

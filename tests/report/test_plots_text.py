@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from towercrane.cases.case import load_case
-from towercrane.commands.pictures import run_pictures
+from towercrane.commands.shared.pictures import run_pictures
 from towercrane.report.plots import style
 from towercrane.report.plots.literal import LiteralFigure
 from towercrane.runs.run import run_case

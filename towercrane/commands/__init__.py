@@ -1,1 +1,1 @@
-"""The command line, one file for each command. Imported by `towercrane.cli` alone."""
+"""The command line, one file for each command. Imported by `towercrane.cli` alone, and no command by another."""

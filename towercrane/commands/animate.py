@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
-from towercrane.commands.skeleton import Task, begin, end_of_run
-from towercrane.commands.terminal import (
+from towercrane.commands.shared.skeleton import Task, begin, end_of_run
+from towercrane.commands.shared.terminal import (
     ENDED_EARLY,
     Changes,
     fail,

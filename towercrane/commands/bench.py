@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from towercrane.commands.skeleton import as_text, finish
-from towercrane.commands.terminal import (
+from towercrane.commands.shared.skeleton import as_text, finish
+from towercrane.commands.shared.terminal import (
     NOT_AS_EXPECTED,
     AsJson,
     announce_compilation,

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from towercrane.commands.terminal import fail, path_of, suggest, tell, write
+from towercrane.commands.shared.terminal import fail, path_of, suggest, tell, write
 
 cases_app = typer.Typer(help="List the cases that ship with the program, or copy them.", no_args_is_help=False)
 

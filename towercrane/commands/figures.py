@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from towercrane.commands.terminal import (
+from towercrane.commands.shared.terminal import (
     Changes,
     announce_compilation,
     folder_for_results,

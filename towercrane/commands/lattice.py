@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from towercrane.commands.skeleton import begin
-from towercrane.commands.terminal import AsJson, CaseName, Changes
+from towercrane.commands.shared.skeleton import begin
+from towercrane.commands.shared.terminal import AsJson, CaseName, Changes
 
 
 def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) -> None:

@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from towercrane.commands.skeleton import begin, no_equilibrium
-from towercrane.commands.terminal import (
+from towercrane.commands.shared.skeleton import begin, no_equilibrium
+from towercrane.commands.shared.terminal import (
     AsJson,
     CaseName,
     Changes,

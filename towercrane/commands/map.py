@@ -8,8 +8,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.commands.skeleton import as_text, begin
-from towercrane.commands.terminal import ENDED_EARLY, AsJson, CaseName, Changes, Out, Pictures, fail, say, with_bar
+from towercrane.commands.shared.skeleton import as_text, begin
+from towercrane.commands.shared.terminal import (
+    ENDED_EARLY,
+    AsJson,
+    CaseName,
+    Changes,
+    Out,
+    Pictures,
+    fail,
+    say,
+    with_bar,
+)
 from towercrane.simulation.outcomes import FINISHED
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.commands.pictures import mode_picture
-from towercrane.commands.skeleton import Task, begin
-from towercrane.commands.terminal import ENDED_EARLY, AsJson, CaseName, Changes, out_option
+from towercrane.commands.shared.pictures import mode_picture
+from towercrane.commands.shared.skeleton import Task, begin
+from towercrane.commands.shared.terminal import ENDED_EARLY, AsJson, CaseName, Changes, out_option
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Case

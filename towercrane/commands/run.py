@@ -6,9 +6,9 @@ from typing import Annotated, Any
 
 import typer
 
-from towercrane.commands.pictures import run_pictures
-from towercrane.commands.skeleton import Task, begin, end_of_run, kinds_for
-from towercrane.commands.terminal import (
+from towercrane.commands.shared.pictures import run_pictures
+from towercrane.commands.shared.skeleton import Task, begin, end_of_run, kinds_for
+from towercrane.commands.shared.terminal import (
     INTERRUPTED,
     NOT_AS_EXPECTED,
     AsJson,

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.commands.skeleton import as_text, begin
-from towercrane.commands.terminal import AsJson, CaseName, Changes, Out, Pictures, fail, with_bar
+from towercrane.commands.shared.skeleton import as_text, begin
+from towercrane.commands.shared.terminal import AsJson, CaseName, Changes, Out, Pictures, fail, with_bar
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Case

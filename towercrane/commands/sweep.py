@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.commands.skeleton import begin
-from towercrane.commands.terminal import (
+from towercrane.commands.shared.skeleton import begin
+from towercrane.commands.shared.terminal import (
     INTERRUPTED,
     NOT_AS_EXPECTED,
     AsJson,

@@ -53,7 +53,7 @@ def program(commands: Callable[[], Typer]) -> NoReturn:
     if code == CLOSED_PIPE:
         os._exit(code)
     if interrupts or code == INTERRUPTED:
-        from towercrane.commands.terminal import say
+        from towercrane.commands.shared.terminal import say
 
         say("interrupted")
         # At once: after Ctrl-C an orderly end may report the signal instead.
@@ -67,7 +67,7 @@ def program(commands: Callable[[], Typer]) -> NoReturn:
 def _run(commands: Callable[[], Typer]) -> int:
     """Do what the arguments say; the exit code."""
     app = commands()
-    from towercrane.commands.terminal import show_warning
+    from towercrane.commands.shared.terminal import show_warning
 
     warnings.showwarning = lambda message, *place, **more: show_warning(message)
     return app(standalone_mode=False) or 0
@@ -76,7 +76,7 @@ def _run(commands: Callable[[], Typer]) -> int:
 def _code(error: BaseException, interrupted: bool) -> Any:
     """Exit code of an ending by an exception, whose message is said; one that nobody foresaw is raised again."""
     from modal.compiler.compiled import NoCompiler
-    from towercrane.commands.terminal import BAD_INPUT, say
+    from towercrane.commands.shared.terminal import BAD_INPUT, say
     from towercrane.schema.faults import CaseError
 
     causes = list(_causes(error))

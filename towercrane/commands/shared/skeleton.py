@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import typer
 
-from towercrane.commands.terminal import (
+from towercrane.commands.shared.terminal import (
     ENDED_EARLY,
     NOT_AS_EXPECTED,
     announce_compilation,
