@@ -13,7 +13,16 @@ from towercrane.cranes.tower.file.build import space_model
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import rest
 from towercrane.report.plots.studies import space_modes as pictured
-from towercrane.studies.space_modes import Place, drawn_sweeps, modes_at, modes_rest_on, place_at, space_frequencies
+from towercrane.studies.space_modes import (
+    RICHER,
+    Place,
+    drawn_sweeps,
+    modes_at,
+    modes_rest_on,
+    place_at,
+    richer_model,
+    space_frequencies,
+)
 from towercrane.studies.space_shapes import crane_lines
 
 NAME = "qtz5613/manoeuvre"
@@ -98,6 +107,15 @@ def test_a_rigid_crane_is_told_what_its_flexibility_would_change():
     changes = {mode["kind"]: mode["relative_difference"] for mode in found["modes"]}
     assert changes["lateral sway"] == pytest.approx(0.018595, abs=1e-4)
     assert changes["radial sway"] == pytest.approx(5.9e-4, abs=2e-5)
+
+
+def test_a_richer_model_has_more_modes_of_every_kind_than_the_case():
+    own = {"tower": 3, "torsion": 1, "jib_lateral": 0, "jib_vertical": 4}
+    found = richer_model(load_case(NAME, [f"model.{kind}_modes={count}" for kind, count in own.items()])).counts
+    # The tower bends in two directions.
+    of_kinds = {kind: found[{"tower": "tower_x"}.get(kind, kind)] for kind in own}
+    assert of_kinds == {kind: count + RICHER for kind, count in own.items()}
+    assert found["tower_y"] == found["tower_x"]
 
 
 def test_places_default_to_the_ends_of_the_ways():

@@ -14,7 +14,7 @@ from modal.beams.segment import Segment
 from modal.compiler.compiled import kernel
 from modal.structures.members import HELD, Member
 from modal.structures.piece import SERIES, TERMS, piece_transfer, pieces_within
-from modal.structures.stiffness import make_absolute, relative_stiffness
+from modal.structures.stiffness import SIZES, grown, make_absolute, relative_stiffness
 from modal.structures.structure import Structure, chain_frequencies, chain_structure
 
 INF = float("inf")
@@ -140,6 +140,19 @@ def test_no_piece_has_a_fixed_end_mode():
             Member(other, (*node, HELD, HELD), compression=row[9]),
         ]
         assert structure.count_below(np.sqrt(omega2)) == 0
+
+
+def test_the_measure_of_a_block_is_the_same_however_it_grows():
+    EI, mass, flexibility, rotary, L = 2.5, 1.5, 0.3, 0.02, 0.9
+    row = np.array([L, mass, EI, flexibility, rotary, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    sizes, passed = np.zeros(SIZES), 0.0
+    for piece in (0.2, 0.6, 0.1):
+        assert grown(sizes, row, (1.0, 1.0, piece, L - passed), 1e-3, 1.0)
+        passed += piece
+    # A cantilever's tip under a unit moment and a unit force, and what its mass feels of each section's own force.
+    felt = mass * (L**4 / (12 * EI) + L**2 * flexibility / 2) + rotary * L**2 / (2 * EI)
+    expected = [L, L / EI, L**2 / (2 * EI), L**3 / (3 * EI), L * flexibility, felt, 0.0]
+    np.testing.assert_allclose(sizes, expected, rtol=1e-14)
 
 
 def test_stepped_is_unsplit():
