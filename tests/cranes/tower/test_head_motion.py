@@ -1,13 +1,36 @@
 """The head's motion over time against finite rotations, on both sides of where its functions change form."""
 
+import mpmath
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from towercrane.cranes.tower.kernels.head import NEARLY_UPRIGHT
+from towercrane.cranes.tower.kernels.head import NEARLY_UPRIGHT, leaning_functions, upright_functions
 from towercrane.cranes.tower.outputs.head_motions import head_motion
 
 SIZES = (0.01, 0.99 * NEARLY_UPRIGHT**0.5, 1.01 * NEARLY_UPRIGHT**0.5, 0.5)
+
+
+@mpmath.workdps(50)
+def exact_functions(square):
+    """Functions of the tilt, of which the last two are zero over zero at an upright tower."""
+    f = mpmath.sqrt(square)
+    c0, c1, c2 = mpmath.sin(f) / f, (1 - mpmath.cos(f)) / f**2, (f - mpmath.sin(f)) / f**3
+    return [float(value) for value in (c0, c1, c2, (c0 - 2 * c1) / f**2, (c1 - 3 * c2) / f**2)]
+
+
+@pytest.mark.parametrize("square", [1e-12, 1e-4, 0.01, NEARLY_UPRIGHT])
+def test_series_of_the_tilt_are_exact_as_far_as_they_are_used(square):
+    np.testing.assert_allclose(upright_functions.py_func(square), exact_functions(square), rtol=4e-16)
+
+
+@pytest.mark.parametrize("square", [NEARLY_UPRIGHT, 0.25, 2.0])
+def test_functions_of_a_larger_tilt_lose_few_digits(square):
+    f = np.sqrt(square)
+    found = leaning_functions.py_func(f, square, np.sin(f), np.cos(f))
+    # Rounding over the powers of the tilt that the differences divide by.
+    bounds = 1e-15 * np.array([1.0, 1.0 / square, 1.0 / square, 1.0 / square**2, 1.0 / square**2])
+    assert np.all(abs(np.array(found) - exact_functions(square)) <= bounds)
 
 
 def rotation(tilt, turn):
