@@ -16,7 +16,8 @@ from towercrane.cranes.slewing.build import parameters_of
 from towercrane.cranes.slewing.description import Drive, Spring
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.planar import RadialModel
-from towercrane.motions.motion import phases, rest, s_curve, smooth_ramps, speed_trapezoid, trapezoid
+from towercrane.motions.motion import phases, rest
+from towercrane.motions.profiles import s_curve, smooth_ramps, speed_trapezoid, trapezoid
 from towercrane.motions.shaping import boxes, ei, minimum_jerk, zv, zvd
 from towercrane.simulation.simulate import simulate
 

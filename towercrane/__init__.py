@@ -2,7 +2,7 @@
 
 ``load_case`` reads a case file and ``run_case`` simulates it. ``TowerCrane``, ``Load`` and ``RadialModel``
 (or ``FlexibleModel`` of a ``flexible_crane`` in space) with
-:func:`towercrane.simulation.simulate.simulate` and the motions of :mod:`towercrane.motions.motion` do the same
+:func:`towercrane.simulation.simulate.simulate` and the motions of :mod:`towercrane.motions.profiles` do the same
 without files.
 """
 

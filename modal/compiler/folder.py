@@ -73,7 +73,7 @@ def prune(folder: Path) -> None:
     oldest = time.time() - KEPT * 24.0 * 3600.0
     with suppress(OSError):
         for other in folder.parent.iterdir():
-            is_code = re.fullmatch(f"[0-9a-f]{{{DIGITS}}}", other.name) and other.is_dir() and not other.is_symlink()
+            is_code = re.fullmatch(f"[0-9a-f]{{{DIGITS}}}", other.name) and other.is_dir()
             if is_code and other != folder and other.stat().st_mtime < oldest:
                 shutil.rmtree(other, ignore_errors=True)
 

@@ -8,6 +8,7 @@ import numpy as np
 from numba import types
 
 from modal.compiler.compiled import kernel
+from modal.structures.nodes import node_stiffness
 from modal.structures.piece import (
     BENDING,
     BENDING_POWER,
@@ -19,7 +20,7 @@ from modal.structures.piece import (
     pieces_within,
     state_series,
 )
-from modal.structures.stiffness import ROWS, SCALED, SLOT, STATE, node_stiffness, run_stiffness
+from modal.structures.stiffness import ROWS, SCALED, SLOT, STATE, run_stiffness
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 

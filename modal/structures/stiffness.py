@@ -15,12 +15,13 @@ from typing import Any
 
 from modal.compiler.compiled import kernel
 from modal.compiler.traced import traced
+from modal.structures.blocks import SIZES, clear, grown, laden
+from modal.structures.nodes import load_node
 from modal.structures.piece import (
     RATIO,
     SERIES,
     TERMS,
     WEIGHT,
-    bounds,
     cell,
     cells,
     piece_of,
@@ -31,14 +32,6 @@ from modal.structures.piece import (
 UNSTABLE = 1 << 30
 """Count where a segment has no shear stiffness left (Engesser)."""
 
-BLOCK = 0.8
-"""The same as `modal.structures.piece.PIECE` for a block of several pieces."""
-
-SIZES = 7
-"""Numbers that measure a block: its length; ``int dx/EI``, ``int x dx/EI`` and ``int x^2 dx/EI`` with x the distance
-from the far end; ``int dx/S``; what inertia takes under unit circular frequency; the largest force, see
-`modal.structures.piece.bounds`."""
-
 STIFF = 0.3
 """Largest part of a motion that the flexibility of a block may add where it counts as stiff beside those before."""
 
@@ -48,9 +41,6 @@ length, the pieces to its end, whether what acts on the node before it belongs t
 
 STATE, SCALED, PIECE, TRANSFER, KEPT, MEASURE, TOTAL, ROWS = accumulate((SERIES, TERMS + 1, 4, 4, 4, SLOT, 1, 4))
 """Rows of the scratch array where its parts begin, after a piece's series; the last is their number."""
-
-SPRINGS, GEOMETRIC, BODIES = range(3)
-"""What acts on a node: stiffness of springs, geometric stiffness of weights (to be taken away), mass."""
 
 
 @traced
@@ -165,59 +155,6 @@ def join(near: Any, piece: Any, recovery: Any) -> None:
 
 
 @kernel()
-def clear(sizes: Any) -> None:
-    """Begin a block."""
-    for i in range(SIZES):
-        sizes[i] = 0.0
-
-
-@kernel()
-def _strained(sizes: Any, omega2: float) -> float:
-    """Part of a block's energy that inertia and compression take at most, see
-    `modal.structures.piece.pieces_within`."""
-    return float(omega2 * sizes[5] + sizes[6] * sizes[0] * sizes[1])
-
-
-@kernel()
-def grown(sizes: Any, segment: Any, ends: Any, omega2: float, load: float) -> bool:
-    """Add a piece to the measure of a block; False where that needs a block of its own, which then begins with it."""
-    bending, mass, flexibility, rotary, force, _ = bounds(segment, ends, load)
-    length, turn, before = ends[2], ends[2] / bending, sizes[0]
-    for attempt in range(2):
-        # Integrals over the piece of the flexibilities of its sections.
-        sway = sizes[3] + length * (sizes[2] + length * sizes[1] / 3.0 + length * turn / 12.0)
-        sway += sizes[4] + 0.5 * length * flexibility
-        sizes[5] += length * (mass * sway + rotary * (sizes[1] + 0.5 * turn))
-        sizes[3] += length * (2.0 * sizes[2] + length * sizes[1] + length * turn / 3.0)
-        sizes[2] += length * (sizes[1] + 0.5 * turn)
-        sizes[1] += turn
-        sizes[0] += length
-        sizes[4] += length * flexibility
-        sizes[6] = max(sizes[6], force)
-        # A piece alone is short enough by `pieces_within`.
-        if attempt == 1 or before == 0.0 or _strained(sizes, omega2) < BLOCK:
-            return attempt == 0
-        clear(sizes)
-    return False
-
-
-@kernel()
-def laden(sizes: Any, node: Any, omega2: float, load: float) -> bool:
-    """Add what acts on a node to the measure of the block below it; False where that must end there instead."""
-    if sizes[0] == 0.0:
-        return True
-    sway, turn = sizes[3] + sizes[4], sizes[1]
-    arm = abs(node[BODIES, 1])
-    sizes[5] += (node[BODIES, 0] + arm) * sway + (node[BODIES, 2] + arm) * turn
-    arm = abs(node[GEOMETRIC, 1])
-    taken = load * ((abs(node[GEOMETRIC, 0]) + arm) * sway + (abs(node[GEOMETRIC, 2]) + arm) * turn)
-    if _strained(sizes, omega2) + taken < BLOCK:
-        return True
-    clear(sizes)
-    return False
-
-
-@kernel()
 def follow(total: Any, length: float, piece: Any, step: float) -> None:
     """Append a piece's transfer (4, 4), see `modal.structures.piece.piece_transfer`, to that of a block, in place."""
     # (R2 + D2) (R1 + D1) - R2 R1 = R2 D1 + D2 R1 + D2 D1
@@ -230,27 +167,6 @@ def follow(total: Any, length: float, piece: Any, step: float) -> None:
             total[i, j] += moved + piece[i, 2] * (r2 + d2) + piece[i, 3] * (r3 + d3)
         total[0, j] += step * d1
         total[3, j] -= step * d2
-
-
-@kernel()
-def node_stiffness(node: Any, omega2: float, load: float) -> Any:
-    """Entries (v, v), (v, theta) and (theta, theta) of the dynamic stiffness of what acts on a node."""
-    return (
-        node[SPRINGS, 0] - load * node[GEOMETRIC, 0] - omega2 * node[BODIES, 0],
-        node[SPRINGS, 1] - load * node[GEOMETRIC, 1] - omega2 * node[BODIES, 1],
-        node[SPRINGS, 2] - load * node[GEOMETRIC, 2] - omega2 * node[BODIES, 2],
-    )
-
-
-@kernel()
-def load_node(total: Any, length: float, node: Any, omega2: float, load: float) -> None:
-    """Let what acts on a node act at the far end of a block's transfer (4, 4), in place."""
-    k0, k1, k2 = node_stiffness(node, omega2, load)
-    for j in range(4):
-        v = total[0, j] + (1.0 if j == 0 else (length if j == 1 else 0.0))
-        theta = total[1, j] + (1.0 if j == 1 else 0.0)
-        total[2, j] += k0 * v + k1 * theta
-        total[3, j] += k1 * v + k2 * theta
 
 
 @kernel()
@@ -383,18 +299,3 @@ def run_stiffness(
                 length, pieces = length + part[2], pieces + 1
     slot = SLOT * min(blocks, most)
     return int(count + _end_block(work, kept[slot : slot + SLOT], length, pieces, single, blocks > 0, total))
-
-
-@kernel()
-def blocks_of(segment: Any, omega2: float, load: float, sizes: Any) -> int:
-    """Number of blocks that end before the end of a segment which follows what is measured; -1: unstable in shear."""
-    ended, number = 0, cells(segment)
-    for k in range(number):
-        ends = cell(segment, k, number)
-        pieces = pieces_within(segment, ends, omega2, load)
-        if pieces == 0:
-            return -1
-        for i in range(pieces):
-            if not grown(sizes, segment, piece_of(ends, i, pieces), omega2, load):
-                ended += 1
-    return ended

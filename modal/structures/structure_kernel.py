@@ -15,6 +15,8 @@ import numpy as np
 from numba import types
 
 from modal.compiler.compiled import kernel
+from modal.structures.blocks import SIZES, blocks_of, clear, laden
+from modal.structures.nodes import BODIES, GEOMETRIC, SPRINGS
 from modal.structures.piece import (
     BENDING,
     BENDING_POWER,
@@ -27,20 +29,7 @@ from modal.structures.piece import (
     piece_of,
     pieces_within,
 )
-from modal.structures.stiffness import (
-    BODIES,
-    GEOMETRIC,
-    KEPT,
-    MEASURE,
-    SIZES,
-    SPRINGS,
-    TOTAL,
-    UNSTABLE,
-    blocks_of,
-    clear,
-    laden,
-    run_stiffness,
-)
+from modal.structures.stiffness import KEPT, MEASURE, TOTAL, UNSTABLE, run_stiffness
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 _runs = types.int64[:, ::1]

@@ -13,7 +13,7 @@ from towercrane.accuracy.indicators import drift, vibration
 from towercrane.accuracy.instants import OUTPUTS, RICHEST, nodes_of
 from towercrane.accuracy.scene import RadialScene, Setting
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import s_curve, smooth_ramps
+from towercrane.motions.profiles import s_curve, smooth_ramps
 from towercrane.schema.targets import Tolerance
 
 POSITIONS = OUTPUTS[:3]

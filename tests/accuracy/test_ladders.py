@@ -19,7 +19,8 @@ from towercrane.cranes.parts.wind import WindAreas, gusts
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.targets import MOTIONS
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import rest, trapezoid
+from towercrane.motions.motion import rest
+from towercrane.motions.profiles import trapezoid
 from towercrane.report.tables.runs import run_tables, verification_tables
 from towercrane.results.measures import departures, gap, peak
 from towercrane.runs.run import run_case

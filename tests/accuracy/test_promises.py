@@ -37,7 +37,8 @@ from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import rest, sequence, smooth_ramps, trapezoid
+from towercrane.motions.motion import rest, sequence
+from towercrane.motions.profiles import smooth_ramps, trapezoid
 from towercrane.motions.shaping import minimum_jerk
 from towercrane.results import files as results
 from towercrane.results.measures import gap, peak

@@ -11,7 +11,8 @@ from samples.case_files import MULTI, PLAN, RADIAL, copy_case, only_fault
 
 from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
-from towercrane.motions.motion import phases, smooth_ramps, speed_trapezoid, trapezoid
+from towercrane.motions.motion import phases
+from towercrane.motions.profiles import smooth_ramps, speed_trapezoid, trapezoid
 
 
 @pytest.fixture

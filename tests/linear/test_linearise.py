@@ -11,7 +11,8 @@ from scipy.linalg import expm
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
-from towercrane.motions.motion import rest, trapezoid
+from towercrane.motions.motion import rest
+from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.simulate import simulate
 
 G = 9.81

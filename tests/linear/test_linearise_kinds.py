@@ -8,7 +8,8 @@ from samples.lab_crane import PARAMETERS, crane
 from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.linear.linearise import linearise
-from towercrane.motions.motion import rest, speed_trapezoid
+from towercrane.motions.motion import rest
+from towercrane.motions.profiles import speed_trapezoid
 from towercrane.runs.run import run_case
 from towercrane.runs.summary import summarise
 from towercrane.simulation.simulate import simulate

@@ -9,18 +9,8 @@ from hypothesis import strategies as st
 from numpy.polynomial.polynomial import polyder, polyval
 from numpy.testing import assert_allclose
 
-from towercrane.motions.motion import (
-    SAME_INSTANT,
-    SHORTEST_WAY,
-    Motion,
-    phases,
-    rest,
-    s_curve,
-    sequence,
-    smooth_ramps,
-    table,
-    trapezoid,
-)
+from towercrane.motions.motion import SAME_INSTANT, Motion, phases, rest, sequence
+from towercrane.motions.profiles import SHORTEST_WAY, s_curve, smooth_ramps, table, trapezoid
 from towercrane.motions.superposition import total
 
 positive = st.floats(0.01, 10.0)

@@ -11,8 +11,9 @@ from towercrane.cases.case import CaseError, load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
-from towercrane.motions.motion import rest, sequence, trapezoid
+from towercrane.motions.motion import rest, sequence
 from towercrane.motions.plans import Move, NotSettled, Plan, Shaping, shaped_motions
+from towercrane.motions.profiles import trapezoid
 from towercrane.motions.ramps import shape_ramps
 from towercrane.motions.shaping import DESIGNS, boxes, zv, zvd
 from towercrane.studies.rest_study import attempt

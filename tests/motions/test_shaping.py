@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from oracles.oscillator import residual
 
-from towercrane.motions.motion import SAME_INSTANT, rest, s_curve, sequence, smooth_ramps, trapezoid
+from towercrane.motions.motion import SAME_INSTANT, rest, sequence
+from towercrane.motions.profiles import s_curve, smooth_ramps, trapezoid
 from towercrane.motions.ramps import ramps, shape_ramps
 from towercrane.motions.shaping import DESIGNS, Shaper, boxes, ei, minimum_jerk, zv, zvd
 

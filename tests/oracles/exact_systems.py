@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.compiler.compiled import kernel
-from towercrane.motions.motion import Motion, rest, trapezoid
+from towercrane.motions.motion import Motion, rest
+from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.system import System, plain_system, rhs_signature
 
 if TYPE_CHECKING:

@@ -13,7 +13,8 @@ from samples import space_crane as space
 
 from towercrane.cranes.tower.modes.mass_sums import rigid_sums
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
-from towercrane.motions.motion import phases, speed_trapezoid, table, trapezoid
+from towercrane.motions.motion import phases
+from towercrane.motions.profiles import speed_trapezoid, table, trapezoid
 from towercrane.simulation.integrate import integrate
 
 LOAD = 1500.0

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies
-from towercrane.motions.motion import rest, trapezoid
+from towercrane.motions.motion import rest
 from towercrane.motions.plans import Move, Plan
+from towercrane.motions.profiles import trapezoid
 from towercrane.report.tables.modes import lattice_tables, linear_tables
 from towercrane.report.tables.runs import run_tables, verification_tables
 from towercrane.report.tables.space import comparison_tables, space_modes_tables

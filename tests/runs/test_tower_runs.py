@@ -17,7 +17,8 @@ from towercrane.cranes.tower.file.build import crane_frame, radial_crane, radial
 from towercrane.cranes.tower.file.effects import kept_tower
 from towercrane.cranes.tower.file.requests import modes_of
 from towercrane.linear.linearise import linearise
-from towercrane.motions.motion import rest, trapezoid
+from towercrane.motions.motion import rest
+from towercrane.motions.profiles import trapezoid
 from towercrane.report.tables.modes import modes_tables
 from towercrane.runs.summary import summarise
 from towercrane.simulation.simulate import simulate

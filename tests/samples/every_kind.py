@@ -12,7 +12,8 @@ from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import Motion, phases, rest, sequence, trapezoid
+from towercrane.motions.motion import Motion, phases, rest, sequence
+from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import evaluate, integrate
 from towercrane.simulation.system import Model
 from towercrane.simulation.trajectory import Trajectory

@@ -4,7 +4,8 @@ import numpy as np
 
 from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import rest, sequence, smooth_ramps, trapezoid
+from towercrane.motions.motion import rest, sequence
+from towercrane.motions.profiles import smooth_ramps, trapezoid
 
 PRINTED = JibCrane(
     name="Al-Ajmi et al., Table 1",

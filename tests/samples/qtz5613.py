@@ -4,7 +4,8 @@ from modal.beams.beam import Beam
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import rest, trapezoid
+from towercrane.motions.motion import rest
+from towercrane.motions.profiles import trapezoid
 
 CRANE = TowerCrane(
     name="QTZ5613",

@@ -10,7 +10,8 @@ from modal.beams.torsion import Shaft
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import rest, sequence, speed_trapezoid, trapezoid
+from towercrane.motions.motion import rest, sequence
+from towercrane.motions.profiles import speed_trapezoid, trapezoid
 
 CRANE = dataclasses.replace(
     qtz5613.CRANE,

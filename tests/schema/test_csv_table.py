@@ -13,7 +13,7 @@ from towercrane.cases.case import CaseError, load_case
 from towercrane.cases.models import motions_of
 from towercrane.cases.table_notices import scatter, table_notices
 from towercrane.cases.wind_file import read_gusts
-from towercrane.motions.motion import table, trapezoid
+from towercrane.motions.profiles import table, trapezoid
 from towercrane.runs.run import run_case
 from towercrane.runs.summary import summarise
 from towercrane.schema.csv_table import MOST_BYTES, MOST_ROWS, TIME, Column, read_table

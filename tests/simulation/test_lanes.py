@@ -11,7 +11,8 @@ from modal import Chain, Foundation, Segment
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.kernels.vector import LANES
-from towercrane.motions.motion import phases, rest, s_curve, sequence, trapezoid
+from towercrane.motions.motion import phases, rest, sequence
+from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.simulation.lanes.advance import OUTPUTS
 from towercrane.simulation.lanes.many import LaneRun, integrate_many
 from towercrane.simulation.simulate import rows_of, simulate

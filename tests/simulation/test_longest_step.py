@@ -14,7 +14,8 @@ from towercrane.cranes.tower.equations.small_motions import linear_matrices
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
-from towercrane.motions.motion import rest, smooth_ramps, trapezoid
+from towercrane.motions.motion import rest
+from towercrane.motions.profiles import smooth_ramps, trapezoid
 from towercrane.simulation.methods.runge_kutta import REACH_USED
 from towercrane.simulation.methods.tableaus import DOP853, DOPRI5
 from towercrane.simulation.simulate import simulate

@@ -17,7 +17,8 @@ from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
-from towercrane.motions.motion import Motion, phases, rest, trapezoid
+from towercrane.motions.motion import Motion, phases, rest
+from towercrane.motions.profiles import trapezoid
 from towercrane.runs.run import run_case
 from towercrane.simulation.simulate import simulate
 from towercrane.simulation.system import start_inputs

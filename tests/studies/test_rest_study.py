@@ -14,8 +14,8 @@ from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cli import app
 from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
-from towercrane.motions.motion import trapezoid
 from towercrane.motions.plans import Move, Plan, Shaping, shaped_motions
+from towercrane.motions.profiles import trapezoid
 from towercrane.motions.shaping import zv
 from towercrane.report.drive_table import drive_table
 from towercrane.report.plots.studies import shaping as pictured

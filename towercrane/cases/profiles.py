@@ -48,8 +48,9 @@ def plan(described: AnyMotion, start: float, folder: Path, unit: str = "m") -> P
     CaseError
         If a CSV table cannot be used.
     """
-    from towercrane.motions.motion import rest, s_curve, smooth_ramps, speed_trapezoid, table, trapezoid
+    from towercrane.motions.motion import rest
     from towercrane.motions.plans import Move, Shaping
+    from towercrane.motions.profiles import s_curve, smooth_ramps, speed_trapezoid, table, trapezoid
     from towercrane.motions.shaping import DESIGNS, minimum_jerk
 
     shaping = None

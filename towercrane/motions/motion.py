@@ -19,12 +19,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-SHORTEST_WAY = 1e-12
-"""Ways shorter than this [m] are none."""
-
-LIKE = 5
-"""Neighbouring points whose curvatures are alike where a motion is sampled finely."""
-
 SAME_INSTANT = 1e-9
 """Switch times closer than this [s] are one: two profiles may differ by rounding."""
 
@@ -120,65 +114,6 @@ def rest(value: float, duration: float = 0.0) -> Motion:
     return Motion(np.array([0.0, duration]), np.array([[float(value)]]))
 
 
-def trapezoid(start: float, end: float, speed: float, acceleration: float) -> Motion:
-    """Constant acceleration, constant speed, constant deceleration; a triangle where the way is short.
-
-    Parameters
-    ----------
-    start, end : float
-        First and last value [m].
-    speed, acceleration : float
-        Largest rate [m/s] and acceleration [m/s^2], both positive.
-    """
-    return _ramped(start, end, speed, acceleration, float("inf"))
-
-
-def s_curve(start: float, end: float, speed: float, acceleration: float, jerk: float) -> Motion:
-    """Motion with limited jerk: seven pieces of constant jerk, fewer where a limit is not reached.
-
-    Parameters
-    ----------
-    start, end : float
-        First and last value [m].
-    speed, acceleration, jerk : float
-        Largest rate [m/s], acceleration [m/s^2] and jerk [m/s^3], all positive.
-    """
-    check_positive("jerk", jerk)
-    return _ramped(start, end, speed, acceleration, jerk)
-
-
-def speed_trapezoid(start: float, speed: float, ramp: float, hold: float) -> Motion:
-    """Speed that rises linearly, holds and falls linearly; the way is speed (ramp + hold).
-
-    Parameters
-    ----------
-    start : float
-        First value [m or rad].
-    speed : float
-        Speed while it holds [m/s or rad/s]; its sign is the direction.
-    ramp, hold : float
-        Time of each ramp, positive, and time between them, zero or more [s].
-    """
-    return _speed_ramps(start, speed, ramp, hold, (0.0, 0.0, 0.5))
-
-
-def smooth_ramps(start: float, speed: float, ramp: float, hold: float) -> Motion:
-    """Speed that rises and falls as 10 x^3 - 15 x^4 + 6 x^5, with x from 0 to 1 over each ramp.
-
-    Acceleration and jerk are continuous; the way is speed (ramp + hold).
-
-    Parameters
-    ----------
-    start : float
-        First value [m or rad].
-    speed : float
-        Speed while it holds [m/s or rad/s]; its sign is the direction.
-    ramp, hold : float
-        Time of each ramp, positive, and time between them, zero or more [s].
-    """
-    return _speed_ramps(start, speed, ramp, hold, (0.0, 0.0, 0.0, 0.0, 2.5, -3.0, 1.0))
-
-
 def sequence(*motions: Motion) -> Motion:
     """Motions one after the other; each begins where the one before ends.
 
@@ -199,54 +134,6 @@ def sequence(*motions: Motion) -> Motion:
         pieces += [np.pad(p, (0, width - len(p))) for p in motion.coefficients]
         now, value = times[-1], motion.end
     return Motion(np.array(times), np.array(pieces))
-
-
-def table(times: ArrayLike, values: ArrayLike) -> Motion:
-    """Motion through points that starts and ends at rest and keeps their shape: it never leaves the points' range.
-
-    It is the cubic spline with continuous acceleration where that stays between neighbouring points. Elsewhere its
-    slopes are limited, and the acceleration jumps at the point; the solver restarts at each.
-
-    Parameters
-    ----------
-    times : array_like, shape (p,)
-        Increasing times from 0 [s].
-    values : array_like, shape (p,)
-        Values at those times.
-
-    Notes
-    -----
-    Limits of Hyman 1983, Accurate monotonicity preserving cubic interpolation, SIAM J. Sci. Stat. Comput. 4: a slope
-    of the sign of the secants beside it, at most three times the smaller; zero where they differ in sign. A turn that
-    is sampled finely, with like curvature over five points, keeps the spline's: a zero slope at the highest of its
-    points would double the acceleration there.
-    """
-    from scipy.interpolate import CubicHermiteSpline, CubicSpline
-
-    t, x = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
-    if t.ndim != 1 or t.shape != x.shape or len(t) < 2:
-        raise ValueError(f"table: wanted two or more times and as many values, got {t.shape} and {x.shape}")
-    if t[0] != 0.0 or np.any(np.diff(t) <= 0.0):
-        raise ValueError("table: wanted times that start at 0 and increase")
-    slopes = np.array(CubicSpline(t, x, bc_type="clamped")(t, 1))
-    secants = np.diff(x) / np.diff(t)
-    before, after, sense = secants[:-1], secants[1:], np.sign(secants[:-1])
-    steepest = np.where(before * after > 0.0, 3.0 * np.minimum(abs(before), abs(after)), 0.0)
-    limited = sense * np.clip(sense * slopes[1:-1], 0.0, steepest)
-    slopes[1:-1] = np.where(_turns_smoothly(t, before, after), slopes[1:-1], limited)
-    slopes[[0, -1]] = 0.0
-    return Motion(t, np.ascontiguousarray(CubicHermiteSpline(t, x, slopes).c[::-1].T))
-
-
-def _turns_smoothly(t: Floats, before: Floats, after: Floats) -> NDArray[np.bool_]:
-    """Whether the curvature at each inner point and two to either side has one sign and about one size."""
-    curvature = (after - before) / (t[2:] - t[:-2])
-    smooth = np.zeros(len(curvature), dtype=bool)
-    if len(curvature) >= LIKE:
-        near = np.lib.stride_tricks.sliding_window_view(curvature, LIKE)
-        signed = near * np.sign(near[:, :1])
-        smooth[LIKE // 2 : len(smooth) - LIKE // 2] = signed.max(axis=1) < 2.0 * signed.min(axis=1)
-    return smooth
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,63 +183,6 @@ def distinct(moments: Floats) -> Floats:
         if not kept or moment > kept[-1] + SAME_INSTANT:
             kept.append(moment)
     return np.array(kept)
-
-
-# Limits so far from each other that numbers overflow make times that are not finite, which a motion refuses.
-@np.errstate(all="ignore")
-def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: float) -> Motion:
-    number_in("start", start, "a finite number")
-    number_in("end", end, "a finite number")
-    check_positive("speed", speed)
-    check_positive("acceleration", acceleration)
-    way = abs(end - start)
-    if way < SHORTEST_WAY:
-        return rest(end)
-    a, j = acceleration, jerk
-    if way < speed * _ramp_time(speed, a, j):
-        # Without a cruise: the peak speed v solves v * ramp_time(v) = way on the branch that is reached.
-        speed = a / 2 * (np.sqrt((a / j) ** 2 + 4 * way / a) - a / j)
-        if speed * j < a * a:
-            speed = np.cbrt(way * way * j / 4)
-    rounding = min(a / j, np.sqrt(speed / j))
-    steady = max(_ramp_time(speed, a, j) - 2 * rounding, 0.0)
-    cruise = max(way / speed - _ramp_time(speed, a, j), 0.0)
-    peak = min(a, np.sqrt(speed * j))
-    slope = 0.0 if np.isinf(j) else j
-    ramp = [(rounding, slope, 0.0), (steady, 0.0, peak), (rounding, -slope, peak)]
-    brake = [(time, -jerk_, -acceleration_) for time, jerk_, acceleration_ in ramp]
-    times, pieces, x, v, sign = [0.0], [], float(start), 0.0, np.sign(end - start)
-    for time, s, acc in [*ramp, (cruise, 0.0, 0.0), *brake]:
-        if time == 0.0:
-            continue
-        pieces.append([x, v, sign * acc / 2, sign * s / 6])
-        x += time * (v + time * (sign * acc / 2 + time * sign * s / 6))
-        v += time * (sign * acc + time * sign * s / 2)
-        times.append(times[-1] + time)
-    return Motion(np.array(times), np.array(pieces)[:, : 3 if np.isinf(j) else 4])
-
-
-def _speed_ramps(start: float, speed: float, ramp: float, hold: float, rise: tuple[float, ...]) -> Motion:
-    """Ramps whose way, as a fraction of speed times ramp, is the polynomial ``rise`` of x, with rise(1) = 1/2."""
-    number_in("start", start, "a finite number")
-    number_in("speed", speed, "a finite number")
-    check_positive("ramp", ramp)
-    check_not_negative("hold", hold)
-    way = speed * ramp
-    # Floats of Python raise where numpy would warn: a ramp of 1e-300 s is refused, not turned into infinities.
-    up = np.array([way * share / float(ramp) ** power for power, share in enumerate(rise)])
-    cruise, down = np.zeros_like(up), -up
-    cruise[1] = down[1] = speed
-    up[0], cruise[0], down[0] = start, start + way / 2, start + way / 2 + speed * hold
-    if hold == 0.0:
-        return Motion(np.array([0.0, ramp, 2 * ramp]), np.array([up, down]))
-    return Motion(np.array([0.0, ramp, ramp + hold, 2 * ramp + hold]), np.array([up, cruise, down]))
-
-
-def _ramp_time(speed: float, acceleration: float, jerk: float) -> float:
-    if speed * jerk >= acceleration**2:
-        return speed / acceleration + acceleration / jerk
-    return float(2 * np.sqrt(speed / jerk))
 
 
 def _polynomial(coefficients: Floats, time: float) -> float:

@@ -21,7 +21,8 @@ from towercrane.cranes.jib.linear import growth_rates, static_matrices, static_t
 from towercrane.cranes.jib.model import TORQUES, DrivenJibCrane
 from towercrane.cranes.jib.tracking import TrackingJibCrane
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import Motion, phases, rest, trapezoid
+from towercrane.motions.motion import Motion, phases, rest
+from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.directions import restore_rows
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.simulate import simulate

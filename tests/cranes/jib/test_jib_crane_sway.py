@@ -12,7 +12,8 @@ from scipy.special import ellipj, ellipk, jv, yv
 from towercrane.cranes.jib.linear import LinearSway, static_torques
 from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
 from towercrane.cranes.jib.tracking import TrackingJibCrane
-from towercrane.motions.motion import Motion, phases, smooth_ramps, trapezoid
+from towercrane.motions.motion import Motion, phases
+from towercrane.motions.profiles import smooth_ramps, trapezoid
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.simulate import simulate
 

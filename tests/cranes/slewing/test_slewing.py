@@ -23,7 +23,8 @@ from samples.lab_crane import (
 from towercrane.cranes.slewing.model import LumpedModel
 from towercrane.cranes.slewing.outputs import position
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import rest, sequence, trapezoid
+from towercrane.motions.motion import rest, sequence
+from towercrane.motions.profiles import trapezoid
 
 KINDS = tuple(PARAMETERS)
 STILL = {"shaft": rest(0.0), "rope": rest(2.0)}

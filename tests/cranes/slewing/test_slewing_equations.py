@@ -19,7 +19,8 @@ from scipy.integrate import solve_ivp
 from towercrane.cranes.slewing import kernel
 from towercrane.cranes.slewing.model import LumpedModel
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import phases, rest, trapezoid
+from towercrane.motions.motion import phases, rest
+from towercrane.motions.profiles import trapezoid
 
 ORDER = {
     "multi-mass": ("z4", "phi3", "y3", "x3", "phi2", "phi1", "phi4", "z6"),

@@ -14,7 +14,8 @@ from towercrane.cranes.slewing import kernel
 from towercrane.cranes.slewing.description import Drive, Link, LumpedCrane, Point
 from towercrane.cranes.slewing.model import LumpedModel
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import phases, rest, trapezoid
+from towercrane.motions.motion import phases, rest
+from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.simulate import simulate
 

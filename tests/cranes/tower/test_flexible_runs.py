@@ -17,7 +17,8 @@ from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import phases, rest, sequence, trapezoid
+from towercrane.motions.motion import phases, rest, sequence
+from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import evaluate, integrate
 from towercrane.simulation.simulate import simulate
 

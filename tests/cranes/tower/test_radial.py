@@ -11,7 +11,8 @@ from scipy.integrate import solve_ivp
 
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import rest, s_curve, sequence, trapezoid
+from towercrane.motions.motion import rest, sequence
+from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import simulate
 

@@ -62,13 +62,22 @@ def test_a_folder_of_the_user_s_choice_keeps_its_neighbours(home, tmp_path):
 
 def test_what_a_link_leads_to_and_what_cannot_be_removed_stay_without_a_word(home, tmp_path, monkeypatch):
     target = made(tmp_path, "target", KEPT + 1.0)
-    link, stuck = home / ("0" * DIGITS), made(home, "1" * DIGITS, KEPT + 1.0)
+    link, stuck, old = (
+        home / ("0" * DIGITS),
+        made(home, "1" * DIGITS, KEPT + 1.0),
+        made(home, "2" * DIGITS, KEPT + 1.0),
+    )
     link.symlink_to(target, target_is_directory=True)
-    monkeypatch.setattr(os, "rmdir", refuse)
+    monkeypatch.setattr(folder.Path, "iterdir", lambda _: iter([link, stuck, old]))
+    remove = os.rmdir
+    monkeypatch.setattr(
+        os, "rmdir", lambda path, **more: refuse() if "1" * DIGITS in str(path) else remove(path, **more)
+    )
     assert obstacle(cache_folder.__wrapped__()) == ""
     assert link.is_symlink()
     assert list(target.rglob("*.nbi"))
     assert stuck.exists()
+    assert not old.exists()
 
 
 def test_a_folder_that_cannot_be_looked_through_is_left_alone(home, monkeypatch):

@@ -15,7 +15,8 @@ from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import rest, s_curve, sequence, smooth_ramps, table, trapezoid
+from towercrane.motions.motion import rest, sequence
+from towercrane.motions.profiles import s_curve, smooth_ramps, table, trapezoid
 from towercrane.motions.shaping import minimum_jerk
 
 if TYPE_CHECKING:

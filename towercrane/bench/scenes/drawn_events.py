@@ -24,7 +24,8 @@ from towercrane.cranes.slewing.tables import SlewingCase
 from towercrane.cranes.tower.file.build import radial_model, space_model
 from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
 from towercrane.kernels.payload import Load
-from towercrane.motions.motion import rest, sequence, speed_trapezoid
+from towercrane.motions.motion import rest, sequence
+from towercrane.motions.profiles import speed_trapezoid
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
