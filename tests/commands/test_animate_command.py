@@ -11,8 +11,8 @@ from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.report.film import file as film_file
 from towercrane.results import files as results
+from towercrane.runs import run as running
 from towercrane.runs.run import record_case, run_case
-from towercrane.simulation import simulate
 
 CASE = "qtz5613/condition-3"
 SHORT = ("--set", "run.duration=3 s")
@@ -46,7 +46,7 @@ def result(tmp_path_factory):
 
 
 def test_finished_result_is_filmed_beside_itself_without_a_run(result, monkeypatch):
-    monkeypatch.setattr(simulate, "record_case", None)
+    monkeypatch.setattr(running, "record_case", None)
     done = animate(result, "--speed", 4, "--magnify", 3)
     assert done.exit_code == 0, done.output
     assert frames(result.with_suffix(".gif")) == 11
@@ -110,7 +110,7 @@ def test_run_that_is_not_what_its_case_expects_is_filmed_and_named(tmp_path):
     ],
 )
 def test_bad_input_is_refused_before_the_run(arguments, said, tmp_path, monkeypatch):
-    monkeypatch.setattr(simulate, "record_case", None)
+    monkeypatch.setattr(running, "record_case", None)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "file").touch()
     with mpl.rc_context({"animation.ffmpeg_path": "no-such-ffmpeg"}):
@@ -171,7 +171,7 @@ def test_interrupted_run_makes_no_film(tmp_path, monkeypatch):
     def interrupted(case, progress=None):
         return replace(found := record_case(case), attrs=found.attrs | {"outcome": "interrupted"})
 
-    monkeypatch.setattr(simulate, "record_case", interrupted)
+    monkeypatch.setattr(running, "record_case", interrupted)
     done = animate(CASE, *SHORT, "--out", tmp_path / "film.gif")
     assert done.exit_code == 130
     assert not list(tmp_path.iterdir())
