@@ -89,6 +89,24 @@ def test_a_member_without_any_free_end_vibrates():
     np.testing.assert_allclose(structure.angular_frequencies(3), CLAMPED, rtol=1e-12)
 
 
+def test_a_joint_may_turn_either_of_its_members_over():
+    # A hairpin: the second member goes back from the first one's end, so that one of them turns against the node.
+    parts = Segment(0.6, 1.0, 1.0), Segment(0.5, 0.8, 0.7)
+    found = []
+    for factors in (((1.0, 1.0), (1.0, -1.0)), ((1.0, -1.0), (1.0, 1.0))):
+        structure = Structure(())
+        node, end = ((structure.add_unknown("m"), structure.add_unknown("rad")) for _ in range(2))
+        far, near = factors
+        structure.members = [
+            Member(parts[0], (HELD, HELD, *node), (1.0, 1.0, *far)),
+            Member(parts[1], (*node, *end), (*near, 1.0, 1.0)),
+        ]
+        found.append(structure.angular_frequencies(6))
+    np.testing.assert_allclose(found[0], found[1], rtol=1e-12)
+    straight = chain_structure(Chain(parts)).angular_frequencies(6)
+    assert abs(found[0] / straight - 1.0).min() > 1e-3
+
+
 @pytest.mark.parametrize("copies", [2, 3])
 def test_equal_chains_on_one_ground_have_every_frequency_as_often(copies):
     chain = Chain((Segment(0.4, 1.0, 1.0), Segment(0.6, 0.5, 0.3)), {2: EndBody(0.3, 0.02, 0.1)})
