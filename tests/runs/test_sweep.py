@@ -90,8 +90,14 @@ def test_series_on_demand(case):
     assert data["swing_angle"].dims == ("run", "time")
     single = run_case(load_case(case.path, [*case.changes, "payload.mass=700.0"]))
     assert_allclose(data["swing_angle"][1], single["swing_angle"], rtol=0, atol=1e-14)
+    # Methods and tolerances may differ.
+    methods = sweep(case, {"solver.method": ["dop853", "dopri5"], "solver.rtol": [1e-5, 1e-6]}, series=True)
+    single = run_case(load_case(case.path, [*case.changes, "solver.method=dopri5", "solver.rtol=1e-6"]))
+    assert_allclose(methods["swing_angle"][1], single["swing_angle"], rtol=0, atol=1e-14)
     with pytest.raises(ValueError, match="series: wanted the same duration"):
         sweep(case, {"run.duration": [5, 6]}, series=True)
+    with pytest.raises(ValueError, match="series: wanted the same duration"):
+        sweep(case, {"run.output_step": [0.04, 0.08]}, series=True)
 
 
 @pytest.mark.parametrize(
