@@ -171,6 +171,26 @@ def test_one_hour_shows_what_was_measured(monkeypatch):
     assert set(pictures({"subjects": [table]})) == {"one-hour.png"}
 
 
+def test_growth_of_the_error_is_drawn_with_its_exponents():
+    from towercrane.report.plots.bench.work import pictures
+
+    curves = {"dop853": [1e-9, 3e-8, 2e-7], "dopri5": [2e-6, 5e-6, 7e-5]}
+    records = [
+        {"method": method, "rtol": 1e-6, "exponent": exponent, "curve": {"time_s": [1.0, 10.0, 60.0], "error": error}}
+        for exponent, (method, error) in zip((1.25, 0.5), curves.items(), strict=True)
+    ]
+    figures = pictures({"subjects": [{"name": "error-growth", "records": records}]})
+    (axes,) = figures["error-growth.png"].axes
+    for line, (method, error) in zip(axes.get_lines(), curves.items(), strict=True):
+        assert_allclose(line.get_data(), ([1.0, 10.0, 60.0], error))
+        assert line.get_linestyle() == ("-" if method == "dop853" else "--")
+    names = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert names == ["dop853, rtol 1e-06: ~ t^1.25", "dopri5, rtol 1e-06: ~ t^0.50"]
+    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+    assert "[s]" in axes.get_xlabel()
+    assert "[1]" in axes.get_ylabel()
+
+
 def test_many_runs_stand_in_a_report_under_their_name(monkeypatch):
     from towercrane.report.plots.bench.work import pictures
 

@@ -19,6 +19,12 @@ def write(tmp_path):
 # Files
 
 
+def test_a_file_of_four_mebibytes_is_read_and_a_larger_one_is_not(write):
+    full = CASE + "#" * (4 * 2**20 - len(CASE.encode()))
+    assert load_case(write(case_text=full)).payload.mass == 800.0
+    assert "a TOML file of at most 4194304 bytes" in str(only_fault(write(case_text=full + "#")))
+
+
 @pytest.mark.parametrize(
     ("text", "key", "words"),
     [
