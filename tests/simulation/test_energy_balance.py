@@ -11,13 +11,15 @@ from typer.testing import CliRunner
 from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.cranes.tower.kernels import layout
+from towercrane.cranes.tower.lanes import RADIAL
 from towercrane.motions.motion import phases
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import expected, summarise
 from towercrane.runs.sweep import sweep
 from towercrane.simulation import energy_balance
 from towercrane.simulation.energy_balance import NOT_CONSERVED, explained, first_off
-from towercrane.simulation.lanes.many import LaneRun, integrate_many
+from towercrane.simulation.lanes.crane import LaneRun
+from towercrane.simulation.lanes.many import integrate_many
 from towercrane.simulation.simulate import record, rows_of
 
 
@@ -55,7 +57,7 @@ def test_in_lanes_it_is_the_outcome_of_its_run_alone():
     drives = qtz5613.standing(20.0, 18.0)
     cut = phases((drives["trolley"], drives["rope"]), 10.0)
     runs = [LaneRun(heavier(factor), cut, "zero", 0.3) for factor in (1.0, 1.001, 1.0)]
-    found = integrate_many(runs, rows_of(10.0, 0.5), threads=1)
+    found = integrate_many(RADIAL, runs, rows_of(10.0, 0.5), threads=1)
     assert found.outcomes == ["finished", NOT_CONSERVED, "finished"]
 
 

@@ -8,13 +8,14 @@ from numpy.testing import assert_allclose
 from samples.qtz5613 import CRANE, model, motions
 
 from modal import Chain, Foundation, Segment
+from towercrane.cranes.tower.lanes import OUTPUTS, RADIAL
 from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases, rest, sequence
 from towercrane.motions.profiles import s_curve, trapezoid
-from towercrane.simulation.lanes.advance import OUTPUTS
-from towercrane.simulation.lanes.many import LaneRun, integrate_many
+from towercrane.simulation.lanes.crane import LaneRun
+from towercrane.simulation.lanes.many import integrate_many
 from towercrane.simulation.simulate import rows_of, simulate
 
 DURATION = 12.0
@@ -28,7 +29,7 @@ def lane_run(crane, drives, state="equilibrium", swing_angle=0.0):
 
 def in_lanes(scenes, **options):
     """Scenes are model, motions and, if need be, state and swing angle at the start."""
-    return integrate_many([lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options})
+    return integrate_many(RADIAL, [lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options})
 
 
 def alone(crane, drives, state="equilibrium", swing_angle=0.0, **options):

@@ -21,6 +21,16 @@ def lane_rhs_signature() -> Any:
     return types.void(VECTOR, one, one, two, one, two, three, TABLE, two, one)
 
 
+def lane_observer_signature() -> Any:
+    """Numba signature of what turns states and guards of lanes into outputs.
+
+    ``observe(states, lane_states, guards, watched, outputs, lane_outputs)``: states and outputs once as lane vectors
+    and once as numbers of shape (..., lanes); ``watched`` (linear outputs, coordinates) is each run's own.
+    """
+    one, numbers = lane_array(1), types.float64[:, ::1]
+    return types.void(one, numbers, one, lane_array(2), one, numbers)
+
+
 def lane_array(axes: int) -> Any:
     """Type of an array of lane vectors, see :func:`in_lanes`."""
     # Without a claim of alignment: numpy promises 16 bytes, a register would want 64.

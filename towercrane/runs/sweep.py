@@ -173,10 +173,11 @@ def _side_by_side(
     progress: Progress | None,
 ) -> None:
     """Run in vector lanes, those together that can share them."""
-    from towercrane.simulation.lanes.many import integrate_many
-
     if not waiting:
         return
+    from towercrane.cranes.tower.lanes import RADIAL
+    from towercrane.simulation.lanes.many import integrate_many
+
     if series and len({company[:2] for company in waiting}) > 1:
         raise ValueError("series: wanted the same duration and output step in all runs, got different ones")
     found.outputs |= RADIAL_OUTPUTS
@@ -185,7 +186,7 @@ def _side_by_side(
         times = rows_of(duration, output_step, looks)
         found.times = times[::looks]
         answers = integrate_many(
-            [variant.lane for variant in members.values() if variant.lane is not None],
+            RADIAL, [variant.lane for variant in members.values() if variant.lane is not None],
             times, method=method, rtol=rtol, atol=atol, threads=threads, series=series,
             progress=_counted(progress, len(found.rows) + len(found.faults)),
         )  # fmt: skip

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from towercrane.cases.case import Case
     from towercrane.cranes.tower.planar import RadialModel
-    from towercrane.simulation.lanes.many import LaneRun
+    from towercrane.simulation.lanes.crane import LaneRun
 
     Value = float | int | str
 
@@ -107,7 +107,7 @@ class Variants:
         return Variant(case, self._lane(case) if _fits_lanes(case) else None)
 
     def _lane(self, case: Case) -> LaneRun:
-        from towercrane.simulation.lanes.many import LaneRun
+        from towercrane.simulation.lanes.crane import LaneRun
 
         tables, motions = case.tables(RadialCase), motions_of(case)
         model = radial_model(tables)

@@ -13,11 +13,12 @@ from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.file.build import radial_model
 from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.lanes import OUTPUTS, RADIAL
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import evaluate, integrate
-from towercrane.simulation.lanes.advance import OUTPUTS
-from towercrane.simulation.lanes.many import LaneRun, available_cores, integrate_many
+from towercrane.simulation.lanes.crane import LaneRun
+from towercrane.simulation.lanes.many import available_cores, integrate_many
 from towercrane.simulation.outcomes import INTERRUPTED
 from towercrane.simulation.simulate import rows_of
 
@@ -104,7 +105,7 @@ def _variations(count: int, duration: float) -> list[LaneRun]:
 
 
 def _lanes(runs: list[LaneRun], grid: Floats, rtol: float, threads: int) -> LaneAnswers:
-    found = integrate_many(runs, grid, rtol=rtol, atol=1e-2 * rtol, threads=threads)
+    found = integrate_many(RADIAL, runs, grid, rtol=rtol, atol=1e-2 * rtol, threads=threads)
     if INTERRUPTED in found.outcomes:
         raise KeyboardInterrupt
     return found

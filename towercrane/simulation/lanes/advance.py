@@ -1,8 +1,8 @@
-"""Compiled runs of the crane in radial motion side by side.
+"""Compiled runs of a system side by side.
 
 The steps are put together from :mod:`towercrane.simulation.lanes.stepper` and
-:mod:`towercrane.simulation.lanes.dense_output`; the equations come as a function pointer, which is compiled by
-itself.
+:mod:`towercrane.simulation.lanes.dense_output`; the equations and the outputs come as function pointers, which are
+compiled by themselves.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ import numpy as np
 from numba import types
 
 from modal.compiler.compiled import kernel
-from towercrane.cranes.tower.kernels import layout
-from towercrane.kernels.arrays import in_lanes, lane_rhs_signature, lent
+from towercrane.kernels.arrays import in_lanes, lane_observer_signature, lane_rhs_signature, lent
 from towercrane.kernels.choices import choose
 from towercrane.kernels.vector import LANES
 from towercrane.simulation.directions import restore
@@ -43,12 +42,6 @@ from towercrane.simulation.lanes.queue import (
 )
 from towercrane.simulation.stepper import stage_state
 
-TOWER_TIP, JIB_TIP, SWING, TENSION = range(4)
-"""Outputs: the two linear ones, then swing angle and rope tension."""
-
-OUTPUTS = ("tower_tip_displacement", "jib_tip_deflection", "swing_angle", "rope_tension")
-"""Their names."""
-
 
 @kernel()
 def _take_stages(
@@ -65,24 +58,10 @@ def _take_stages(
             k[i, m] = slope[m]
 
 
-@kernel()
-def _observe(
-    states: Any, lane_states: Any, guards: Any, watched: Any, outputs: Any, lane_outputs: Any, n: int
-) -> None:
-    """Outputs of every lane in these states."""
-    for output in (TOWER_TIP, JIB_TIP):
-        value = guards[0] * 0.0
-        for i in range(n):
-            value += watched[output, i] * states[i]
-        outputs[output] = value
-    outputs[TENSION] = guards[layout.TENSION]
-    for lane in range(LANES):
-        lane_outputs[SWING, lane] = np.arctan2(lane_states[n, lane], -lane_states[n + 1, lane])
-
-
 @kernel(
     types.boolean(
-        types.FunctionType(lane_rhs_signature()), queue_type(), answers_type(), lanes_type(),
+        types.FunctionType(lane_rhs_signature()), types.FunctionType(lane_observer_signature()),
+        queue_type(), answers_type(), lanes_type(),
         types.int64, types.float64[:, ::1], types.float64[::1], types.float64[:, ::1], types.float64[:, ::1],
         types.int64, types.float64, types.int64,
     ),
@@ -90,6 +69,7 @@ def _observe(
 )  # fmt: skip
 def advance(
     rhs: Any,
+    observe: Any,
     queue: Any,
     answers: Any,
     lanes: Any,
@@ -108,6 +88,8 @@ def advance(
     ----------
     rhs : compiled function
         As in :func:`towercrane.kernels.arrays.lane_rhs_signature`.
+    observe : compiled function
+        As in :func:`towercrane.kernels.arrays.lane_observer_signature`.
     queue, answers, lanes
         See :mod:`towercrane.simulation.lanes.queue`.
     stages, a, c, error, dense, error_order
@@ -142,7 +124,7 @@ def advance(
         lent(answers.counts), lent(answers.smallest_steps), lent(answers.extremes), lent(answers.series),
     )  # fmt: skip
     a, c, error, dense = lent(a), lent(c), lent(error), lent(dense)
-    size, n, rows = y.size, vectors.shape[1], error.shape[0]
+    size, rows = y.size, error.shape[0]
     # The same state steers no step in every run: the work done.
     limits, active = queue.atol[0], 0
     for m in range(size):
@@ -228,7 +210,7 @@ def advance(
             while wanted:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
                 rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
-                _observe(trial, lane_trial, guards, watched, outputs, lane_outputs, n)
+                observe(trial, lane_trial, guards, watched, outputs, lane_outputs)
                 looks.record(lane_outputs, wanted, places, counts, sample_times, extremes, series)
                 wanted = looks.wanted_samples(places, clock, sample_times)
         accepted = clocks[ACCEPTED_STEP]

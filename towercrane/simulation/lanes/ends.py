@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.tower.kernels.layout import TENSION as TENSION_GUARD
-from towercrane.simulation.lanes.advance import JIB_TIP, OUTPUTS, SWING, TENSION, TOWER_TIP
 from towercrane.simulation.lanes.queue import FINISHED, LARGEST, SMALLEST, WAITING, WRITTEN
 from towercrane.simulation.trajectory import phase_of
 
@@ -16,17 +14,18 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.simulation.lanes.many import LaneRun
+    from towercrane.simulation.lanes.crane import LaneCrane, LaneRun
     from towercrane.simulation.lanes.queue import Answers, Queue
 
     Floats = NDArray[np.float64]
 
 
-def record_ends(runs: Sequence[LaneRun], queue: Queue, answers: Answers) -> None:
+def record_ends(crane: LaneCrane, runs: Sequence[LaneRun], queue: Queue, answers: Answers) -> None:
     """Let the states in which runs ended count among their extremes, as they do in the rows of single runs.
 
     Parameters
     ----------
+    crane : LaneCrane
     runs : sequence of LaneRun
     queue, answers
         The same runs before their lanes, and after.
@@ -39,11 +38,8 @@ def record_ends(runs: Sequence[LaneRun], queue: Queue, answers: Answers) -> None
     due = np.flatnonzero(np.where(finished, written < len(samples), (answers.outcomes != WAITING) & (last < times)))
     if not len(due):
         return
-    n = runs[0].model.coordinates
-    values = np.empty((len(due), len(OUTPUTS)))
-    values[:, [TOWER_TIP, JIB_TIP]] = np.einsum("roi,ri->ro", queue.watched[due], states[due, :n])
-    values[:, SWING] = np.arctan2(states[due, n], -states[due, n + 1])
-    values[:, TENSION] = [_tension(runs[run], times[run], states[run]) for run in due.tolist()]
+    guards = np.array([_guards(runs[run], times[run], states[run]) for run in due.tolist()])
+    values = crane.observed(queue.watched[due], states[due], guards)
     for extreme, beyond in ((LARGEST, np.greater), (SMALLEST, np.less)):
         farther, place = np.nonzero(beyond(values, answers.extremes[due, :, extreme]))
         answers.extremes[due[farther], place, extreme] = values[farther, place]
@@ -54,9 +50,9 @@ def record_ends(runs: Sequence[LaneRun], queue: Queue, answers: Answers) -> None
                 answers.series[run, written[run] :] = row
 
 
-def _tension(run: LaneRun, time: float, state: Floats) -> float:
-    """Tension of a run's rope where it ended; at a switch time that of the phase which begins."""
+def _guards(run: LaneRun, time: float, state: Floats) -> Floats:
+    """Guards of a run where it ended; at a switch time those of the phase which begins."""
     cut = run.phases
     phase = int(phase_of(np.asarray(time), cut))
     inputs = cut.inputs[phase] if phase < len(cut.inputs) else cut.after
-    return float(run.model.system.slope(time - cut.times[phase], state, inputs)[1][TENSION_GUARD])
+    return np.asarray(run.model.system.slope(time - cut.times[phase], state, inputs)[1])

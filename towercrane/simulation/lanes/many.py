@@ -1,4 +1,4 @@
-"""Many runs of a crane in radial motion at once: vector lanes inside, threads on top.
+"""Many runs of a kind of crane at once: vector lanes inside, threads on top.
 
 Every run takes the steps that :func:`towercrane.simulation.integrate.integrate` would take for it alone, to the last
 bit; what shares a lane or a thread with it changes nothing.
@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.kernels.lane_rhs import rhs
 from towercrane.kernels.vector import LANES
 from towercrane.simulation.arguments import check_times, check_tolerances
 from towercrane.simulation.directions import restore_rows
 from towercrane.simulation.energy_balance import NOT_CONSERVED
-from towercrane.simulation.lanes.advance import OUTPUTS, advance
+from towercrane.simulation.lanes.advance import advance
 from towercrane.simulation.lanes.ends import record_ends
 from towercrane.simulation.lanes.energy import off_balance
 from towercrane.simulation.lanes.queue import (
@@ -41,7 +40,7 @@ from towercrane.simulation.lanes.queue import FINISHED as FINISHED_CODE
 from towercrane.simulation.lanes.queue import NOT_FINITE as NOT_FINITE_CODE
 from towercrane.simulation.methods.method import DEFAULT
 from towercrane.simulation.methods.registry import pair_of
-from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, TOWER_BUCKLED
+from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE
 from towercrane.simulation.system import NoEquilibrium
 from towercrane.simulation.trajectory import phase_of
 
@@ -50,8 +49,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.planar import RadialModel
-    from towercrane.motions.motion import Phases
+    from towercrane.simulation.lanes.crane import LaneCrane, LaneRun
     from towercrane.simulation.methods.runge_kutta import RungeKutta
     from towercrane.simulation.system import System
 
@@ -62,28 +60,6 @@ STEPS_PER_CALL = 2_000
 
 RUNS_PER_TASK = 256
 """Largest number of runs that a thread takes at a time."""
-
-
-@dataclass(frozen=True, eq=False)
-class LaneRun:
-    """One run that waits for a lane.
-
-    Parameters
-    ----------
-    model : RadialModel
-        Moving in the plane of its jib.
-    phases : Phases
-        Its motions.
-    state : str
-        "equilibrium" or "zero", as in :meth:`towercrane.cranes.tower.planar.RadialModel.start`.
-    swing_angle : float
-        Rope's angle from the vertical at the start [rad].
-    """
-
-    model: RadialModel
-    phases: Phases
-    state: str = "equilibrium"
-    swing_angle: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,11 +74,11 @@ class LaneAnswers:
         [s]
     end_states : ndarray, shape (runs, size)
     evaluations, accepted, rejected : ndarray of int, shape (runs,)
-    extremes : ndarray, shape (runs, 4, 4)
-        Of each output in the order of :data:`towercrane.simulation.lanes.advance.OUTPUTS`: largest value, its time,
+    extremes : ndarray, shape (runs, outputs, 4)
+        Of each output in the order of the crane: largest value, its time,
         smallest value, its time; among the sample times and the end of a run that ended early. Not a number where
         a run was interrupted.
-    series : ndarray, shape (runs or 0, samples, 4)
+    series : ndarray, shape (runs or 0, samples, outputs)
         The outputs at the sample times; not a number after a run's end.
     """
 
@@ -118,6 +94,7 @@ class LaneAnswers:
 
 
 def integrate_many(
+    crane: LaneCrane,
     runs: Sequence[LaneRun],
     sample_times: Floats,
     *,
@@ -132,6 +109,8 @@ def integrate_many(
 
     Parameters
     ----------
+    crane : LaneCrane
+        Of all runs, such as :data:`towercrane.cranes.tower.lanes.RADIAL`.
     runs : sequence of LaneRun
         With the same numbers of modes and the same shapes of the jib's modes.
     sample_times : ndarray, shape (p,)
@@ -162,7 +141,7 @@ def integrate_many(
     system = runs[0].model.system
     if any(not _alike(run.model.system, system) for run in runs):
         raise ValueError("runs: wanted the same numbers and shapes of modes in all, got different ones")
-    answers = _answers(len(runs), system, len(sample_times) if series else 0)
+    answers = _answers(len(runs), system, len(crane.outputs), len(sample_times) if series else 0)
     workers = threads or available_cores()
     share = min(RUNS_PER_TASK, max(LANES, -(-len(runs) // (4 * workers))))
     stop = threading.Event()
@@ -170,16 +149,17 @@ def integrate_many(
     def work(first: int) -> None:
         task = slice(first, first + share)
         mine = Answers(*(array[task] for array in answers))
-        queue = _queue(runs[task], mine, sample_times, atol, pair)
-        lanes = lanes_for(queue, len(pair.a), system.work_shape, len(OUTPUTS))
+        queue = _queue(crane, runs[task], mine, sample_times, atol, pair)
+        lanes = lanes_for(queue, len(pair.a), system.work_shape, len(crane.outputs))
         left = True
         while left and not stop.is_set():
             left = advance(
-                rhs, queue, mine, lanes, pair.stages, pair.a, pair.c, pair.error, pair.dense,
+                crane.rhs, crane.observe, queue, mine, lanes, pair.stages, pair.a, pair.c, pair.error, pair.dense,
                 pair.error_order, rtol, STEPS_PER_CALL,
             )  # fmt: skip
-        record_ends(runs[task], queue, mine)
-        mine.outcomes[(mine.outcomes > NO_START) & off_balance(runs[task], queue, mine, rtol, atol)] = OFF_BALANCE
+        record_ends(crane, runs[task], queue, mine)
+        off = off_balance(crane, runs[task], queue, mine, rtol, atol)
+        mine.outcomes[(mine.outcomes > NO_START) & off] = OFF_BALANCE
 
     with ThreadPoolExecutor(workers) as pool:
         futures = [pool.submit(work, first) for first in range(0, len(runs), share)]
@@ -195,7 +175,7 @@ def integrate_many(
         for future in futures:
             if not future.cancelled():
                 future.result()
-    return _told(runs, answers)
+    return _told(crane, runs, answers)
 
 
 def available_cores() -> int:
@@ -220,7 +200,9 @@ def _start(run: LaneRun) -> tuple[Floats, int]:
         return run.model.start(inputs, "zero", run.swing_angle), NO_START
 
 
-def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, pair: RungeKutta) -> Queue:
+def _queue(
+    crane: LaneCrane, runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, pair: RungeKutta
+) -> Queue:
     """The runs' data as the compiled steps want them; runs with fewer phases are padded."""
     systems = [run.model.system for run in runs]
     starts = np.empty((len(runs), systems[0].size))
@@ -256,7 +238,7 @@ def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol
         vectors=np.array([system.vectors for system in systems]),
         matrices=np.array([system.matrices for system in systems]),
         floors=np.array([system.floors for system in systems]),
-        watched=np.array([run.model.tip_shapes for run in runs]),
+        watched=np.array([crane.watched(run.model) for run in runs]),
         phase_counts=np.array([len(run.phases.inputs) for run in runs]),
         phase_times=times,
         inputs=inputs,
@@ -267,8 +249,8 @@ def _queue(runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol
     )
 
 
-def _answers(count: int, system: System, samples: int) -> Answers:
-    extremes = np.zeros((count, len(OUTPUTS), 4))
+def _answers(count: int, system: System, outputs: int, samples: int) -> Answers:
+    extremes = np.zeros((count, outputs, 4))
     extremes[..., LARGEST], extremes[..., SMALLEST] = -np.inf, np.inf
     return Answers(
         outcomes=np.zeros(count, dtype=np.int64),
@@ -277,15 +259,14 @@ def _answers(count: int, system: System, samples: int) -> Answers:
         end_states=np.zeros((count, system.size)),
         counts=np.zeros((count, 4), dtype=np.int64),
         extremes=extremes,
-        series=np.full((count if samples else 0, samples, len(OUTPUTS)), np.nan),
+        series=np.full((count if samples else 0, samples, outputs), np.nan),
     )
 
 
-def _told(runs: Sequence[LaneRun], answers: Answers) -> LaneAnswers:
+def _told(crane: LaneCrane, runs: Sequence[LaneRun], answers: Answers) -> LaneAnswers:
     """Outcomes by name; nothing of runs that were interrupted."""
-    # A crane without a stable equilibrium has buckled under its weights.
     names = {
-        WAITING: INTERRUPTED, NO_START: TOWER_BUCKLED, FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED,
+        WAITING: INTERRUPTED, NO_START: crane.unstable, FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED,
         NOT_FINITE_CODE: NOT_FINITE, OFF_BALANCE: NOT_CONSERVED,
     }  # fmt: skip
     codes = zip(runs, answers.outcomes.tolist(), strict=True)
