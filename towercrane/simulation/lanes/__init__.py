@@ -1,1 +1,1 @@
-"""Many runs side by side, in vector lanes and threads. Never imports a case."""
+"""Many runs side by side, in vector lanes and threads. Never imports a crane or a case."""
