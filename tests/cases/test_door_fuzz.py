@@ -6,11 +6,11 @@ import pytest
 from typer.testing import CliRunner
 
 from towercrane.cases.case import CaseError, load_case
-from towercrane.cases.kinds import known_keys
 from towercrane.cases.plausibility import _rule
 from towercrane.cli import app
 from towercrane.cranes.registry import KINDS
 from towercrane.runs.run import record_case
+from towercrane.schema.fields import known_keys
 from towercrane.schema.ranges import FARTHEST
 
 CASES = {
@@ -54,7 +54,7 @@ def said(case, *overrides):
 
 def places(kind):
     """Keys of a kind, those inside lists in their first item."""
-    for key in known_keys(KINDS[kind]):
+    for key in known_keys(KINDS[kind].tables):
         yield key
         for parent in ("segments", "bodies", "steps"):
             if f".{parent}." in key:

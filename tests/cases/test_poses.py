@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from towercrane.cases.assumptions import rests_on
 from towercrane.cases.case import load_case
-from towercrane.cases.poses import poses_of
+from towercrane.cases.models import poses_of
 from towercrane.cases.result_case import case_of
 from towercrane.cranes.jib.build import parameters_of as jib_parameters
 from towercrane.cranes.parts.poses import SHOWN, Poses

@@ -12,8 +12,8 @@ from numba import types
 import modal
 from modal.compiler import compiled, folder
 from towercrane.cases.case import load_case
-from towercrane.cases.models import uses_of
-from towercrane.kernels.compilation import KERNELS, compile_kernels, missing_kernels
+from towercrane.cranes.registry import KINDS
+from towercrane.kernels.compilation import compile_kernels, missing_kernels
 
 TOP = Path(modal.__file__).parents[1]
 PACKAGES = [TOP / "modal", TOP / "towercrane"]
@@ -44,24 +44,34 @@ def test_a_change_of_a_source_names_another_cache(tmp_path, monkeypatch):
     assert folder.cache_folder.__wrapped__() == found[-1]
 
 
-def test_all_modules_of_kernels_are_there():
-    for modules in KERNELS.values():
-        assert all(importlib.util.find_spec(module) for module in modules)
+RUN, STEPPER = ["towercrane.cranes.tower.kernels.rhs", "modal.beams.roots"], "towercrane.simulation.stepper"
+REST = ["towercrane.cranes.tower.kernels.structure", "modal.beams.roots"]
+STRUCTURE = ["modal.structures.structure_kernel", "modal.structures.shape_kernel"]
 
 
 @pytest.mark.parametrize(
-    ("name", "uses"),
+    ("name", "use", "modules"),
     [
-        ("qtz5613/condition-3", {"radial"}),
-        ("qtz5613/manoeuvre", {"space"}),
-        ("towers/stepped", {"radial", "chain"}),
-        ("slewing/basic/example-1", {"basic"}),
-        ("jib-crane/plan", {"jib"}),
+        ("qtz5613/condition-3", "run", [*RUN, STEPPER]),
+        ("qtz5613/manoeuvre", "run", [*RUN, STEPPER]),
+        ("towers/stepped", "run", [*RUN, *STRUCTURE, STEPPER]),
+        ("slewing/basic/example-1", "run", ["towercrane.cranes.slewing.kernel", STEPPER]),
+        ("jib-crane/plan", "run", ["towercrane.cranes.jib.kernel", STEPPER]),
+        ("qtz5613/manoeuvre", "modes", REST),
+        ("qtz5613/condition-3", "modes", [*REST, *STRUCTURE]),
+        ("qtz5613/condition-3", "map", STRUCTURE),
+        ("qtz5613/condition-3", "lattice", STRUCTURE[:1]),
     ],
 )
-def test_a_case_names_what_its_crane_needs(name, uses):
+def test_a_case_names_what_a_use_of_its_crane_needs(name, use, modules):
     case = load_case(name, [])
-    assert set(uses_of(case)) == uses <= set(KERNELS)
+    assert list(KINDS[case.kind].kernels(case.checked, use)) == modules
+
+
+def test_all_modules_of_kernels_are_there():
+    lanes = KINDS["radial"].kernels(load_case("qtz5613/condition-3").checked, "lanes")
+    others = ["towercrane.cranes.slewing.kernel", "towercrane.cranes.jib.kernel"]
+    assert all(importlib.util.find_spec(module) for module in (*RUN, *REST, *STRUCTURE, *lanes, *others))
 
 
 def test_what_is_compiled_here_or_beside_is_missing_no_more(tmp_path, monkeypatch):
@@ -69,25 +79,22 @@ def test_what_is_compiled_here_or_beside_is_missing_no_more(tmp_path, monkeypatc
     # This process has compiled its own kernels elsewhere: a fresh one finds them missing, and makes them.
     code = (
         "from towercrane.kernels.compilation import compile_kernels as c, missing_kernels as m\n"
-        "before = m('jib', 'runs'); c(*before); print(len(before), len(m('jib', 'runs')))"
+        "modules = 'towercrane.cranes.jib.kernel', 'towercrane.simulation.stepper'\n"
+        "before = m(*modules); c(*before); print(len(before), len(m(*modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["2", "0"]
 
 
 @pytest.mark.parametrize(
-    ("uses", "here", "beside"),
+    ("modules", "here", "beside"),
     [
-        (("radial", "runs"), ["towercrane.cranes.tower.kernels.rhs"], ["towercrane.simulation.stepper"]),
-        (
-            ("radial", "chain", "runs"),
-            ["modal.structures.structure_kernel", "modal.structures.shape_kernel"],
-            ["towercrane.cranes.tower.kernels.rhs", "towercrane.simulation.stepper"],
-        ),
-        (("basic",), ["towercrane.cranes.slewing.kernel"], None),
+        ([*RUN, STEPPER], RUN[:1], [STEPPER]),
+        ([*RUN, *STRUCTURE, STEPPER], STRUCTURE, [RUN[0], STEPPER]),
+        (["towercrane.cranes.slewing.kernel"], ["towercrane.cranes.slewing.kernel"], None),
     ],
 )
-def test_exact_structures_share_a_process(uses, here, beside, monkeypatch):
+def test_exact_structures_share_a_process(modules, here, beside, monkeypatch):
     imported, started = [], []
     monkeypatch.setattr("towercrane.kernels.compilation.is_compiled", lambda module: module == "modal.beams.roots")
     monkeypatch.setattr("towercrane.kernels.compilation.import_module", imported.append)
@@ -95,7 +102,7 @@ def test_exact_structures_share_a_process(uses, here, beside, monkeypatch):
         "towercrane.kernels.compilation._started", lambda modules: started.append(modules) or Thread()
     )
     monkeypatch.setattr(Thread, "join", lambda self: None)
-    compile_kernels(*missing_kernels(*uses))
+    compile_kernels(*missing_kernels(*modules))
     assert imported == here
     assert started == ([] if beside is None else [beside])
 

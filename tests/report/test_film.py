@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from PIL import Image
 
 from towercrane.cases.case import load_case
-from towercrane.cases.poses import poses_of
+from towercrane.cases.models import poses_of
 from towercrane.report.film import file as film_file
 from towercrane.report.film.film import Film
 from towercrane.report.film.playback import Playback

@@ -11,8 +11,9 @@ from samples.case_files import copy_case
 from samples.program import towercrane
 
 from towercrane import load_case, run_case, sweep
-from towercrane.cases.kinds import KINDS, known_keys, unit_of
+from towercrane.cases.kinds import unit_of
 from towercrane.cases.plausibility import RANGES
+from towercrane.cranes.registry import KINDS
 from towercrane.cranes.tower.file.build import radial_model
 from towercrane.cranes.tower.kernels.layout import STIFFNESS
 from towercrane.results import files as results
@@ -20,7 +21,8 @@ from towercrane.runs.summary import accuracy, peaks
 from towercrane.runs.sweep import grid
 from towercrane.runs.sweep_data import BAD_INPUT, RADIAL_OUTPUTS
 from towercrane.schema.faults import CaseError
-from towercrane.schema.fields import tables
+from towercrane.schema.fields import known_keys, tables
+from towercrane.schema.ranges import range_of
 from towercrane.schema.units import to_si
 
 SHORT = ("run.duration=3 s", "solver.rtol=1e-4", "solver.atol=1e-6")
@@ -160,8 +162,8 @@ def test_another_load_shares_all_that_does_not_hang_on_it():
 
 def leaf_keys(kind):
     """Keys of a kind of case that hold one value and not a name, and what they admit."""
-    for key in known_keys(KINDS[kind]):
-        field, within = None, [KINDS[kind]]
+    for key in known_keys(KINDS[kind].tables):
+        field, within = None, [KINDS[kind].tables]
         for name in key.split("."):
             fields = [table.model_fields[name] for table in within if name in table.model_fields]
             field, within = fields[0], [inner for f in fields for inner in tables(f.annotation)]
@@ -186,7 +188,7 @@ def drawn(random, case, key, annotation):
     written = tree.get("value") if isinstance(tree, dict) else tree
     if written is not None and not isinstance(written, list):
         return to_si(written, unit) * random.uniform(0.85, 1.1)
-    rule = next((rule for rule in reversed(RANGES) if rule.is_for(key, case.kind)), None)
+    rule = range_of(key, (*RANGES, *KINDS[case.kind].ranges))
     return None if rule is None else float(np.exp(random.uniform(np.log(rule.low), np.log(rule.high))))
 
 

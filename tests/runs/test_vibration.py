@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from towercrane import load_case, run_case
+from towercrane.cranes.registry import KINDS
 from towercrane.results.measures import gap
 from towercrane.results.recording import Quantity, Recording
 from towercrane.results.spectral_lines import lines
@@ -14,6 +15,7 @@ from towercrane.runs.sweep import sweep
 from towercrane.runs.vibration import cycles, vibration
 from towercrane.simulation.simulate import LOOK, MOST_LOOKS, looks_per_row, rows_of
 
+SIGNALS = KINDS["radial"].signals
 TIMES = np.arange(2401) * 0.05
 CASE, CHANGES = "qtz5613/condition-3", ["run.duration=200 s", "solver.rtol=1e-6", "solver.atol=1e-8"]
 
@@ -175,9 +177,9 @@ def test_the_free_vibration_counts_its_own_cycles():
     recording = made(TIMES, tower, 1e-2 * sines(TIMES, (0.157, 1.0, 0.0)))
     free = slice(int(np.argmax(after)), None)
     assert cycles(TIMES[free], 0.05) == pytest.approx(2.0)
-    few = vibration("radial", recording, free, [0.157], [0.05, 1.1], lambda: [0.1, 0.5])
+    few = vibration(SIGNALS, recording, free, [0.157], [0.05, 1.1], lambda: [0.1, 0.5])
     assert_allclose(few.lines.own, [0.5, 1.1], atol=5e-3)
-    many = vibration("radial", recording, free, [0.157], [0.1, 1.1], lambda: [0.1, 0.5])
+    many = vibration(SIGNALS, recording, free, [0.157], [0.1, 1.1], lambda: [0.1, 0.5])
     assert_allclose(many.lines.own, [1.1], atol=5e-3)
     assert many.lines.others == []
 
@@ -185,10 +187,10 @@ def test_the_free_vibration_counts_its_own_cycles():
 def test_the_period_is_that_of_the_free_swing():
     swing = np.where(TIMES < 60.0, 0.02 * np.sin(2.0 * np.pi * TIMES / 3.0), 0.01 * np.cos(2.0 * np.pi * TIMES / 6.4))
     recording = made(TIMES, np.zeros_like(TIMES), swing)
-    seen = vibration("radial", recording, slice(1200, None), [], [0.157], list)
+    seen = vibration(SIGNALS, recording, slice(1200, None), [], [0.157], list)
     assert_allclose(seen.period, 6.4, rtol=1e-3)
     assert seen.unseen == []
-    assert vibration("radial", recording, slice(2400, None), [], [0.157], list).period is None
+    assert vibration(SIGNALS, recording, slice(2400, None), [], [0.157], list).period is None
 
 
 def test_samples_too_few_for_a_swing_give_no_period():
@@ -196,14 +198,14 @@ def test_samples_too_few_for_a_swing_give_no_period():
     for step, swings, told in ((0.75, [], True), (0.85, [], False), (0.75, [0.2], False)):
         times = np.arange(0.0, 200.0, step)
         recording = made(times, np.zeros_like(times), 0.01 * np.cos(2.0 * np.pi * times / 6.35))
-        seen = vibration("radial", recording, slice(None), swings, [], list)
+        seen = vibration(SIGNALS, recording, slice(None), swings, [], list)
         assert (seen.period is not None) == told, (step, swings)
         assert bool(seen.unseen) != told
 
 
 def test_one_row_says_nothing():
     recording = made(np.array([0.0, 0.1]), np.zeros(2), np.zeros(2))
-    seen = vibration("radial", recording, slice(2, None), [0.2], [0.2, 1.0], list)
+    seen = vibration(SIGNALS, recording, slice(2, None), [0.2], [0.2, 1.0], list)
     assert seen.report()["spectrum_peaks_hz"] == []
     assert seen.period is None
     case = load_case(CASE, ["run.duration=0.05 s"])

@@ -122,7 +122,7 @@ def test_a_model_that_ends_early_has_no_error():
 
 
 def test_what_cannot_be_compared_is_refused():
-    with pytest.raises(ValueError, match="wanted a case of kind space or radial, got 'jib'"):
+    with pytest.raises(ValueError, match="wanted a case of kind radial or space, got 'jib'"):
         compare(load_case("jib-crane/plan"), 0.01)
     with pytest.raises(ValueError, match="wanted one mode or more"):
         compare(load_case(RADIAL, ["model.tower_modes=0", "model.jib_modes=0"]), 0.01)

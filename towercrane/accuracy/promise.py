@@ -13,9 +13,9 @@ from towercrane.accuracy.instants import BEYOND
 from towercrane.accuracy.mode_convergence import measured_choice
 from towercrane.accuracy.scene import Setting, provenance, scene_of, setting_of
 from towercrane.accuracy.space_scene import SpaceSetting, space_scene_of, space_setting_of
+from towercrane.cranes.registry import KINDS
 from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
 from towercrane.cranes.tower.file.effects import softened
-from towercrane.cranes.tower.targets import RADIAL, SPACE
 from towercrane.results.measures import gap, peak, picked_in
 from towercrane.schema.targets import Targets, Tolerance
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
@@ -51,7 +51,7 @@ def targets_of(case: Case) -> Targets:
 
 def outputs_of(case: Case) -> dict[str, str]:
     """Outputs of a case whose error can be asked for, and their units."""
-    return SPACE if isinstance(case.checked, SpaceCase) else RADIAL
+    return dict(KINDS[case.kind].targets)
 
 
 def stated(case: Case) -> dict[str, Any]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
-from towercrane.cranes.tower.file.idle import idle_in_plane, idle_in_space
+from towercrane.cranes.registry import KINDS
 from towercrane.schema.text import leaves
 
 if TYPE_CHECKING:
@@ -41,11 +40,8 @@ def idle_in_file(case: Case) -> tuple[str, ...]:
 
 def _idle_keys(case: Case, *, exact_crane: bool = False, all_modes: bool = False) -> tuple[str, ...]:
     """Beginnings of keys that do not enter the equations of motion."""
-    if isinstance(case.checked, SpaceCase):
-        return tuple(idle_in_space(case.checked, exact_crane=exact_crane, all_modes=all_modes))
-    if isinstance(case.checked, RadialCase):
-        return tuple(idle_in_plane(case.checked, exact_crane=exact_crane))
-    return ()
+    idle = KINDS[case.kind].idle
+    return tuple(idle(case.checked, exact_crane=exact_crane, all_modes=all_modes)) if idle else ()
 
 
 def as_attribute(assumed: Iterable[Assumption]) -> str:

@@ -60,7 +60,7 @@ class Case:
 
     @property
     def kind(self) -> str:
-        """Kind of case: "radial", "space", "multi-mass", "basic", "enhanced" or "jib"."""
+        """Name of its kind of crane, a key of :data:`towercrane.cranes.registry.KINDS`."""
         return self.checked.crane.kind
 
     @property
@@ -111,7 +111,7 @@ class Case:
             return self.checked
         from towercrane.cranes.registry import KINDS
 
-        words = " or ".join(f'"{kind}"' for kind, table in KINDS.items() if issubclass(table, wanted))
+        words = " or ".join(f'"{kind}"' for kind, one in KINDS.items() if issubclass(one.tables, wanted))
         raise CaseError([Fault(str(self.path), "crane.kind", f"a crane of kind {words}", f'"{self.kind}"')])
 
 
@@ -133,12 +133,10 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     from pydantic import ValidationError
 
     from towercrane.cases.explain import explain
-    from towercrane.cases.kinds import TOWER_CRANES, every_key, kind_of
+    from towercrane.cases.kinds import every_key, kind_of
     from towercrane.cases.motion_limits import channels, check_motions
     from towercrane.cases.plausibility import check_values, implausible
     from towercrane.cranes.registry import KINDS
-    from towercrane.cranes.tower.file.checks import check_tower
-    from towercrane.cranes.tower.file.space_checks import check_space
 
     found = find_case(Path(path))
     overrides = [in_utf8(override) for override in overrides]
@@ -152,14 +150,14 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
         tree["crane"]["kind"] = kind
     checked = None
     try:
-        checked = KINDS[kind].model_validate(tree)
+        checked = KINDS[kind].tables.model_validate(tree)
     except ValidationError as error:
         faults += [f for f in explain(error, kind) if not (crane_unread and f.key == "crane")]
     allowed = tree.get("allow_implausible", [])
     allowed = [k for k in allowed if isinstance(k, str)] if isinstance(allowed, list) else []
     faults += [*implausible(tree, allowed, kind), *check_values(tree)]
-    faults += check_tower(tree) if kind in TOWER_CRANES else []
-    faults += check_space(tree) if kind == "space" else []
+    for check in KINDS[kind].checks:
+        faults += check(tree)
     motion_faults, plans = check_motions(tree, found.parent, kind)
     located = [text.located(f) for f in dict.fromkeys([*text.faults, *faults, *motion_faults])]
     if located or checked is None or set(plans) != set(channels(tree, kind)):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from types import UnionType
 from typing import TYPE_CHECKING, Any, Literal, Union, get_args, get_origin
 
-from towercrane.cases.kinds import TOWER_CRANES, known_keys, known_to, of_kinds, plain_key
+from towercrane.cases.kinds import known_to, of_kinds, plain_key, relatives
 from towercrane.cranes.registry import KINDS
 from towercrane.schema.faults import Fault, closest, shown
-from towercrane.schema.fields import Quantity, Table, tables
+from towercrane.schema.fields import Quantity, Table, known_keys, tables
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
@@ -19,7 +19,7 @@ SHOWS_KEYS = 12
 """At most so many known keys are listed in one message."""
 
 
-def explain(error: ValidationError, kind: str = "radial") -> list[Fault]:
+def explain(error: ValidationError, kind: str) -> list[Fault]:
     """One fault per slip; a misspelt key is not reported again as missing. The faults' file is left open."""
     details = error.errors(include_url=False)
     known = {_resolve(d["loc"], kind)[0]: d for d in details}
@@ -39,7 +39,7 @@ def _resolve(loc: tuple[int | str, ...], kind: str) -> tuple[str, list[type[Tabl
     """Dotted key of a location, the tables it lies in and its field; tags of the motion shapes drop out."""
     parts: list[str] = []
     owners: list[type[Table]] = []
-    inside: list[type[Table]] = [KINDS[kind]]
+    inside: list[type[Table]] = [KINDS[kind].tables]
     field: FieldInfo | None = None
     for part in loc:
         tagged = [t for t in inside if len(inside) > 1 and part in get_args(_annotation(t, "shape"))]
@@ -68,11 +68,10 @@ def _unknown(key: str, detail: ErrorDetails, kind: str) -> tuple[Fault, str]:
         hint = f'closest known key: "{meant}"'
     elif elsewhere and kind not in elsewhere:
         hint = f'a key of {of_kinds(elsewhere)}; this crane is of kind "{kind}"'
-        other = next((k for k in TOWER_CRANES if k in elsewhere), None)
-        if other and kind in TOWER_CRANES:
+        if other := next((k for k in relatives(kind) if k in elsewhere), None):
             hint += f', and kind = "{other}" at the top of the case makes it the other'
     else:
-        places = sorted({k for k in known_keys(KINDS[kind]) if k.rpartition(".")[2] == name})
+        places = sorted({k for k in known_keys(KINDS[kind].tables) if k.rpartition(".")[2] == name})
         hint = f'"{name}" is known as {" or ".join(places)}' if places else ""
     listed = ", ".join(names[:SHOWS_KEYS]) + (", ..." if len(names) > SHOWS_KEYS else "")
     fault = Fault("", key, f"one of the keys {listed}", f'the unknown key "{name}"', hint)

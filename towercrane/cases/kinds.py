@@ -7,27 +7,28 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.registry import KINDS
 from towercrane.schema.faults import Fault, closest, shown
-from towercrane.schema.fields import Quantity, Table, tables
+from towercrane.schema.fields import Quantity, Table, known_keys, tables
 from towercrane.schema.text import leaves
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
 
-TOWER_CRANES = ("radial", "space")
-"""Kinds of case that a tower crane's file serves."""
+def relatives(kind: str) -> tuple[str, ...]:
+    """Kinds of case that the same crane file serves, itself among them."""
+    return tuple(other.name for other in KINDS.values() if other.family == KINDS[kind].family)
 
 
-IN_PLANE = ("plane", "planar", "in-plane")
-"""Other words for the kind of case that stays in the jib's vertical plane."""
+STATED = tuple(kind for kind in KINDS if len(relatives(kind)) > 1)
+"""Kinds that a case states, for its crane's file serves more than one."""
 
 
 def kind_of(tree: dict[str, Any]) -> tuple[str, list[Fault]]:
     """Kind of a case's crane and what is wrong with its statement.
 
-    The crane states it, and a case of a tower crane may, for the same crane serves the plane and space. Where the
-    statement is missing, unknown or in a file that cannot be read, the kind that knows most of the written keys is
-    taken, so that the rest of the case is still judged by rules that fit it.
+    The crane states it, and a case may where the same crane file serves several. Where the statement is missing,
+    unknown or in a file that cannot be read, the kind that knows most of the written keys is taken, so that the rest
+    of the case is still judged by rules that fit it.
     """
     crane = tree.get("crane")
     stated = crane.get("kind") if isinstance(crane, dict) else None
@@ -43,37 +44,29 @@ def kind_of(tree: dict[str, Any]) -> tuple[str, list[Fault]]:
         return near or likely, [Fault("", key, wanted, shown(stated), hint)]
     if not isinstance(crane, dict) or likely == next(iter(KINDS)):
         return likely, []
-    if likely in TOWER_CRANES:
+    if likely in STATED:
         hint = f'put kind = "{likely}" at the top of the case: it has keys of that kind'
-        return likely, [Fault("", "kind", _one_of(TOWER_CRANES), "nothing: the key is missing", hint)]
+        return likely, [Fault("", "kind", _one_of(STATED), "nothing: the key is missing", hint)]
     hint = f'the keys are those of kind "{likely}"; a crane that states no kind is "{next(iter(KINDS))}"'
     return likely, [Fault("", key, wanted, "nothing: the key is missing", hint)]
 
 
 def _of_case(stated: object, crane: object, tree: dict[str, Any]) -> tuple[str, list[Fault]]:
     """Kind of a case that states one itself beside what its crane states."""
-    if stated not in TOWER_CRANES:
-        near = closest(stated, TOWER_CRANES) if isinstance(stated, str) else None
-        near = "radial" if stated in IN_PLANE else near
+    if stated not in STATED:
+        near = closest(stated, STATED) if isinstance(stated, str) else None
+        near = next((kind.name for kind in KINDS.values() if stated in kind.words), near)
         hint = f'did you mean "{near}"?' if near else "cranes of other kinds state theirs in the crane file"
-        return near or _likely(tree), [Fault("", "kind", _one_of(TOWER_CRANES), shown(stated), hint)]
+        return near or _likely(tree), [Fault("", "kind", _one_of(STATED), shown(stated), hint)]
     kind = str(stated)
-    if crane is None or crane in TOWER_CRANES:
+    if crane is None or crane in relatives(kind):
         return kind, []
     got = f"{shown(crane)} beside a case of kind {shown(kind)}"
-    return kind, [Fault("", "crane.kind", _one_of(TOWER_CRANES), got)]
+    return kind, [Fault("", "crane.kind", _one_of(relatives(kind)), got)]
 
 
 def _one_of(kinds: Iterable[str]) -> str:
     return "one of " + ", ".join(f'"{kind}"' for kind in kinds)
-
-
-def known_keys(table: type[Table], prefix: str = "") -> Iterator[str]:
-    """Every dotted key of a table, without the numbers of list items."""
-    for name, field in table.model_fields.items():
-        yield prefix + name
-        for inner in tables(field.annotation):
-            yield from known_keys(inner, f"{prefix}{name}.")
 
 
 def every_key() -> frozenset[str]:
@@ -104,7 +97,7 @@ def plain_key(key: str) -> str:
 
 def unit_of(kind: str, key: str) -> str | None:
     """SI unit of a dotted key that this kind knows; None if its value is no quantity."""
-    within: list[type[Table]] = [KINDS[kind]]
+    within: list[type[Table]] = [KINDS[kind].tables]
     *parents, last = plain_key(key).split(".")
     for name in parents:
         fields = [table.model_fields[name] for table in within if name in table.model_fields]
@@ -115,7 +108,7 @@ def unit_of(kind: str, key: str) -> str | None:
 
 @cache
 def _keys(kind: str) -> frozenset[str]:
-    return frozenset(known_keys(KINDS[kind]))
+    return frozenset(known_keys(KINDS[kind].tables))
 
 
 def _likely(tree: dict[str, Any]) -> str:

@@ -5,44 +5,22 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cases.kinds import TOWER_CRANES
-from towercrane.cranes.jib.tables import JibCase
-from towercrane.cranes.slewing.tables import SlewingCase
-from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+from towercrane.cranes.registry import KINDS
 
 if TYPE_CHECKING:
+    import numpy as np
+    import xarray as xr
+    from numpy.typing import NDArray
+
     from towercrane.cases.case import Case
-    from towercrane.cranes.tower.model import FlexibleModel
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.parts.poses import Poses
     from towercrane.motions.motion import Motion
     from towercrane.simulation.system import Model
 
-SLEWING = ("multi-mass", "enhanced", "basic")
-"""Kinds that are lumped cranes."""
 
-
-def model_of(case: Case) -> Model:
-    """Model of a case of any kind."""
-    if isinstance(case.checked, SlewingCase):
-        from towercrane.cranes.slewing import build as slewing
-
-        return slewing.model_of(case.checked)
-    if isinstance(case.checked, JibCase):
-        from towercrane.cranes.jib import build as jib
-
-        return jib.model_of(case.checked)
-    return flexible_model(case)
-
-
-def flexible_model(case: Case, **changes: Any) -> FlexibleModel | RadialModel:
-    """Model of a case of a flexible crane; keyword arguments replace what the case chose."""
-    from towercrane.cranes.tower.file.build import radial_model, space_model
-
-    if isinstance(case.checked, SpaceCase):
-        return space_model(case.checked, **changes)
-    if isinstance(case.checked, RadialCase):
-        return radial_model(case.checked, **changes)
-    raise ValueError(f"flexible_model: wanted a case of a flexible crane, got kind {case.kind!r}")
+def model_of(case: Case, **changes: Any) -> Model:
+    """Model of a case of any kind; keyword arguments replace what the case chose of its modes."""
+    return KINDS[case.kind].build(case.checked, **changes)
 
 
 @lru_cache(maxsize=8)
@@ -63,23 +41,31 @@ def motions_of(case: Case) -> dict[str, Motion]:
     from towercrane.schema.faults import CaseError, Fault
     from towercrane.simulation.system import NoEquilibrium
 
+    model: Any = model_of(case)
     try:
-        return shaped_motions(case.plans, SwayFrequencies(flexible_model(case)))
+        return shaped_motions(case.plans, SwayFrequencies(model))
     except (NoEquilibrium, NotSettled) as failure:
         key = f"motion.{'hoist' if modelled[0] == 'rope' else modelled[0]}"
         wanted, hint = "frequencies that the model has, or a list of them", "towercrane modes shows what it has"
         raise CaseError([Fault(str(case.path), f"{key}.frequencies", wanted, str(failure), hint)]) from failure
 
 
-def uses_of(case: Case) -> tuple[str, ...]:
-    """What its crane needs of :data:`towercrane.kernels.compilation.KERNELS`."""
-    return (case.kind, *tower_uses(case))
+def poses_of(case: Case, result: xr.Dataset, times: NDArray[np.float64]) -> Poses:
+    """Poses of a run at any times within it.
 
+    Between two rows of the result its coordinates are interpolated linearly; on a row they are the row's.
 
-def tower_uses(case: Case) -> tuple[str, ...]:
-    """The part of it that is for the tower."""
-    from modal.beams.beam import Beam
-    from towercrane.cranes.tower.file.members import tower_of
+    Parameters
+    ----------
+    case : Case
+        What was run.
+    result : xarray.Dataset
+    times : ndarray, shape (f,)
+        [s]
 
-    plain = case.kind not in TOWER_CRANES or isinstance(tower_of(case.crane), Beam)
-    return () if plain else ("chain",)
+    Raises
+    ------
+    ValueError
+        If the result does not hold what the case's kind of crane needs.
+    """
+    return KINDS[case.kind].poses(case.checked, result, times)

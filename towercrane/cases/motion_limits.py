@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from towercrane.cases.kinds import TOWER_CRANES
-from towercrane.cases.plausibility import FARTHEST_TURN, FASTEST, fastest_turn
+from towercrane.cases.plausibility import FARTHEST_TURN, FASTEST
 from towercrane.cases.profiles import plan
 from towercrane.cases.wind_file import CHANNELS, wind_motions
-from towercrane.cranes.tower.file.checks import tower_height
+from towercrane.cranes.registry import KINDS
 from towercrane.motions.plans import Move, Plan
 from towercrane.schema.faults import CaseError, Fault, shown
 from towercrane.schema.motions import HoistMotion, JointMotion, TrolleyMotion
@@ -22,19 +21,11 @@ from towercrane.schema.text import leaves
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from towercrane.cranes.kind import Drives
+
 
 ROUNDING = 1e-9
 """Relative; a motion that ends at the jib's end may overshoot it by rounding."""
-
-JOINTS: dict[str, tuple[str, ...]] = {
-    "radial": (),
-    "space": ("slewing", "shaft"),
-    "multi-mass": ("shaft",),
-    "basic": ("shaft",),
-    "enhanced": ("shaft",),
-    "jib": ("slew", "luff", "fold"),
-}
-"""What turns, by kind of crane."""
 
 RESTS = ("slew", "slewing")
 """Joints that rest at zero where the case does not name them."""
@@ -98,22 +89,23 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
     """
     faults: list[Fault] = []
     plans: dict[str, Plan | None] = {}
-    if kind in TOWER_CRANES:
+    drives = KINDS[kind].drives
+    if drives.trolley:
         faults, plans["trolley"] = _trolley(tree, folder)
-    if kind == "space":
+    if drives.wind:
         more, wind = wind_motions(tree, folder)
         faults = [*faults, *more]
         plans |= {name: None if motion is None else Plan((Move(motion),)) for name, motion in wind.items()}
-    for joint in _joints(tree, kind):
+    for joint in _joints(tree, drives):
         most, hint = FARTHEST_TURN[joint], "the header names the units: slew [deg]"
         wanted = f"angles up to {most:g} rad"
-        way = Way(f"motion.{joint}", most, False, wanted, hint, turns=True, fastest=fastest_turn(kind))
+        way = Way(f"motion.{joint}", most, False, wanted, hint, turns=True, fastest=drives.fastest_turn)
         plans[joint], more = _motion(tree, way, _reader(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
-    more, plans["rope"] = _rope(tree, folder, kind)
+    more, plans["rope"] = _rope(tree, folder, drives)
     faults += more
     found = {name: plan for name, plan in plans.items() if plan is not None}
-    if kind not in TOWER_CRANES:
+    if KINDS[kind].natural is None:
         faults += [_without_model(name, kind) for name, plan in found.items() if plan.needs_model]
     return faults, found
 
@@ -127,15 +119,15 @@ def _without_model(channel: str, kind: str) -> Fault:
 
 def channels(tree: dict[str, Any], kind: str) -> tuple[str, ...]:
     """Names of the motions that drive the crane of a case of this kind."""
-    wind = CHANNELS if kind == "space" and "wind" in tree else ()
-    return (*(("trolley",) if kind in TOWER_CRANES else ()), *_joints(tree, kind), *wind, "rope")
+    drives = KINDS[kind].drives
+    wind = CHANNELS if drives.wind and "wind" in tree else ()
+    return (*(("trolley",) if drives.trolley else ()), *_joints(tree, drives), *wind, "rope")
 
 
-def _joints(tree: dict[str, Any], kind: str) -> tuple[str, ...]:
-    """What turns in a case; the head of a tower crane, or the shaft of its drive where that moves."""
-    if kind != "space":
-        return JOINTS[kind]
-    return ("shaft",) if at(tree, "motion.shaft") is not None else ("slewing",)
+def _joints(tree: dict[str, Any], drives: Drives) -> tuple[str, ...]:
+    """What turns in a case."""
+    written = ([name for name in names if at(tree, f"motion.{name}") is not None] for names in drives.joints)
+    return tuple(next(iter(found), names[-1]) for found, names in zip(written, drives.joints, strict=True))
 
 
 def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Plan | None]:
@@ -153,8 +145,8 @@ def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Plan | No
     return faults, trolley
 
 
-def _rope(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], Plan | None]:
-    high, what = _height(tree, kind)
+def _rope(tree: dict[str, Any], folder: Path, drives: Drives) -> tuple[list[Fault], Plan | None]:
+    high, what = drives.height(tree), drives.height_is
     known = f"above 0 and up to {high:g} m ({what})" if high else "above 0"
     hint = "the load would be in the ground or the rope wound up"
     in_air = Way("motion.hoist", high, True, f"rope lengths {known}", hint)
@@ -168,20 +160,6 @@ def _rope(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], P
             faults.append(in_air.fault(key, shown(value)))
     rope, more = _motion(tree, in_air, _reader(HoistMotion), folder, start)
     return faults or more, rope
-
-
-def _height(tree: dict[str, Any], kind: str) -> tuple[float | None, str]:
-    """Height that the rope hangs from and what it is; None where it is not known."""
-    if kind in TOWER_CRANES:
-        return tower_height(tree), "the height of the tower"
-    keys, what = {
-        "jib": (("post.height", "primary_boom.length", "secondary_boom.length"), "post and booms upright"),
-    }.get(kind, (("geometry.tower_height", "geometry.top_height"), "the height of the tower with its top"))
-    parts = [si_at(tree, f"crane.{key}", "m") for key in keys]
-    # A post without height only says that its source gives none: heights count from its top.
-    if any(part is None or part < 0.0 for part in parts) or not parts[0]:
-        return None, what
-    return sum(part for part in parts if part is not None), what
 
 
 def _out_of_way(tree: dict[str, Any], way: Way, names: tuple[str, ...]) -> list[Fault]:

@@ -6,8 +6,20 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cases.kinds import knows, plain_key
+from towercrane.cranes.registry import KINDS
 from towercrane.schema.faults import Fault, did_you_mean, shown
-from towercrane.schema.ranges import ANGLES, AREAS, LENGTHS, ROTARY_SPRINGS, SPRINGS, TURNS, Range, at, si_at
+from towercrane.schema.ranges import (
+    ANGLES,
+    AREAS,
+    LENGTHS,
+    ROTARY_SPRINGS,
+    SPRINGS,
+    TURNS,
+    Range,
+    at,
+    range_of,
+    si_at,
+)
 from towercrane.schema.text import leaves
 from towercrane.simulation.methods.registry import METHODS
 
@@ -24,9 +36,6 @@ FASTEST_TURN = 5.0
 
 FARTHEST_TURN = {"shaft": 100.0, "slewing": 100.0, "slew": 100.0, "luff": 3.2, "fold": 6.4}
 """Largest plausible angle of each joint in either sense [rad]."""
-
-FASTEST_SLEWING = 0.5
-"""Largest plausible speed of a tower crane's head whose motion states none [rad/s]; they turn at 0.1 or less."""
 
 
 RANGES = (
@@ -70,11 +79,9 @@ RANGES = (
     Range("crane.stiffness.*", "N/m", 500, 1e12, SPRINGS),
     Range("crane.stiffness.tower_torsion", "N m/rad", 500, 1e13, ROTARY_SPRINGS),
     Range("crane.stiffness.*jib_lateral", "N m/rad", 500, 1e13, ROTARY_SPRINGS),
-    Range("crane.stiffness.jib_lateral", "N/m", 500, 1e12, SPRINGS, kind="basic"),
     Range("crane.damping.*", "N s/m", 1e-3, 1e9, ("kN s/m",)),
     Range("crane.damping.tower_torsion", "N m s/rad", 1e-3, 1e10, ("kN m s/rad",)),
     Range("crane.damping.*jib_lateral", "N m s/rad", 1e-3, 1e10, ("kN m s/rad",)),
-    Range("crane.damping.jib_lateral", "N s/m", 1e-3, 1e9, ("kN s/m",), kind="basic"),
     Range("crane.drive.*_stiffness", "N m/rad", 0.1, 1e12, ROTARY_SPRINGS),
     Range("crane.drive.corner", "rad", 1e-6, 1.6, ANGLES),
     Range("crane.drive.damping", "N m s/rad", 1e-3, 1e10, ("kN m s/rad",)),
@@ -116,13 +123,13 @@ RANGES = (
     Range("run.output_step", "s", 1e-6, 1e4, ("ms",)),
     Range("solver.atol", "1", 1e-20, 1),
 )
-"""Of several rows that fit a key, the last holds."""
+"""Of several rows that fit a key the last holds, or one of the crane's kind."""
 
 
 @lru_cache(maxsize=4096)
 def _rule(key: str, kind: str) -> Range | None:
     """The range of a dotted key."""
-    return next((rule for rule in reversed(RANGES) if rule.is_for(key, kind)), None)
+    return range_of(key, (*RANGES, *KINDS[kind].ranges))
 
 
 def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> Iterator[Fault]:
@@ -202,8 +209,3 @@ def _check_friction(tree: dict[str, Any]) -> Iterator[Fault]:
             wanted = f'a {name} above 0, such as "{example}": the law "{law}" needs it'
             got = at(tree, key)
             yield Fault("", key, wanted, "nothing: the key is missing" if got is None else shown(got))
-
-
-def fastest_turn(kind: str) -> float:
-    """Largest plausible speed of a turn of this kind of crane that states none [rad/s]."""
-    return FASTEST_SLEWING if kind == "space" else FASTEST_TURN

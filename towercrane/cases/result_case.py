@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from towercrane.cases.case import Case
-from towercrane.cases.kinds import TOWER_CRANES, kind_of
+from towercrane.cases.kinds import kind_of
 from towercrane.cranes.registry import KINDS
-from towercrane.cranes.tower.file.checks import check_tower
 from towercrane.schema.text import split_provenance
 
 if TYPE_CHECKING:
@@ -39,12 +38,12 @@ def case_of(result: xr.Dataset) -> Case:
     tree.pop("kind", None)
     tree["crane"]["kind"] = kind
     try:
-        checked = KINDS[kind].model_validate(tree)
+        checked = KINDS[kind].tables.model_validate(tree)
     except ValidationError as error:
         first = ".".join(str(part) for part in error.errors()[0]["loc"])
         raise ValueError(f"the result's case cannot be read by this version, at {first}") from error
-    # What no single value shows: a tower whose parts do not fit each other.
-    for fault in check_tower(tree) if kind in TOWER_CRANES else ():
+    # What no single value shows, such as a tower whose parts do not fit each other.
+    for fault in (fault for check in KINDS[kind].checks for fault in check(tree)):
         raise ValueError(f"the result's case cannot be read by this version, at {fault.key}: {fault.got}")
     changes = tuple(json.loads(result.attrs.get("changes", "[]")))
     name = result.attrs["case"]

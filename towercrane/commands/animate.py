@@ -171,7 +171,7 @@ def _run(case: Case) -> xr.Dataset:
 def _film(source: str, case: Case, result: xr.Dataset, playback: Playback, magnify: float | None, out: Path) -> None:
     """Draw and write the film; messages name its source."""
     with held_interrupts() as ask:
-        from towercrane.cases.poses import poses_of
+        from towercrane.cases.models import poses_of
         from towercrane.report.film.film import Film
         from towercrane.runs.vibration import step_of
 

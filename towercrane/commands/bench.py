@@ -11,9 +11,10 @@ from towercrane.commands.shared.skeleton import as_text, finish
 from towercrane.commands.shared.terminal import (
     NOT_AS_EXPECTED,
     AsJson,
-    announce_compilation,
+    compile_for,
     fail,
     folder_for_results,
+    load,
     out_option,
     say,
 )
@@ -54,7 +55,7 @@ def bench(
 
 def _measured(quick: bool, subject: str, hard: bool, stability: bool) -> dict[str, Any]:
     """What the benchmark was asked for."""
-    announce_compilation("radial", "runs")
+    compile_for(load("qtz5613/condition-3", None))
     if hard:
         from towercrane.bench.runs.hard import hard_cases
 

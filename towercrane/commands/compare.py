@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.commands.shared.skeleton import Task, as_text, begin, kinds_for
+from towercrane.commands.shared.skeleton import Task, as_text, begin, either
 from towercrane.commands.shared.terminal import AsJson, CaseName, Changes, Out, Pictures, fail, options_of, with_bar
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def compare(
     if target is not None and not 0.0 < target < 1.0:
         fail(f"--target {target:g}: wanted a fraction between 0 and 1")
     if not task.serves("compare"):
-        task.refuse(f"wanted a case of kind {kinds_for('compare')}, whose modes count, got {task.case.kind!r}")
+        task.refuse(f"wanted a case of kind {either('compare')}, whose modes count, got {task.case.kind!r}")
     task.compile()
     from towercrane.report.tables.space import comparison_tables
     from towercrane.studies.comparison import TARGET

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from towercrane.commands.shared.terminal import (
     Changes,
-    announce_compilation,
+    compile_for,
     folder_for_results,
     load,
     out_option,
@@ -25,7 +25,7 @@ def figures(
 ) -> None:
     """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
     folder_for_results(out)
-    announce_compilation("radial", "runs")
+    compile_for(load("qtz5613/condition-1", changes))
     from towercrane.report.plots.runs import radial
     from towercrane.runs.run import run_case
 

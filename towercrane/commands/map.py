@@ -74,7 +74,7 @@ def frequency_map(
     masses = _masses(asked, payload)
     reach = tables.crane.jib.length
     where = None if shapes is None else _position(shapes, reach)
-    task.compile("chain")
+    task.compile("map")
     import numpy as np
 
     from towercrane.cranes.tower.file.build import crane_frame

@@ -36,7 +36,7 @@ def modes(
 
 
 def _in_plane(task: Task, actual: bool) -> None:
-    task.compile("modes", "chain")
+    task.compile("modes")
     from towercrane.report.tables.modes import modes_tables
     from towercrane.studies.natural import natural_frequencies
 
@@ -48,9 +48,7 @@ def _in_plane(task: Task, actual: bool) -> None:
 
 
 def _in_space(task: Task) -> None:
-    from towercrane.cases.models import tower_uses
-
-    task.compile("modes", *tower_uses(task.case))
+    task.compile("modes")
     from towercrane.report.tables.space import space_modes_tables
     from towercrane.studies.space_modes import space_frequencies
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from towercrane.commands.shared.pictures import run_pictures
-from towercrane.commands.shared.skeleton import Task, begin, end_of_run, kinds_for
+from towercrane.commands.shared.skeleton import Task, begin, either, end_of_run
 from towercrane.commands.shared.terminal import (
     INTERRUPTED,
     NOT_AS_EXPECTED,
@@ -41,7 +41,7 @@ def run(
     """Simulate a case; write result.nc, summary.json and pictures."""
     task = begin(case, changes, as_json=as_json)
     if verify and not task.serves("verify"):
-        fail(f"--verify: wanted a case of kind {kinds_for('verify')}, got {task.case.kind!r}")
+        fail(f"--verify: wanted a case of kind {either('verify')}, got {task.case.kind!r}")
     from towercrane.report.folder import RUN_FILES
 
     task.into(out, names=RUN_FILES)

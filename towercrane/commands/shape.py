@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.commands.shared.skeleton import as_text, begin, no_equilibrium
+from towercrane.commands.shared.skeleton import as_text, begin, kinds_for, no_equilibrium
 from towercrane.commands.shared.terminal import AsJson, CaseName, Changes, Out, Pictures, fail, with_bar
 
 if TYPE_CHECKING:
@@ -35,23 +35,24 @@ def shape(
         fail(f"--within {within:g}: wanted a positive distance")
     if not 1e-3 <= step <= 10.0:
         fail(f"--step {step:g}: wanted seconds from 0.001 to 10")
-    from towercrane.cases.kinds import TOWER_CRANES
     from towercrane.studies.candidates import driven
 
-    if loaded.kind not in TOWER_CRANES:
-        task.refuse(f"wanted a crane of kind {' or '.join(TOWER_CRANES)}, whose modes are known; got {loaded.kind}")
+    if not task.serves("shape"):
+        kinds = " or ".join(kinds_for("shape"))
+        task.refuse(f"wanted a crane of kind {kinds}, whose modes are known; got {loaded.kind}")
     if not driven(loaded.plans):
         task.refuse("wanted a trolley or a slewing drive that moves, got none")
     task.compile()
     from towercrane.cases.assumptions import as_attribute, as_entries, as_notes, rests_on
-    from towercrane.cases.models import flexible_model
+    from towercrane.cases.models import model_of
     from towercrane.report.drive_table import drive_table
     from towercrane.report.tables.studies import shape_tables
     from towercrane.simulation.system import NoEquilibrium
     from towercrane.studies.rest_study import report, study
 
+    model: Any = model_of(loaded)
     try:
-        run = partial(study, flexible_model(loaded), loaded.plans, allowed=within)
+        run = partial(study, model, loaded.plans, allowed=within)
         done = with_bar(f"motions of {loaded.name}", run)
     except NoEquilibrium as failure:
         no_equilibrium(failure)

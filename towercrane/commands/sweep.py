@@ -56,7 +56,7 @@ def sweep(
     values = _values(task.case, vary)
     from towercrane.runs.sweep import grid
 
-    task.compile("lanes" if task.serves("lanes") else task.case.kind, "runs")
+    task.compile("lanes" if task.serves("lanes") else "run")
     from towercrane.report.tables.studies import sweep_tables
     from towercrane.runs.sweep_report import report, runs_csv, worst
 

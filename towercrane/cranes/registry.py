@@ -1,19 +1,34 @@
-"""Every kind of crane, and the tables of its cases."""
+"""Every kind of crane."""
 
 from __future__ import annotations
 
-from towercrane.cranes.jib.tables import JibCase
-from towercrane.cranes.slewing.tables import BasicCase, EnhancedCase, MultiMassCase, SlewingCase
-from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+from typing import TYPE_CHECKING
 
-AnyCase = RadialCase | SpaceCase | SlewingCase | JibCase
+from towercrane.cranes.jib.kind import JIB
+from towercrane.cranes.slewing.kind import BASIC, ENHANCED, MULTI_MASS
+from towercrane.cranes.tower.kind import RADIAL, SPACE
 
-KINDS: dict[str, type[RadialCase] | type[SpaceCase] | type[SlewingCase] | type[JibCase]] = {
-    "radial": RadialCase,
-    "multi-mass": MultiMassCase,
-    "basic": BasicCase,
-    "enhanced": EnhancedCase,
-    "jib": JibCase,
-    "space": SpaceCase,
+if TYPE_CHECKING:
+    from towercrane.cranes.jib.tables import JibCase
+    from towercrane.cranes.slewing.tables import SlewingCase
+    from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+
+    AnyCase = RadialCase | SpaceCase | SlewingCase | JibCase
+
+KINDS = {
+    kind.name: kind
+    for kind in (
+        RADIAL,
+        MULTI_MASS,
+        BASIC,
+        ENHANCED,
+        JIB,
+        SPACE,
+    )
 }
-"""Case table of each kind of crane; the first is the kind where a crane file states none."""
+"""Kinds by name; the first is the kind where a crane file states none."""
+
+
+def serving(use: str) -> tuple[str, ...]:
+    """Names of the kinds that can be used so."""
+    return tuple(name for name, kind in KINDS.items() if use in kind.serves)

@@ -13,36 +13,18 @@ from modal.compiler.folder import is_compiled
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess
 
-FLEXIBLE = "towercrane.cranes.tower.kernels.rhs", "modal.beams.roots"
-AT_REST = "towercrane.cranes.tower.kernels.structure", "modal.beams.roots"
-STRUCTURE, SHAPES = "modal.structures.structure_kernel", "modal.structures.shape_kernel"
-STEPPER = "towercrane.simulation.stepper"
-
-KERNELS = {
-    "radial": FLEXIBLE,
-    "space": FLEXIBLE,
-    "jib": ("towercrane.cranes.jib.kernel",),
-    **dict.fromkeys(("multi-mass", "enhanced", "basic"), ("towercrane.cranes.slewing.kernel",)),
-    "lanes": ("towercrane.cranes.tower.kernels.lane_rhs", "towercrane.simulation.lanes.advance"),
-    "modes": AT_REST,
-    "structure": (STRUCTURE,),
-    "chain": (STRUCTURE, SHAPES),
-    "runs": (STEPPER,),
-}
-"""Modules whose import compiles: the equations of a kind of crane, those for many runs side by side, a
-flexible crane at rest, exact structures, towers that are chains of segments, and the integrator."""
+TOGETHER = ("modal.structures.structure_kernel", "modal.structures.shape_kernel")
+"""Kernels of exact structures, which call the same functions: a process compiles these once."""
 
 
-def missing_kernels(*uses: str) -> tuple[str, ...]:
-    """Modules of kernels for these uses that are not compiled yet."""
-    modules = dict.fromkeys(module for use in uses for module in KERNELS[use])
-    return tuple(module for module in modules if not is_compiled(module))
+def missing_kernels(*modules: str) -> tuple[str, ...]:
+    """Those of some modules of kernels that are not compiled yet."""
+    return tuple(module for module in dict.fromkeys(modules) if not is_compiled(module))
 
 
 def compile_kernels(*modules: str) -> None:
     """Import modules of kernels, some here, the others in a process beside: all leave code in the cache."""
-    # Those of exact structures call the same functions, which are compiled once in a process.
-    here = [module for module in modules if module in (STRUCTURE, SHAPES)] or list(modules[:1])
+    here = [module for module in modules if module in TOGETHER] or list(modules[:1])
     beside = [module for module in modules if module not in here]
     other = _started(beside) if beside else None
     try:

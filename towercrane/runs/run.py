@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from towercrane.accuracy.promise import chosen, promise, targets_of
 from towercrane.cases.assumptions import as_attribute, rests_on
-from towercrane.cases.models import flexible_model, model_of, motions_of
+from towercrane.cases.models import model_of, motions_of
 from towercrane.cases.table_notices import table_notices
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import labelled, looks_per_row, record
@@ -36,7 +36,7 @@ def record_case(case: Case, *, model: Model | None = None, progress: Progress | 
                 found = _to_target(case, progress)
             except NoEquilibrium:
                 # Nothing can be chosen for a tower that its weight buckles; the run says so at its start.
-                model = flexible_model(case, weight_softening=True)
+                model = model_of(case, weight_softening=True)
         result = found or record(
             model_of(case) if model is None else model,
             motions_of(case),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,10 +11,8 @@ from towercrane.accuracy.promise import AS_ASKED
 from towercrane.cases.assumptions import idle_in_file
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cases.table_notices import table_notices
-from towercrane.cranes.tower.equations.small_motions import natural_modes
-from towercrane.cranes.tower.file.build import radial_crane, radial_model, space_crane, space_model
-from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
-from towercrane.cranes.tower.space import KINDS
+from towercrane.cranes.kind import Natural
+from towercrane.cranes.registry import KINDS
 from towercrane.results.measures import picked_in
 from towercrane.runs.vibration import vibration
 from towercrane.simulation.arguments import TIGHTEST
@@ -25,7 +23,6 @@ from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Case
-    from towercrane.cranes.tower.equations.small_motions import NaturalMode
     from towercrane.results.recording import Result
 
 TUNED = 0.05
@@ -39,20 +36,6 @@ LOOSE = 1e-3
 
 SMALL = 0.1
 """Tip deflection over length beyond which slopes are not small."""
-
-
-class Natural(NamedTuple):
-    """Natural frequencies where a run ended [Hz], the kind of each where kinds are told apart, and for each output
-    that shows a swing of the load the index of its mode."""
-
-    frequencies: list[float]
-    kinds: list[str]
-    swings: dict[str, int]
-
-    @property
-    def swing_mode(self) -> int | None:
-        """Which of them is the load's swing, of several the one along the jib, counted from 1."""
-        return next(iter(self.swings.values())) + 1 if self.swings else None
 
 
 def summarise(case: Case, result: Result) -> dict[str, Any]:
@@ -76,7 +59,9 @@ def summarise(case: Case, result: Result) -> dict[str, Any]:
     natural = _natural(case, result, float(attributes["end_time"]))
     frequencies = natural.frequencies
     swings = [frequencies[index] for index in natural.swings.values()]
-    shown = vibration(case.kind, result, free, swings, frequencies, lambda: _at_the_start(case, result, natural))
+    shown = vibration(
+        KINDS[case.kind].signals, result, free, swings, frequencies, lambda: _at_the_start(case, result, natural)
+    )
     return {
         "case": case.name,
         "title": case.title,
@@ -201,14 +186,8 @@ def notices(case: Case, result: Result, natural: Natural, free: slice) -> list[s
         tight = [max(result.attrs[name] * LOOSE / gap, TIGHTEST) for name in ("rtol", "atol")]
         remedy = "with solver.rtol {:.0e} and solver.atol {:.0e} it would be about a thousandth".format(*tight)
         found.append(f"the energy balance is off by {gap:.1e} of the change: {remedy}")
-    lengths: tuple[tuple[str, float], ...] = ()
-    tables = case.checked
-    if isinstance(tables, RadialCase | SpaceCase):
-        crane = radial_crane(tables) if isinstance(tables, RadialCase) else space_crane(tables.crane)
-        lengths = (("tower_tip_displacement", crane.tower.length), ("jib_tip_deflection", crane.jib.length))
-    if isinstance(tables, SpaceCase):
-        lengths += tuple((f"{name}_sideways", length) for name, length in lengths)
-    for name, length in lengths:
+    kind = KINDS[case.kind]
+    for name, length in (kind.lengths(case.checked) if kind.lengths else {}).items():
         share = float(abs(result[name].values).max()) / length
         if share > SMALL:
             what = name.replace("_", " ")
@@ -238,37 +217,22 @@ def _parametric(result: Result, frequencies: list[float], signal: str, swing: in
 
 def _natural(case: Case, result: Result, at: float) -> Natural:
     """Natural frequencies where the drives are at a time of a run [s]; nothing for a tower that buckles."""
-    picked, tables = picked_in(result), case.checked
+    natural = KINDS[case.kind].natural
     try:
-        if not isinstance(tables, RadialCase | SpaceCase):
+        if natural is None:
             return Natural(_linearised(case, at), [], {})
         drives = {channel: float(motion(at)) for channel, motion in motions_of(case).items()}
-        position, length = drives["trolley"], drives["rope"]
-        if isinstance(tables, SpaceCase):
-            angle = drives["shaft" if "shaft" in drives else "slewing"]
-            # A load that only swings along the jib may swing across it.
-            model = space_model(tables, **{key: picked[key] for key in (*KINDS, "weight_softening") if key in picked})
-            return _in_space(natural_modes(model, position, length, angle))
-        chosen = {key: picked[key] for key in ("tower_modes", "jib_modes", "weight_softening") if key in picked}
-        frequencies, swing = radial_model(tables, **chosen).natural_modes(position, length)
+        return natural(case.checked, drives, picked_in(result))
     except NoEquilibrium:
         return Natural([], [], {})
-    return Natural((frequencies / (2 * np.pi)).tolist(), [], {"swing_angle": swing})
 
 
 def _at_the_start(case: Case, result: Result, at_the_end: Natural) -> list[float]:
     """Natural frequencies [Hz] where the run began."""
     ways = [result[name].values for name in ("trolley_position", "rope_length") if name in result]
-    if not isinstance(case.checked, RadialCase | SpaceCase) or all(way[0] == way[-1] for way in ways):
+    if KINDS[case.kind].natural is None or all(way[0] == way[-1] for way in ways):
         return at_the_end.frequencies
     return _natural(case, result, 0.0).frequencies
-
-
-def _in_space(modes: list[NaturalMode]) -> Natural:
-    kinds = [mode.kind for mode in modes]
-    sways = {"sway_radial": "radial sway", "sway_tangential": "lateral sway"}
-    swings = {signal: kinds.index(kind) for signal, kind in sways.items() if kind in kinds}
-    return Natural([mode.frequency_hz for mode in modes], kinds, swings)
 
 
 def _linearised(case: Case, at: float) -> list[float]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from towercrane.cases.case import Case, load_case
 from towercrane.cases.kinds import knows, plain_key, unit_of
+from towercrane.cranes.registry import KINDS
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import accuracy, peaks
 from towercrane.runs.sweep_data import RADIAL_OUTPUTS, Found, dataset
@@ -155,7 +156,7 @@ def _one_by_one(
 def _note(found: Found, run: int, case: Case, result: Recording) -> None:
     """Keep the extremes of a run that was recorded."""
     extremes = peaks(result)
-    names = RADIAL_OUTPUTS if case.kind == "radial" else extremes
+    names = RADIAL_OUTPUTS if "lanes" in KINDS[case.kind].serves else extremes
     found.outputs |= {name: (result[name].attrs["units"], result[name].attrs["long_name"]) for name in names}
     ways = ("maximum", "maximum_time_s", "minimum", "minimum_time_s")
     kept = {name: [extremes[name][way] for way in ways] for name in names}

@@ -13,6 +13,7 @@ import numpy as np
 from towercrane.accuracy.promise import targets_of
 from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
+from towercrane.cranes.registry import KINDS
 from towercrane.cranes.tower.file.build import radial_model
 from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.motions.motion import phases
@@ -158,7 +159,7 @@ def change(key: str, value: Value) -> str:
 
 def _fits_lanes(case: Case) -> bool:
     """Whether a run can share lanes; one that chooses its own model and tolerance for an error cannot."""
-    fits = isinstance(case.checked, RadialCase) and METHODS[case.solver.method].compiled
+    fits = "lanes" in KINDS[case.kind].serves and METHODS[case.solver.method].compiled
     return fits and not targets_of(case)
 
 

@@ -15,27 +15,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from towercrane.cranes.kind import Signals
     from towercrane.results.recording import Result
 
     Floats = NDArray[np.float64]
 
 CYCLES = 3.0
 """Free cycles of the slowest mode that make a spectrum of the free vibration."""
-
-
-class Signals(NamedTuple):
-    """What of a kind's outputs shows the structure's vibration, and what the load's swing."""
-
-    vibration: str
-    swing: str
-
-
-SIGNALS = {
-    "radial": Signals("tower_tip_displacement", "swing_angle"),
-    "space": Signals("tower_tip_displacement", "sway_tangential"),
-    "jib": Signals("sway_in_plane", "sway_in_plane"),
-}
-SLEWING_SIGNALS = Signals("jib_moment_vertical", "sway_radial")
 
 
 class Vibration(NamedTuple):
@@ -74,7 +60,7 @@ class Vibration(NamedTuple):
 
 
 def vibration(
-    kind: str,
+    signals: Signals,
     result: Result,
     free: slice,
     swings: Sequence[float],
@@ -85,8 +71,8 @@ def vibration(
 
     Parameters
     ----------
-    kind : str
-        Of its crane.
+    signals : Signals
+        What shows the structure's vibration and the load's swing.
     result : Recording or Dataset
     free : slice
         Rows after the last drive has stopped.
@@ -97,7 +83,7 @@ def vibration(
     at_the_start : callable
         Gives those where it began, asked for if the spectrum is not that of a free vibration.
     """
-    signals, times, step = SIGNALS.get(kind, SLEWING_SIGNALS), result["time"].values, step_of(result)
+    times, step = result["time"].values, step_of(result)
     # A load swings about as fast as on its rope alone.
     fastest = np.sqrt(result.attrs["gravity"] / result["rope_length"].values.min()) / (2.0 * np.pi)
     known = [*swings, float(fastest)]

@@ -198,3 +198,13 @@ def tables(annotation: Any) -> Iterator[type[Table]]:
         yield annotation
     for argument in get_args(annotation):
         yield from tables(argument)
+
+
+def known_keys(table: type[Table], prefix: str = "") -> list[str]:
+    """Every dotted key of a table, without the numbers of list items."""
+    found = []
+    for name, field in table.model_fields.items():
+        found.append(prefix + name)
+        for inner in tables(field.annotation):
+            found += known_keys(inner, f"{prefix}{name}.")
+    return found

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.units import UnitError, split, to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 FARTHEST = 1e9
 """How many times beyond its range a value may lie that the case allows: numbers farther off overflow in products."""
@@ -29,8 +32,6 @@ class Range:
         Units that the number may have been meant in.
     signed : bool
         Whether a negative value is judged by its size; elsewhere it is impossible, not implausible.
-    kind : str
-        Kind of crane that the range is for; ``*`` for all.
     """
 
     key: str
@@ -39,14 +40,12 @@ class Range:
     high: float
     likely: tuple[str, ...] = ()
     signed: bool = False
-    kind: str = "*"
 
-    def is_for(self, key: str, kind: str) -> bool:
-        """Whether it is the range of a dotted key of this kind of crane."""
+    def is_for(self, key: str) -> bool:
+        """Whether it is the range of a dotted key."""
         # To compile the patterns of all rows takes longer than all other checks of a case.
         beginning, wild, _ = self.key.partition("*")
-        own = fnmatchcase(key, self.key) if wild and key.startswith(beginning) else key == self.key
-        return own and fnmatchcase(kind, self.kind)
+        return fnmatchcase(key, self.key) if wild and key.startswith(beginning) else key == self.key
 
     def fault(self, key: str, value: object, *, allowed: bool = False) -> Fault | None:
         """Fault if ``value`` lies outside the range, or so far outside that it may not be ``allowed``.
@@ -76,6 +75,11 @@ class Range:
             return self.low <= to_si(text, self.unit) <= self.high
         except UnitError:
             return False
+
+
+def range_of(key: str, rows: Sequence[Range]) -> Range | None:
+    """The range of a dotted key: of several rows that fit it the last; None where none does."""
+    return next((row for row in reversed(rows) if row.is_for(key)), None)
 
 
 LENGTHS = ("mm", "cm", "km", "ft")

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cases.assumptions import as_entries, rests_on
-from towercrane.cases.models import flexible_model, motions_of
+from towercrane.cases.models import model_of, motions_of
+from towercrane.cranes.registry import KINDS, serving
 from towercrane.results.measures import PLACE, peak
 from towercrane.runs.run import record_case
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
@@ -22,36 +23,18 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cases.case import Case
-    from towercrane.cranes.tower.model import FlexibleModel
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.simulation.system import Model
 
     Floats = NDArray[np.float64]
 
 TARGET = 1e-2
 """Error that is asked for where neither the case nor the user does."""
 
-KINDS = {
-    "space": {
-        "tower_modes": "tower",
-        "torsion_modes": "torsion",
-        "jib_lateral_modes": "lateral",
-        "jib_vertical_modes": "vertical",
-    },
-    "radial": {"tower_modes": "tower", "jib_modes": "jib"},
-}
-"""Kinds of modes that a case counts: tower bending, its torsion, bending of the jib, to its sides and up."""
-
 RICHER = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2, "jib_modes": 2}
 """More modes of each kind in the richest model."""
 
 MOST = 14
 """Modes of a kind that a case may have."""
-
-SWAYS = {
-    "space": {"sway_radial": "along the jib", "sway_tangential": "across the jib"},
-    "radial": {"swing_angle": "swing"},
-}
-"""Outputs that show the load's swing."""
 
 ONE_OF_EACH, OWN, RICHEST = "one mode of each", "the case's own", "richest"
 
@@ -75,14 +58,14 @@ class Variant:
         """Keys of the kinds of modes that it keeps."""
         return frozenset(key for key, count in self.counts.items() if count)
 
-    def model(self, case: Case) -> FlexibleModel | RadialModel:
+    def model(self, case: Case) -> Model:
         """The model."""
-        return flexible_model(case, **self.counts)
+        return model_of(case, **self.counts)
 
 
 def variants(case: Case) -> list[Variant]:
     """Models from rigid to rich: every choice of the kinds that the case includes, the richest last."""
-    names = KINDS[case.kind]
+    names = KINDS[case.kind].modes
     own = {key: int(getattr(case.checked.model, key)) for key in names}  # type: ignore[union-attr]
     kept = [key for key, count in own.items() if count]
     rigid = dict.fromkeys(own, 0)
@@ -127,8 +110,8 @@ def compare(
     ValueError
         If the crane is of another kind, or the model has no modes at all.
     """
-    if case.kind not in KINDS:
-        raise ValueError(f"case: wanted a case of kind {' or '.join(KINDS)}, got {case.kind!r}")
+    if "compare" not in KINDS[case.kind].serves:
+        raise ValueError(f"case: wanted a case of kind {' or '.join(serving('compare'))}, got {case.kind!r}")
     chosen = variants(case)
     if len(chosen[-1].kinds) == 0:
         raise ValueError("case: wanted one mode or more to compare with a rigid crane, got none")
@@ -149,7 +132,7 @@ def compare(
         "kind": case.kind,
         "target": target,
         "departure_m": departure,
-        "kinds_of_modes": list(KINDS[case.kind].values()),
+        "kinds_of_modes": list(KINDS[case.kind].modes.values()),
         "rows": rows,
         **_needed(case, rows, chosen, target),
         "assumed": as_entries(rests_on(case, all_modes=True)),
@@ -169,7 +152,7 @@ def _row(case: Case, variant: Variant, result: xr.Dataset, richest: xr.Dataset, 
     stop = max((m.duration for name, m in motions_of(case).items() if not name.startswith("wind")), default=0.0)
     free = result["time"].values >= stop
     sway = {}
-    for name in SWAYS[case.kind]:
+    for name in KINDS[case.kind].sways:
         angle = np.degrees(abs(result[name].values))
         sway[name] = {
             "peak_deg": float(angle.max()),
@@ -200,7 +183,7 @@ def slowest(case: Case, variant: Variant, result: xr.Dataset) -> dict[str, float
     from towercrane.cranes.tower.equations.small_motions import natural_modes
     from towercrane.cranes.tower.model import FlexibleModel
 
-    model = variant.model(case)
+    model: Any = variant.model(case)
     trolley, rope = (float(result[name][-1]) for name in ("trolley_position", "rope_length"))
     try:
         if not isinstance(model, FlexibleModel):
@@ -218,7 +201,7 @@ def slowest(case: Case, variant: Variant, result: xr.Dataset) -> dict[str, float
 
 def _needed(case: Case, rows: list[dict[str, Any]], chosen: list[Variant], target: float) -> dict[str, Any]:
     """The cheapest row within the target, the kinds that it keeps, and why each kind stays or goes."""
-    names, richest = KINDS[case.kind], rows[-1]
+    names, richest = KINDS[case.kind].modes, rows[-1]
     within = [
         (row, variant)
         for row, variant in zip(rows[:-1], chosen, strict=False)

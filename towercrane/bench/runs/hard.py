@@ -8,9 +8,9 @@ import numpy as np
 
 from towercrane.bench.clock import short
 from towercrane.cases.case import list_cases, load_case
+from towercrane.cranes.registry import KINDS
 from towercrane.runs.run import run_case
 from towercrane.runs.summary import energy_balance, expected
-from towercrane.runs.vibration import SIGNALS, SLEWING_SIGNALS
 from towercrane.simulation.outcomes import INTERRUPTED
 
 if TYPE_CHECKING:
@@ -132,7 +132,7 @@ def difference(kind: str, run: xr.Dataset, reference: xr.Dataset) -> float | Non
         ends = run.attrs["end_time"], reference.attrs["end_time"]
         return 0.0 if ends[0] == ends[1] else float(abs(ends[0] - ends[1]) / ends[1])
     errors = []
-    for name in ("payload_position", SIGNALS.get(kind, SLEWING_SIGNALS).vibration):
+    for name in ("payload_position", KINDS[kind].signals.vibration):
         values, exact = (r[name].values.reshape(len(r["time"]), -1) for r in (run, reference))
         moved = np.linalg.norm(exact - exact[0], axis=1).max()
         errors.append(float(np.linalg.norm(values - exact, axis=1).max() / moved))

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cases.case import load_case
-from towercrane.cases.models import SLEWING
 from towercrane.cranes.jib import build as jib
 from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
 from towercrane.cranes.parts.wind import gusts
 from towercrane.cranes.slewing import build as slewing
 from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.slewing.kind import SLEWING
 from towercrane.cranes.slewing.tables import SlewingCase
 from towercrane.cranes.tower.file.build import radial_model, space_model
 from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
@@ -176,7 +176,7 @@ def _jib(rng: np.random.Generator) -> tuple[Model, dict[str, Motion]]:
 
 
 _MAKERS: dict[str, Callable[[np.random.Generator], tuple[Model, dict[str, Motion]]]] = {
-    **{kind: partial(_lumped, kind=kind) for kind in SLEWING},
+    **{kind.name: partial(_lumped, kind=kind.name) for kind in SLEWING},
     "radial": _radial,
     "prescribed slewing": partial(_flexible, driven=False),
     "slewing drive": partial(_flexible, driven=True),

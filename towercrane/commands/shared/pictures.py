@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -12,15 +13,11 @@ if TYPE_CHECKING:
 
 def run_pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
     """Pictures of a run by the names of their files."""
-    from towercrane.report.plots.runs import jib, radial, slewing, space
+    from towercrane.cranes.registry import KINDS
 
-    of_kind = {"radial": radial.run_pictures, "space": space.run_pictures, "jib": jib.run_pictures}
-    drawn = dict(of_kind.get(case.kind, slewing.run_pictures)(result))
-    return {**drawn, "modes.png": mode_picture(case)} if case.kind in WITH_MODES else drawn
-
-
-WITH_MODES = ("radial",)
-"""Kinds of case whose runs show the modes of their members."""
+    kind = KINDS[case.kind]
+    drawn = dict(import_module(f"towercrane.report.plots.runs.{kind.pictures}").run_pictures(result))
+    return {**drawn, "modes.png": mode_picture(case)} if "members" in kind.serves else drawn
 
 
 def mode_picture(case: Case) -> Any:

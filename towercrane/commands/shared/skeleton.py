@@ -12,7 +12,7 @@ import typer
 from towercrane.commands.shared.terminal import (
     ENDED_EARLY,
     NOT_AS_EXPECTED,
-    announce_compilation,
+    compile_for,
     fail,
     folder_for_results,
     load,
@@ -29,12 +29,6 @@ if TYPE_CHECKING:
 
     from towercrane.cases.case import Case
     from towercrane.simulation.system import NoEquilibrium
-
-SERVES = {
-    "radial": ("modes", "map", "lattice", "compare", "verify", "lanes"),
-    "space": ("modes", "compare", "verify"),
-}
-"""What a case of a kind can be used for besides what every case can."""
 
 
 @dataclass
@@ -61,16 +55,16 @@ class Task:
     folder: Path | None = None
 
     def serves(self, use: str) -> bool:
-        """Whether the case's kind can be used for it, see :data:`SERVES`."""
-        return use in SERVES.get(self.case.kind, ())
+        """Whether the case's kind can be used for it, see :class:`towercrane.cranes.kind.Kind`."""
+        return self.case.kind in kinds_for(use)
 
     def need(self, use: str, lacking: str) -> None:
         """Refuse a case of a kind that cannot be used so; ``lacking`` is what cranes without beams do not have."""
         kind = self.case.kind
         if self.serves(use):
             return
-        if kind in SERVES:
-            self.refuse(f"wanted a case of kind {kinds_for(use)}, got {kind!r}; try: towercrane modes {self.name}")
+        if self.serves("modes"):
+            self.refuse(f"wanted a case of kind {either(use)}, got {kind!r}; try: towercrane modes {self.name}")
         self.refuse(f"a crane of kind {kind!r} has no {lacking}; try: towercrane linearise {self.name}")
 
     def refuse(self, why: str) -> NoReturn:
@@ -90,11 +84,9 @@ class Task:
         self.folder = out if out is not None else Path("results") / f"{self.case.name}{ending}"
         folder_for_results(self.folder, names)
 
-    def compile(self, *uses: str) -> None:
-        """Compile what the case's runs need, or what these uses do."""
-        from towercrane.cases.models import uses_of
-
-        announce_compilation(*(uses or (*uses_of(self.case), "runs")))
+    def compile(self, use: str = "run") -> None:
+        """Compile what a use of the case needs, see :class:`towercrane.cranes.kind.Kind`."""
+        compile_for(self.case, use)
 
     def command(self, command: str, *more: str) -> tuple[str, ...]:
         """A command on the same case with the same changes."""
@@ -147,9 +139,16 @@ def as_text(report: Any) -> str:
     return json.dumps(_finite(report), indent=2, allow_nan=False)
 
 
-def kinds_for(use: str) -> str:
+def kinds_for(use: str) -> tuple[str, ...]:
+    """Kinds of case that can be used so."""
+    from towercrane.cranes.registry import serving
+
+    return serving(use)
+
+
+def either(use: str) -> str:
     """Kinds of case that can be used so, in words."""
-    return " or ".join(repr(kind) for kind, uses in SERVES.items() if use in uses)
+    return " or ".join(map(repr, kinds_for(use)))
 
 
 def no_equilibrium(failure: NoEquilibrium) -> NoReturn:

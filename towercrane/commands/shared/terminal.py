@@ -53,13 +53,13 @@ def load(name: str, changes: list[str] | None) -> Case:
     return load_case(name, changes or [])
 
 
-def announce_compilation(*uses: str) -> None:
-    """Compile the kernels for uses of :data:`towercrane.kernels.compilation.KERNELS` if they are not yet, and say
-    so."""
+def compile_for(case: Case, use: str = "run") -> None:
+    """Compile the kernels for a use of a case's kind of crane if they are not yet, and say so."""
     from modal.compiler.folder import cache_folder, obstacle
+    from towercrane.cranes.registry import KINDS
     from towercrane.kernels.compilation import compile_kernels, missing_kernels
 
-    if missing := missing_kernels(*uses):
+    if missing := missing_kernels(*KINDS[case.kind].kernels(case.checked, use)):
         if obstacle(cache_folder()):
             say("compiling, some seconds ...")
             return

@@ -48,7 +48,7 @@ def _initials(kind: str) -> str:
 def comparison_tables(report: dict[str, Any]) -> None:
     """Models beside each other, as :func:`towercrane.studies.comparison.compare` gives them."""
     console = console_of_reports()
-    in_space = report["kind"] == "space"
+    in_space = len(report["rows"][0]["sway"]) > 1
     columns = [f"{name}\n[deg]" for name in (("along", "across") if in_space else ("swing",))]
     columns += ["torque\n[kN m]"] if in_space else ["tower top\n[mm]"]
     columns += ["hor.\n[m]", "vert.\n[m]", "relative", "calls", "CPU\n[s]"]

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.file.tables import Crane
 
 
-def idle_in_plane(tables: RadialCase, *, exact_crane: bool = False) -> Iterator[str]:
+def idle_in_plane(tables: RadialCase, *, exact_crane: bool = False, all_modes: bool = False) -> Iterator[str]:
     """Beginnings of keys of a crane that do not enter its equations of motion in the plane.
 
     Parameters
@@ -21,6 +21,8 @@ def idle_in_plane(tables: RadialCase, *, exact_crane: bool = False) -> Iterator[
     tables : RadialCase
     exact_crane : bool
         For the exact frequencies of the whole crane in the plane, whose counter-jib bends where its file says so.
+    all_modes : bool
+        For models with modes of every kind; in the plane that changes nothing.
     """
     yield from _idle(tables.crane, exact_crane=exact_crane)
     yield from ("crane.tower.torsional_", "crane.jib.lateral_second_moment_of_area")

@@ -18,7 +18,7 @@ MOST_PATHS = 5
 def paths(report: dict[str, Any], results: dict[str, xr.Dataset]) -> Figure:
     """Paths of the load, from above in space and from the side in the plane; below, distances from the richest."""
     names = _shown(report, results)
-    in_space = report["kind"] == "space"
+    in_space = len(report["rows"][0]["sway"]) > 1
     rows, labels = ((0, 1), ("x [m]", "y [m]")) if in_space else ((0, 2), ("outward [m]", "up [m]"))
     figure = figure_of(3.0 * len(names) + 1.0, 7.6)
     upper, lower = figure.subfigures(2, 1, height_ratios=(1.5, 1.0), squeeze=False)[:, 0]

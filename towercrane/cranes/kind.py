@@ -1,0 +1,141 @@
+"""What every kind of crane declares of itself, once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from towercrane.cranes.parts.poses import Poses
+    from towercrane.schema.faults import Fault
+    from towercrane.schema.ranges import Range
+    from towercrane.simulation.system import Model
+
+    Tree = dict[str, Any]
+
+
+class Signals(NamedTuple):
+    """Output that shows the structure's vibration, and the one that shows the load's swing."""
+
+    vibration: str
+    swing: str
+
+
+class Natural(NamedTuple):
+    """Natural frequencies [Hz], the kind of each where kinds are told apart, and for each output that shows a swing
+    of the load the index of its mode."""
+
+    frequencies: list[float]
+    kinds: list[str]
+    swings: dict[str, int]
+
+    @property
+    def swing_mode(self) -> int | None:
+        """Which of them is the load's swing, of several the one along the jib, counted from 1."""
+        return next(iter(self.swings.values())) + 1 if self.swings else None
+
+
+@dataclass(frozen=True)
+class Drives:
+    """What a case moves besides the rope.
+
+    Parameters
+    ----------
+    height : callable
+        Height that the rope hangs from [m], of a case as written; None where it is not known.
+    height_is : str
+        That height in words.
+    trolley : bool
+        Whether a trolley runs along the jib.
+    joints : tuple of tuple of str
+        What turns; of several names for one joint the first that the case has, or else the last.
+    fastest_turn : float
+        Largest plausible speed of a turn that states none [rad/s].
+    wind : bool
+        Whether a wind may blow.
+    """
+
+    height: Callable[[Tree], float | None]
+    height_is: str
+    trolley: bool = False
+    joints: tuple[tuple[str, ...], ...] = ()
+    fastest_turn: float = 5.0
+    wind: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Kind:
+    """A kind of crane. Its parts that compute are loaded where they are asked for, see `later`.
+
+    Parameters
+    ----------
+    name : str
+    family : str
+        Kinds of one family read the same crane file; a case says which of them it is.
+    tables : type of Table
+        All tables of a case, one of :data:`towercrane.cranes.registry.AnyCase`.
+    drives : Drives
+    signals : Signals
+    pictures : str
+        Module of :mod:`towercrane.report.plots.runs` that draws its runs.
+    build : callable
+        Model of a case's tables; keyword arguments replace what the case chose.
+    poses : callable
+        Of its tables, a result and times, see :class:`towercrane.cranes.parts.poses.Poses`.
+    kernels : callable
+        Modules whose import compiles, of its tables and a use: "run" or one of those that it serves.
+    checks : tuple of callable
+        Faults of a case as written that no single value shows.
+    ranges : tuple of Range
+        Plausible values that are not those of other kinds.
+    words : tuple of str
+        Other words for it.
+    idle : callable, optional
+        Beginnings of keys of its tables that do not enter the equations of motion.
+    natural : callable, optional
+        `Natural` of its tables, the values of its drives and what was chosen for a run; without it the linear model
+        is asked.
+    lengths : callable, optional
+        Length of the member that each deflection in a result is of [m], of its tables.
+    targets : dict of str to str
+        Outputs whose error can be asked for, and their units.
+    modes : dict of str to str
+        Kinds of modes by the key of the table "model" that counts them.
+    sways : dict of str to str
+        Outputs that show the load's swing, where models of other modes are compared.
+    serves : frozenset of str
+        What it can be used for besides what every kind can: the studies "modes", "map", "lattice", "compare",
+        "verify" and "shape"; "lanes" for sweeps, "members" for pictures of its members' modes beside those of a run.
+    """
+
+    name: str
+    family: str
+    tables: type[Any]
+    drives: Drives
+    signals: Signals
+    pictures: str
+    build: Callable[..., Model]
+    poses: Callable[..., Poses]
+    kernels: Callable[[Any, str], tuple[str, ...]]
+    checks: tuple[Callable[[Tree], Iterator[Fault]], ...] = ()
+    ranges: tuple[Range, ...] = ()
+    words: tuple[str, ...] = ()
+    idle: Callable[..., Iterator[str]] | None = None
+    natural: Callable[..., Natural] | None = None
+    lengths: Callable[[Any], dict[str, float]] | None = None
+    targets: Mapping[str, str] = field(default_factory=dict)
+    modes: Mapping[str, str] = field(default_factory=dict)
+    sways: Mapping[str, str] = field(default_factory=dict)
+    serves: frozenset[str] = frozenset()
+
+
+def later(module: str, name: str) -> Callable[..., Any]:
+    """A function of a module that is imported with the first call."""
+
+    def call(*arguments: Any, **options: Any) -> Any:
+        return getattr(import_module(module), name)(*arguments, **options)
+
+    return call

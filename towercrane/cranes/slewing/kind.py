@@ -1,0 +1,46 @@
+"""Lumped slewing cranes: the multi-mass model and two smaller ones, whose crane files differ."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from towercrane.cranes.kind import Drives, Kind, Signals, later
+from towercrane.cranes.parts.height import summed
+from towercrane.cranes.slewing.tables import BasicCase, EnhancedCase, MultiMassCase
+from towercrane.schema.ranges import SPRINGS, Range
+
+if TYPE_CHECKING:
+    from towercrane.cranes.slewing.tables import SlewingCase
+
+HEIGHT = summed("crane.geometry.tower_height", "crane.geometry.top_height")
+
+
+def _kernels(tables: SlewingCase, use: str) -> tuple[str, ...]:
+    return {"run": ("towercrane.cranes.slewing.kernel", "towercrane.simulation.stepper")}[use]
+
+
+def _kind(name: str, tables: type[SlewingCase], *ranges: Range) -> Kind:
+    """A kind of slewing crane, which differs from the others by its parameters."""
+    return Kind(
+        name=name,
+        family=name,
+        tables=tables,
+        drives=Drives(HEIGHT, "the height of the tower with its top", joints=(("shaft",),)),
+        ranges=ranges,
+        build=later("towercrane.cranes.slewing.build", "model_of"),
+        poses=later("towercrane.cranes.slewing.poses", "slewing_poses"),
+        kernels=_kernels,
+        signals=Signals("jib_moment_vertical", "sway_radial"),
+        pictures="slewing",
+    )
+
+
+MULTI_MASS = _kind("multi-mass", MultiMassCase)
+ENHANCED = _kind("enhanced", EnhancedCase)
+BASIC = _kind(
+    "basic",
+    BasicCase,
+    Range("crane.stiffness.jib_lateral", "N/m", 500, 1e12, SPRINGS),
+    Range("crane.damping.jib_lateral", "N s/m", 1e-3, 1e9, ("kN s/m",)),
+)
+SLEWING = (MULTI_MASS, ENHANCED, BASIC)

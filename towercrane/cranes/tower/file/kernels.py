@@ -1,0 +1,40 @@
+"""Modules whose import compiles, by what is done with a tower crane."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from modal.beams.beam import Beam
+from towercrane.cranes.tower.file.members import tower_of
+
+if TYPE_CHECKING:
+    from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+
+ROOTS = "modal.beams.roots"
+STRUCTURE, SHAPES = "modal.structures.structure_kernel", "modal.structures.shape_kernel"
+STEPPER = "towercrane.simulation.stepper"
+RUN = ("towercrane.cranes.tower.kernels.rhs", ROOTS)
+AT_REST = ("towercrane.cranes.tower.kernels.structure", ROOTS)
+LANES = ("towercrane.cranes.tower.kernels.lane_rhs", "towercrane.simulation.lanes.advance")
+
+
+def radial_kernels(tables: RadialCase, use: str) -> tuple[str, ...]:
+    """Modules for a use of a radial case."""
+    uses = {
+        "run": (*RUN, *_chain(tables), STEPPER),
+        "lanes": (*LANES, STEPPER),
+        "modes": (*AT_REST, STRUCTURE, SHAPES),
+        "map": (STRUCTURE, SHAPES),
+        "lattice": (STRUCTURE,),
+    }
+    return uses[use]
+
+
+def space_kernels(tables: SpaceCase, use: str) -> tuple[str, ...]:
+    """Modules for a use of a case in space."""
+    return {"run": (*RUN, *_chain(tables), STEPPER), "modes": (*AT_REST, *_chain(tables))}[use]
+
+
+def _chain(tables: RadialCase | SpaceCase) -> tuple[str, ...]:
+    """Those for a tower that is a chain of segments."""
+    return () if isinstance(tower_of(tables.crane), Beam) else (STRUCTURE, SHAPES)
