@@ -21,7 +21,7 @@ from towercrane.schema.text import leaves
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from towercrane.cranes.kind import Drives
+    from towercrane.cranes.kind import Drives, Track
 
 
 ROUNDING = 1e-9
@@ -83,15 +83,16 @@ class Way:
 
 
 def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], dict[str, Plan]]:
-    """Plans by channel, without those that cannot be built, and where they leave the jib or the air.
+    """Plans by channel, without those that cannot be built, and where they leave their track or the air.
 
     Parts of the case that are faulty themselves limit nothing, so that all faults show at once.
     """
     faults: list[Fault] = []
     plans: dict[str, Plan | None] = {}
     drives = KINDS[kind].drives
-    if drives.trolley:
-        faults, plans["trolley"] = _trolley(tree, folder)
+    for track in drives.tracks:
+        more, plans[track.name] = _track(tree, track, folder)
+        faults += more
     if drives.wind:
         more, wind = wind_motions(tree, folder)
         faults = [*faults, *more]
@@ -121,7 +122,7 @@ def channels(tree: dict[str, Any], kind: str) -> tuple[str, ...]:
     """Names of the motions that drive the crane of a case of this kind."""
     drives = KINDS[kind].drives
     wind = CHANNELS if drives.wind and "wind" in tree else ()
-    return (*(("trolley",) if drives.trolley else ()), *_joints(tree, drives), *wind, "rope")
+    return (*(track.name for track in drives.tracks), *_joints(tree, drives), *wind, "rope")
 
 
 def _joints(tree: dict[str, Any], drives: Drives) -> tuple[str, ...]:
@@ -130,19 +131,20 @@ def _joints(tree: dict[str, Any], drives: Drives) -> tuple[str, ...]:
     return tuple(next(iter(found), names[-1]) for found, names in zip(written, drives.joints, strict=True))
 
 
-def _trolley(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], Plan | None]:
-    jib = si_at(tree, "crane.jib.length", "m")
-    known = f"from 0 to {jib:g} m (the length of the jib)" if jib else "from 0 on"
-    on_jib = Way("motion.trolley", jib, False, f"positions on the jib, {known}", "the trolley leaves the jib")
-    faults = _out_of_way(tree, on_jib, ("start", "end"))
-    trolley, more = _motion(tree, on_jib, _reader(TrolleyMotion), folder, None)
-    for listed in ("modes.trolley_positions", "map.trolley_positions"):
+def _track(tree: dict[str, Any], track: Track, folder: Path) -> tuple[list[Fault], Plan | None]:
+    name, key, along = track
+    length = si_at(tree, key, "m")
+    known = f"from 0 to {length:g} m (the length of the {along})" if length else "from 0 on"
+    way = Way(f"motion.{name}", length, False, f"positions on the {along}, {known}", f"the {name} leaves the {along}")
+    faults = _out_of_way(tree, way, ("start", "end"))
+    motion, more = _motion(tree, way, _reader(TrolleyMotion), folder, None)
+    for listed in (f"modes.{name}_positions", f"map.{name}_positions"):
         for key, value in leaves(at(tree, listed) or [], listed):
             position = si(value, "m")
-            if position is not None and not on_jib.keeps(position):
-                faults.append(on_jib.fault(key, shown(value)))
+            if position is not None and not way.keeps(position):
+                faults.append(way.fault(key, shown(value)))
     faults += more if not any(f.key.startswith("motion.") for f in faults) else []
-    return faults, trolley
+    return faults, motion
 
 
 def _rope(tree: dict[str, Any], folder: Path, drives: Drives) -> tuple[list[Fault], Plan | None]:

@@ -24,6 +24,18 @@ class Signals(NamedTuple):
     swing: str
 
 
+class Panel(NamedTuple):
+    """One row of a picture: its label with the unit, the factor that brings values to it, and its lines by name."""
+
+    label: str
+    factor: float
+    lines: dict[str, str]
+
+
+Pictures = dict[str, tuple[str, tuple[Panel, ...]]]
+"""Title and panels over time of each picture by the name of its file."""
+
+
 class Natural(NamedTuple):
     """Natural frequencies [Hz], the kind of each where kinds are told apart, and for each output that shows a swing
     of the load the index of its mode."""
@@ -38,6 +50,14 @@ class Natural(NamedTuple):
         return next(iter(self.swings.values())) + 1 if self.swings else None
 
 
+class Track(NamedTuple):
+    """What something runs along: name of its motion, key of the length of its track, and the track in a word."""
+
+    name: str
+    length: str
+    along: str
+
+
 @dataclass(frozen=True)
 class Drives:
     """What a case moves besides the rope.
@@ -48,8 +68,8 @@ class Drives:
         Height that the rope hangs from [m], of a case as written; None where it is not known.
     height_is : str
         That height in words.
-    trolley : bool
-        Whether a trolley runs along the jib.
+    tracks : tuple of Track
+        What runs along a straight line.
     joints : tuple of tuple of str
         What turns; of several names for one joint the first that the case has, or else the last.
     fastest_turn : float
@@ -60,7 +80,7 @@ class Drives:
 
     height: Callable[[Tree], float | None]
     height_is: str
-    trolley: bool = False
+    tracks: tuple[Track, ...] = ()
     joints: tuple[tuple[str, ...], ...] = ()
     fastest_turn: float = 5.0
     wind: bool = False
@@ -79,8 +99,8 @@ class Kind:
         All tables of a case, one of :data:`towercrane.cranes.registry.AnyCase`.
     drives : Drives
     signals : Signals
-    pictures : str
-        Module of :mod:`towercrane.report.plots.runs` that draws its runs.
+    pictures : str or dict
+        Module of :mod:`towercrane.report.plots.runs` that draws its runs, or panels that need none of their own.
     build : callable
         Model of a case's tables; keyword arguments replace what the case chose.
     poses : callable
@@ -105,7 +125,7 @@ class Kind:
     modes : dict of str to str
         Kinds of modes by the key of the table "model" that counts them.
     sways : dict of str to str
-        Outputs that show the load's swing, where models of other modes are compared.
+        Outputs that show the load's swing, and which way each is: shown in films, and where models are compared.
     serves : frozenset of str
         What it can be used for besides what every kind can: the studies "modes", "map", "lattice", "compare",
         "verify" and "shape"; "lanes" for sweeps, "members" for pictures of its members' modes beside those of a run.
@@ -116,7 +136,7 @@ class Kind:
     tables: type[Any]
     drives: Drives
     signals: Signals
-    pictures: str
+    pictures: str | Pictures
     build: Callable[..., Model]
     poses: Callable[..., Poses]
     kernels: Callable[[Any, str], tuple[str, ...]]

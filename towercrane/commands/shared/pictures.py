@@ -14,9 +14,13 @@ if TYPE_CHECKING:
 def run_pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
     """Pictures of a run by the names of their files."""
     from towercrane.cranes.registry import KINDS
+    from towercrane.report.plots.runs import panels
 
     kind = KINDS[case.kind]
-    drawn = dict(import_module(f"towercrane.report.plots.runs.{kind.pictures}").run_pictures(result))
+    if isinstance(kind.pictures, str):
+        drawn = dict(import_module(f"towercrane.report.plots.runs.{kind.pictures}").run_pictures(result))
+    else:
+        drawn = panels.run_pictures(result, kind.pictures)
     return {**drawn, "modes.png": mode_picture(case)} if "members" in kind.serves else drawn
 
 

@@ -23,4 +23,5 @@ JIB = Kind(
     kernels=_kernels,
     signals=Signals("sway_in_plane", "sway_in_plane"),
     pictures="jib",
+    sways={"sway_in_plane": "along the booms", "sway_lateral": "across the booms"},
 )

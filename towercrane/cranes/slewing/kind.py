@@ -32,6 +32,7 @@ def _kind(name: str, tables: type[SlewingCase], *ranges: Range) -> Kind:
         kernels=_kernels,
         signals=Signals("jib_moment_vertical", "sway_radial"),
         pictures="slewing",
+        sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},
     )
 
 

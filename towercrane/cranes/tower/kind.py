@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from towercrane.cranes.kind import Drives, Kind, Signals, later
+from towercrane.cranes.kind import Drives, Kind, Signals, Track, later
 from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
 from towercrane.cranes.tower.file.checks import check_tower, tower_height
 from towercrane.cranes.tower.file.space_checks import check_space
 from towercrane.cranes.tower.targets import RADIAL as RADIAL_TARGETS
 from towercrane.cranes.tower.targets import SPACE as SPACE_TARGETS
+
+TRACKS = (Track("trolley", "crane.jib.length", "jib"),)
 
 FASTEST_SLEWING = 0.5
 """Largest plausible speed of a tower crane's head whose motion states none [rad/s]; they turn at 0.1 or less."""
@@ -17,7 +19,7 @@ RADIAL = Kind(
     family="tower",
     words=("plane", "planar", "in-plane"),
     tables=RadialCase,
-    drives=Drives(tower_height, "the height of the tower", trolley=True),
+    drives=Drives(tower_height, "the height of the tower", TRACKS),
     checks=(check_tower,),
     build=later("towercrane.cranes.tower.file.build", "radial_model"),
     poses=later("towercrane.cranes.tower.poses", "radial_poses"),
@@ -29,7 +31,7 @@ RADIAL = Kind(
     pictures="radial",
     targets=RADIAL_TARGETS,
     modes={"tower_modes": "tower", "jib_modes": "jib"},
-    sways={"swing_angle": "swing"},
+    sways={"swing_angle": "along the jib"},
     serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "lanes", "members"}),
 )
 
@@ -38,8 +40,8 @@ SPACE = Kind(
     family="tower",
     tables=SpaceCase,
     drives=Drives(
-        tower_height, "the height of the tower",
-        trolley=True, joints=(("shaft", "slewing"),), fastest_turn=FASTEST_SLEWING, wind=True,
+        tower_height, "the height of the tower", TRACKS,
+        joints=(("shaft", "slewing"),), fastest_turn=FASTEST_SLEWING, wind=True,
     ),
     checks=(check_tower, check_space),
     build=later("towercrane.cranes.tower.file.build", "space_model"),

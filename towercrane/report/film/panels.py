@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.patches import Rectangle
 
+from towercrane.cranes.registry import KINDS
 from towercrane.report.plots.style import COLOURS
 
 if TYPE_CHECKING:
@@ -22,13 +23,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-SWAY = {
-    "swing_angle": "along the jib",
-    "sway_radial": "along the jib",
-    "sway_in_plane": "along the booms",
-    "sway_tangential": "across the jib",
-    "sway_lateral": "across the booms",
-}
+SWAY = {name: way for kind in KINDS.values() for name, way in kind.sways.items()}
 """What results call the load's sway, and what that is."""
 
 FADES = ((0.0, 1.0), (1.0, 0.7), (2.5, 0.45), (5.0, 0.28), (10.0, 0.16))

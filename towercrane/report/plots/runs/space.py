@@ -2,31 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.report.plots.runs.slewing import path_from_above
-from towercrane.report.plots.style import COLOURS, DASHES, figure_of, footnote, legend, run_title
-from towercrane.runs.summary import assumed
+from towercrane.cranes.kind import Panel
+from towercrane.report.plots.runs import panels
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from towercrane.cranes.kind import Pictures
+
 DEGREES = 180.0 / np.pi
-
-FEW = 3
-"""Panels that are drawn higher than more of them are."""
-
-
-class Panel(NamedTuple):
-    """One row of a picture: its label with the unit, the factor that brings values to it, and its lines by name."""
-
-    label: str
-    factor: float
-    lines: dict[str, str]
-
 
 SWAY = Panel("sway [deg]", DEGREES, {"sway_radial": "along the jib", "sway_tangential": "across the jib"})
 TORQUE = Panel("torque [kN m]", 1e-3, {"slewing_torque": "slewing drive on the head"})
@@ -41,7 +30,7 @@ TWIST = Panel(
 TENSION = Panel("rope tension [kN]", 1e-3, {"rope_tension": "rope tension"})
 WIND = Panel("wind [m/s]", 1.0, {"wind_x": "along x", "wind_y": "along y", "wind_z": "up"})
 
-PICTURES: dict[str, tuple[str, tuple[Panel, ...]]] = {
+PICTURES: Pictures = {
     "overview.png": (
         "Run",
         (
@@ -92,30 +81,7 @@ PICTURES: dict[str, tuple[str, tuple[Panel, ...]]] = {
 """Title and panels of each picture of a run in space; the wind's is only for one with wind."""
 
 
-def over_time(result: xr.Dataset, title: str, panels: tuple[Panel, ...]) -> Figure:
-    """Panels over time, one below the other; lines that the result does not have drop out."""
-    figure = figure_of(9.0, len(panels) * (2.0 if len(panels) > FEW else 2.8))
-    rows = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
-    for axes, panel in zip(rows, panels, strict=True):
-        shown = [name for name in panel.lines if name in result]
-        for i, name in enumerate(shown):
-            axes.plot(
-                result["time"], panel.factor * result[name], color=COLOURS[i], ls=DASHES[i], lw=1.2,
-                label=panel.lines[name],
-            )  # fmt: skip
-        axes.set_ylabel(panel.label)
-        axes.grid(axis="y", color="0.9", lw=0.6)
-        legend(axes)
-    rows[-1].set_xlabel("time [s]")
-    figure.suptitle(f"{title}, {run_title([result])}", fontsize=10)
-    footnote(figure, assumed(result))
-    return figure
-
-
 def run_pictures(result: xr.Dataset) -> dict[str, Figure]:
     """All pictures of one run by file name."""
     chosen = PICTURES | ({"wind.png": ("Wind", (WIND,))} if "wind_x" in result else {})
-    return {
-        **{name: over_time(result, title, panels) for name, (title, panels) in chosen.items()},
-        "path.png": path_from_above([result]),
-    }
+    return panels.run_pictures(result, chosen)

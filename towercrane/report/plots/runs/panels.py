@@ -1,0 +1,46 @@
+"""Pictures of runs that a kind of crane states as panels over time, and the load's path from above."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.report.plots.runs.slewing import path_from_above
+from towercrane.report.plots.style import COLOURS, DASHES, figure_of, footnote, legend, run_title
+from towercrane.runs.summary import assumed
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+    from towercrane.cranes.kind import Panel, Pictures
+
+FEW = 3
+"""Panels that are drawn higher than more of them are."""
+
+
+def over_time(result: xr.Dataset, title: str, panels: tuple[Panel, ...]) -> Figure:
+    """Panels over time, one below the other; lines that the result does not have drop out."""
+    figure = figure_of(9.0, len(panels) * (2.0 if len(panels) > FEW else 2.8))
+    rows = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
+    for axes, panel in zip(rows, panels, strict=True):
+        shown = [name for name in panel.lines if name in result]
+        for i, name in enumerate(shown):
+            axes.plot(
+                result["time"], panel.factor * result[name], color=COLOURS[i], ls=DASHES[i], lw=1.2,
+                label=panel.lines[name],
+            )  # fmt: skip
+        axes.set_ylabel(panel.label)
+        axes.grid(axis="y", color="0.9", lw=0.6)
+        legend(axes)
+    rows[-1].set_xlabel("time [s]")
+    figure.suptitle(f"{title}, {run_title([result])}", fontsize=10)
+    footnote(figure, assumed(result))
+    return figure
+
+
+def run_pictures(result: xr.Dataset, pictures: Pictures) -> dict[str, Figure]:
+    """All pictures of one run by file name."""
+    drawn = {name: over_time(result, title, panels) for name, (title, panels) in pictures.items()}
+    return {**drawn, "path.png": path_from_above([result])}
