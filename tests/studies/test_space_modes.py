@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.cranes.tower.file.build import space_model
+from towercrane.cranes.tower.file.case_tables import SpaceCase
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import rest
 from towercrane.report.plots.studies import space_modes as pictured
@@ -111,7 +112,8 @@ def test_a_rigid_crane_is_told_what_its_flexibility_would_change():
 
 def test_a_richer_model_has_more_modes_of_every_kind_than_the_case():
     own = {"tower": 3, "torsion": 1, "jib_lateral": 0, "jib_vertical": 4}
-    found = richer_model(load_case(NAME, [f"model.{kind}_modes={count}" for kind, count in own.items()])).counts
+    case = load_case(NAME, [f"model.{kind}_modes={count}" for kind, count in own.items()])
+    found = richer_model(case.tables(SpaceCase)).counts
     # The tower bends in two directions.
     of_kinds = {kind: found[{"tower": "tower_x"}.get(kind, kind)] for kind in own}
     assert of_kinds == {kind: count + RICHER for kind, count in own.items()}
