@@ -42,6 +42,7 @@ def test_every_kind_ships_and_loads():
         **{f"slewing/{kind}/example-{n}": kind for kind, n, _, _ in EXAMPLES},
         **{f"slewing/{kind}/cycle": kind for kind, _, _, _ in EXAMPLES},
         **dict.fromkeys((PLAN, HEAVY, COMBINED), "jib"),
+        **dict.fromkeys(("overhead-crane/travel", "overhead-crane/hoist"), "overhead"),
     }
     in_space = {
         "manoeuvre",

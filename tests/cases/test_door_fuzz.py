@@ -20,6 +20,7 @@ CASES = {
     "basic": "slewing/basic/example-1",
     "enhanced": "slewing/enhanced/example-1",
     "jib": "jib-crane/plan",
+    "overhead": "overhead-crane/travel",
 }
 
 ODD = (

@@ -25,6 +25,7 @@ CASES = {
     "enhanced": ("slewing/enhanced/example-1", "run.duration=4 s"),
     "basic": ("slewing/basic/example-1", "run.duration=4 s"),
     "jib": ("jib-crane/combined", "run.duration=40 s"),
+    "overhead": ("overhead-crane/travel", "run.duration=12 s"),
 }
 
 

@@ -57,6 +57,7 @@ STRUCTURE = ["modal.structures.structure_kernel", "modal.structures.shape_kernel
         ("towers/stepped", "run", [*RUN, *STRUCTURE, STEPPER]),
         ("slewing/basic/example-1", "run", ["towercrane.cranes.slewing.kernel", STEPPER]),
         ("jib-crane/plan", "run", ["towercrane.cranes.jib.kernel", STEPPER]),
+        ("overhead-crane/travel", "run", ["towercrane.cranes.overhead.kernel", STEPPER]),
         ("qtz5613/manoeuvre", "modes", REST),
         ("qtz5613/condition-3", "modes", [*REST, *STRUCTURE]),
         ("qtz5613/condition-3", "map", STRUCTURE),
@@ -70,7 +71,7 @@ def test_a_case_names_what_a_use_of_its_crane_needs(name, use, modules):
 
 def test_all_modules_of_kernels_are_there():
     lanes = KINDS["radial"].kernels(load_case("qtz5613/condition-3").checked, "lanes")
-    others = ["towercrane.cranes.slewing.kernel", "towercrane.cranes.jib.kernel"]
+    others = ["towercrane.cranes.slewing.kernel", "towercrane.cranes.jib.kernel", "towercrane.cranes.overhead.kernel"]
     assert all(importlib.util.find_spec(module) for module in (*RUN, *REST, *STRUCTURE, *lanes, *others))
 
 

@@ -17,6 +17,7 @@ KINDS = {
     "space": "qtz5613/manoeuvre",
     "basic": "slewing/basic/example-1",
     "jib": "jib-crane/plan",
+    "overhead": "overhead-crane/travel",
 }
 
 

@@ -204,6 +204,7 @@ BASES = {
     "enhanced": ("slewing/enhanced/example-1", QUICK, 2),
     "basic": ("slewing/basic/example-1", QUICK, 2),
     "jib": ("jib-crane/plan", QUICK, 2),
+    "overhead": ("overhead-crane/travel", QUICK, 2),
 }
 
 

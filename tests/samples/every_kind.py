@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from samples import jib_cranes, lab_crane, qtz5613, space_crane
+from samples import jib_cranes, lab_crane, overhead_crane, qtz5613, space_crane
 
 from towercrane.cranes.jib.linear import static_torques
 from towercrane.cranes.jib.model import TORQUES, DrivenJibCrane
 from towercrane.cranes.jib.tracking import TrackingJibCrane
+from towercrane.cranes.overhead.model import OverheadModel
 from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.damping import ModalDamping
@@ -100,6 +101,10 @@ KINDS = {
     "driven jib crane": lambda: Driven(DrivenJibCrane(jib_cranes.HEAVY, LOAD, (0.0, 0.5, -0.2)), jib_torques()),
     "tracking jib crane": lambda: Driven(
         TrackingJibCrane(jib_cranes.HEAVY, LOAD, stiffness=2e6, damping=1e6), jib_plan(), "slew"
+    ),
+    "overhead crane": lambda: Driven(
+        OverheadModel(overhead_crane.SMALL, LOAD),
+        {"bridge": trapezoid(2.0, 3.0, 0.8, 0.8), "trolley": trapezoid(4.0, 5.0, 0.7, 0.6), "rope": hoist(6.0)},
     ),
 }
 """What makes each of them, by name."""

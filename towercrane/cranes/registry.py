@@ -5,15 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from towercrane.cranes.jib.kind import JIB
+from towercrane.cranes.overhead.kind import OVERHEAD
 from towercrane.cranes.slewing.kind import BASIC, ENHANCED, MULTI_MASS
 from towercrane.cranes.tower.kind import RADIAL, SPACE
 
 if TYPE_CHECKING:
     from towercrane.cranes.jib.tables import JibCase
+    from towercrane.cranes.overhead.tables import OverheadCase
     from towercrane.cranes.slewing.tables import SlewingCase
     from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
 
-    AnyCase = RadialCase | SpaceCase | SlewingCase | JibCase
+    AnyCase = RadialCase | SpaceCase | SlewingCase | JibCase | OverheadCase
 
 KINDS = {
     kind.name: kind
@@ -24,6 +26,7 @@ KINDS = {
         ENHANCED,
         JIB,
         SPACE,
+        OVERHEAD,
     )
 }
 """Kinds by name; the first is the kind where a crane file states none."""

@@ -1,0 +1,1 @@
+"""Overhead cranes: a bridge on a runway, a trolley on the bridge. Imports no other family."""

@@ -1,0 +1,24 @@
+"""What the checked tables of an overhead crane's case describe."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from towercrane.cranes.overhead.model import OverheadModel
+from towercrane.cranes.overhead.parameters import OverheadCrane
+from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.parts.parameters import flat
+
+if TYPE_CHECKING:
+    from towercrane.cranes.overhead.tables import OverheadCase
+
+
+def model_of(tables: OverheadCase) -> OverheadModel:
+    """Model of an overhead crane's case."""
+    crane = OverheadCrane(**flat(tables.crane))
+    return OverheadModel(crane, load_of(tables.payload), rope_as_rod=tables.rope.slack == "rod")
+
+
+def lengths_of(tables: OverheadCase) -> dict[str, float]:
+    """Length of what deflects [m]."""
+    return {"bridge_deflection": tables.crane.bridge.span}

@@ -1,0 +1,129 @@
+"""Overhead crane as a simulation asks for it: bridge and trolley on their motions, a bridge that bends, the load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.cranes.overhead import kernel
+from towercrane.kernels.payload import SLACK, work_shape
+from towercrane.simulation.outcomes import SLACK_ROPE
+from towercrane.simulation.system import System
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.overhead.parameters import OverheadCrane
+    from towercrane.kernels.payload import Load
+    from towercrane.motions.motion import Motion
+    from towercrane.results.recording import Quantity
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class OverheadModel:
+    """Overhead crane with a load in space.
+
+    Parameters
+    ----------
+    crane : OverheadCrane
+    load : Load
+    rope_as_rod : bool
+        Let the rope push. Without it a slack rope ends the run.
+
+    Notes
+    -----
+    The state is (q, n, q', p, work): uplift of the bridge at mid-span [m], the rope's direction in fixed axes, their
+    rates, and the work [J] that drives, winch and losses have put in.
+    """
+
+    crane: OverheadCrane
+    load: Load
+    rope_as_rod: bool = False
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Motions: place of the bridge on the runway, of the trolley on the bridge, and the rope's length [m]."""
+        return ("bridge", "trolley", "rope")
+
+    @property
+    def channel_units(self) -> tuple[str, ...]:
+        """Units of the motions."""
+        return ("m", "m", "m")
+
+    @property
+    def state_names(self) -> dict[str, str]:
+        """Uplift and sways with their units."""
+        return {"bridge_uplift": "m", "sway_x": "rad", "sway_y": "rad"}
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        crane, load = self.crane, self.load
+        guards = (SLACK_ROPE, "bridge force", "trolley force", "first rail", "second rail")
+        scale = np.ones(kernel.SIZE)
+        scale[kernel.WORK] = np.inf  # It steers no step.
+        return System(
+            equations=lambda: kernel.rhs,
+            size=kernel.SIZE,
+            guards=guards,
+            floors=np.array([-np.inf if self.rope_as_rod else SLACK, *[-np.inf] * (len(guards) - 1)]),
+            scale=scale,
+            numbers=np.array([
+                crane.bridge_span, crane.stiffness, crane.damping, crane.girder_mass, crane.bridge_end_carriage_mass,
+                crane.trolley_mass, crane.gravity, load.mass, load.drag, load.rope_damping,
+            ]),
+            vectors=np.empty((0, 0)),
+            matrices=np.empty((0, 0, 0)),
+            tables=np.empty((0, 0, 0)),
+            work_shape=work_shape(1),
+            directions=np.array([[kernel.ROPE_DIRECTION, kernel.SWAY, kernel.AXES]]),
+            # A trolley on it only adds inertia.
+            fastest=lambda: crane.frequency,
+        )  # fmt: skip
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State in which bridge and load are at rest.
+
+        Parameters
+        ----------
+        inputs : ndarray
+            Polynomials of the first phase.
+        state : str
+            "equilibrium" under all weights, or "zero", the bridge straight.
+        swing_angle : float
+            Angle of the rope from the vertical, positive along the runway [rad].
+
+        Returns
+        -------
+        ndarray, shape (size,)
+
+        Raises
+        ------
+        ValueError
+            If the state is not one of the two.
+        """
+        if state not in ("equilibrium", "zero"):
+            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+        y = np.zeros(kernel.SIZE)
+        if state == "equilibrium":
+            y[kernel.UPLIFT] = self.crane.uplift_at_rest(inputs[kernel.TROLLEY, 0], self.load.mass)
+        direction = np.sin(swing_angle), 0.0, -np.cos(swing_angle)
+        y[kernel.ROPE_DIRECTION : kernel.ROPE_DIRECTION + kernel.AXES] = direction
+        return y
+
+    def observe(
+        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+    ) -> dict[str, Quantity]:
+        """Outputs over time, see :func:`towercrane.cranes.overhead.outputs.observe`."""
+        from towercrane.cranes.overhead.outputs import observe
+
+        return observe(self.crane, self.load, motions, times, states, guards)
+
+    def provenance(self) -> dict[str, Any]:
+        """Crane and load, for a result's attributes."""
+        return {"crane": self.crane.name, "payload_mass": self.load.mass, "gravity": self.crane.gravity}
