@@ -10,7 +10,13 @@ import towercrane
 from towercrane.cranes.registry import KINDS
 
 PACKAGES = [Path(package.__file__).parent for package in (modal, towercrane)]
-FOLDERS = [folder for package in PACKAGES for folder in (package, *package.rglob("*/")) if folder.name[0] not in "_."]
+FOLDERS = [
+    folder
+    for package in PACKAGES
+    for folder in (package, *package.rglob("*/"))
+    # Caches, and the shipped cases in an installed package.
+    if not any(part[0] in "_." for part in folder.relative_to(package).parts)
+]
 
 BELOW = {
     "modal": (),
