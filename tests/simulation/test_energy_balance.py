@@ -12,7 +12,8 @@ from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.lanes import RADIAL
-from towercrane.motions.motion import phases
+from towercrane.motions.motion import phases, rest
+from towercrane.motions.profiles import s_curve, smooth_ramps
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import expected, summarise
 from towercrane.runs.sweep import sweep
@@ -20,6 +21,7 @@ from towercrane.simulation import energy_balance
 from towercrane.simulation.energy_balance import NOT_CONSERVED, explained, first_off
 from towercrane.simulation.lanes.crane import LaneRun
 from towercrane.simulation.lanes.many import integrate_many
+from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import record, rows_of
 
 
@@ -83,6 +85,48 @@ def test_wide_swings_finish_with_their_energy():
         summary = summarise(case, result)
         assert summary["energy_balance"]["relative_gap"] < 100.0 * case.solver.rtol
         assert not [notice for notice in summary["notices"] if "balance" in notice]
+
+
+HOISTS = {
+    "let out smoothly": smooth_ramps(2.0, 0.5, 10.0, 20.0),
+    "hauled by an s-curve": s_curve(18.0, 1.0, 0.5, 0.2, 0.1),
+    "let out a little": s_curve(1.0, 2.0, 0.5, 0.2, 0.1),
+}
+
+
+def hung(hoist, method, rtol):
+    """Largest error of the work of a load that hangs while its rope changes, in parts of the largest work."""
+    rope = HOISTS[hoist]
+    drives = {"trolley": rest(30.0), "rope": rope}
+    run = record(qtz5613.model(0, 0), drives, 60.0, method=method, rtol=rtol, atol=1e-2 * rtol)
+    assert run.attrs["outcome"] == "finished"
+    times = run["time"].values
+    # Weight times lift, and half the mass times the square of the speed.
+    exact = 800.0 * (9.81 * (rope(0.0) - rope(times)) + 0.5 * rope(times, 1) ** 2)
+    return np.max(abs(run["input_work"].values - exact)) / np.max(abs(exact))
+
+
+@pytest.mark.parametrize("method", ["dop853", "dopri5", "scipy-dop853", "scipy-rk45", "scipy-lsoda"])
+@pytest.mark.parametrize("hoist", HOISTS)
+def test_rows_of_the_work_of_a_hanging_load_are_its_weight_times_its_lift(hoist, method):
+    assert hung(hoist, method, 1e-8) < 1e-6
+
+
+@pytest.mark.parametrize("hoist", HOISTS)
+def test_the_work_of_a_hanging_load_is_as_good_as_the_tolerance(hoist):
+    # No state but the work moves in a way that a step could be measured by.
+    with pytest.warns(EnergyDriftWarning):
+        errors = [hung(hoist, "scipy-lsoda", rtol) for rtol in (1e-4, 1e-6, 1e-8)]
+    assert errors[2] < 0.1 * errors[1] < 0.01 * errors[0]
+    assert all(error < 20.0 * rtol for error, rtol in zip(errors, (1e-4, 1e-6, 1e-8), strict=True))
+
+
+def test_loads_in_lanes_have_the_tolerance_of_their_own_work():
+    crane = qtz5613.model(0, 0)
+    for mass in (20.0, 5000.0):
+        other = crane.with_load(replace(crane.load, mass=mass))
+        assert np.array_equal(other.system.scale, qtz5613.model(0, 0, load=mass).system.scale)
+        assert other.system.scale[-1] == pytest.approx(mass * 9.81 * crane.scene.crane.jib_length)
 
 
 def test_the_command_ends_with_code_3_and_names_what_to_change(tmp_path, monkeypatch):

@@ -63,6 +63,14 @@ class Load:
     def __post_init__(self) -> None:
         check_fields(self, positive=("mass",), not_negative=("rope_damping", "drag_area"))
 
+    def work_scale(self, gravity: float, length: float) -> float:
+        """Tolerance of the work per unit of that of swing, by gravity [m/s^2] and a length of the crane [m]; [J].
+
+        Work steers where nothing else does, as where the load hangs while its rope is let out, and where it is worse
+        than the balance of energy allows. Without gravity nothing says which work is small: it then steers no step.
+        """
+        return self.mass * gravity * length or np.inf
+
     @property
     def drag(self) -> float:
         """Drag force per squared speed, rho C_d A / 2 [kg/m]."""

@@ -32,8 +32,8 @@ FEW = 10
 UNSTEERED = 1e-3
 """Part of the energy that work may be off by in a run of `FEW` steps.
 
-Work steers no step. Where nothing else does, as for a load that hangs while its rope is let out, it is as good as
-steps are many, by the fifth power at least.
+Steps are long where nothing but the work moves, as for a load that hangs while its rope is let out: rows between
+their ends are as good as steps are many, by the fifth power at least.
 """
 
 ROUNDING = 1e-10

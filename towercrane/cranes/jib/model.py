@@ -133,7 +133,8 @@ class JibModel:
         if not self.rope_as_rod:
             floors[kernel.TENSION] = floors[kernel.PLANNED_TENSION :] = SLACK
         scale = np.ones(works[-1] + 1)
-        scale[list(works)] = np.inf  # It steers no step.
+        reach = self.crane.primary_length + self.crane.secondary_length
+        scale[list(works)] = self.load.work_scale(self.crane.gravity, reach)
         return System(
             equations=lambda: rhs,
             size=works[-1] + 1,

@@ -66,7 +66,7 @@ class OverheadModel:
         crane, load = self.crane, self.load
         guards = (SLACK_ROPE, "bridge force", "trolley force", "first rail", "second rail")
         scale = np.ones(kernel.SIZE)
-        scale[kernel.WORK] = np.inf  # It steers no step.
+        scale[kernel.WORK] = load.work_scale(crane.gravity, crane.bridge_span)
         return System(
             equations=lambda: kernel.rhs,
             size=kernel.SIZE,

@@ -112,7 +112,8 @@ class Equations:
         numbers[kernel.FRICTION_TORQUE], numbers[kernel.FRICTION_RATE] = drive.friction_torque, drive.friction_rate
         numbers[kernel.FRICTION_STATE] = kernel.BY_RATE
         scale = np.ones(self.size)
-        scale[-1] = np.inf
+        reach = sum(abs(link.ahead.get("", 0.0)) for link in crane.points[crane.suspension].links)
+        scale[-1] = self.load.work_scale(crane.gravity, reach)
         rows, width = work_shape(n)
         return System(
             equations=lambda: kernel.rhs,

@@ -125,7 +125,7 @@ def advance(
     )  # fmt: skip
     a, c, error, dense = lent(a), lent(c), lent(error), lent(dense)
     size, rows = y.size, error.shape[0]
-    # The same state steers no step in every run: the work done.
+    # A state without a tolerance steers no step, in every run the same.
     limits, active = queue.atol[0], 0
     for m in range(size):
         active += not np.isinf(limits[m])

@@ -105,7 +105,7 @@ def matrices(model: Coordinates) -> Floats:
 
 
 def scale(model: Coordinates) -> Floats:
-    """Tolerance of each state: metres where a mode moves most, radians of twist and swing; work steers nothing."""
+    """Tolerance of each state: metres where a mode moves most, radians of twist and swing, joules of work."""
     # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
     crane = model.crane
     height, reach = (np.linspace(0.0, length, 201) for length in (crane.tower_height, crane.jib_length))
@@ -114,4 +114,4 @@ def scale(model: Coordinates) -> Floats:
     shapes += [np.ones((model.counts["slewing"], 1)), sides, rises]
     largest = np.concatenate([abs(shape).max(axis=1) for shape in shapes])
     sizes = np.concatenate([1.0 / largest, np.ones(model.axes)])
-    return np.concatenate([sizes, sizes, [np.inf]])
+    return np.concatenate([sizes, sizes, [model.load.work_scale(crane.gravity, crane.jib_length)]])

@@ -86,7 +86,8 @@ class Equations(Coordinates):
     def with_load(self, load: Load) -> Self:
         """The same crane with another load: what does not depend on the load is shared, not made again."""
         other = replace(self, load=load)
-        system = replace(self.system, numbers=numbers(other))
+        steered = np.append(self.system.scale[:-1], load.work_scale(self.crane.gravity, self.crane.jib_length))
+        system = replace(self.system, numbers=numbers(other), scale=steered)
         if self.weight_softening:
             # The load's weight takes stiffness, and with it speed, from the tower.
             system = replace(system, matrices=matrices(other), fastest=lambda: other.fastest)
