@@ -1,5 +1,7 @@
 """Case files with towers of every sort, for the tests of the door and of what comes behind it."""
 
+from samples import case_files
+
 REST = """
 [jib]
 length = "40 m"
@@ -72,21 +74,7 @@ rotation_stiffness = "2 GN m/rad"
 translation_stiffness = "300 MN/m"
 """
 
-CASE = """title = "A tower"
-crane = "crane.toml"
-[payload]
-mass = "800 kg"
-[rope]
-length = "12 m"
-[motion.trolley]
-shape = "trapezoid"
-start = "5 m"
-end = "30 m"
-speed = "0.8 m/s"
-acceleration = "0.1 m/s^2"
-[run]
-duration = "20 s"
-"""
+CASE = case_files.CASE.replace("A case", "A tower").replace("60 s", "20 s")
 
 
 def write_case(folder, tower, *changes, case=CASE):

@@ -6,18 +6,12 @@ from typing import Literal
 
 from pydantic import Field
 
+from towercrane.cranes.parts.tables import CaseTable, CraneTable, StartTable
 from towercrane.schema.fields import (
-    Acceleration,
-    Angle,
-    Expect,
     Inertia,
     Length,
     MassPerLength,
-    Payload,
     Reach,
-    Rope,
-    Run,
-    Solver,
     Table,
 )
 from towercrane.schema.motions import HoistMotion, JointMotion  # noqa: TC001 - pydantic reads annotations
@@ -37,13 +31,10 @@ class Boom(Table):
     mass_per_length: MassPerLength
 
 
-class JibCrane(Table):
+class JibCrane(CraneTable):
     """Jib crane: a post that slews, a boom that luffs and a boom that folds."""
 
-    name: str
-    source: str = ""
     kind: Literal["jib"]
-    gravity: Acceleration = 9.81
     post: Post
     primary_boom: Boom
     secondary_boom: Boom
@@ -58,23 +49,15 @@ class JibMotions(Table):
     hoist: HoistMotion | None = None
 
 
-class JibStart(Table):
+class JibStart(StartTable):
     """Initial state of a jib crane, whose booms go where their joints do."""
 
     state: Literal["equilibrium"] = "equilibrium"
-    swing_angle: Angle = 0.0
 
 
-class JibCase(Table):
+class JibCase(CaseTable):
     """Case of a jib crane."""
 
-    title: str = ""
     crane: JibCrane
-    payload: Payload
-    rope: Rope
     motion: JibMotions
     start: JibStart = Field(default_factory=JibStart)
-    run: Run
-    solver: Solver = Field(default_factory=Solver)
-    allow_implausible: tuple[str, ...] = ()
-    expect: Expect | None = None

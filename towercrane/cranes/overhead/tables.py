@@ -6,21 +6,15 @@ from typing import Literal
 
 from pydantic import Field
 
+from towercrane.cranes.parts.tables import CaseTable, CraneTable, Start
 from towercrane.schema.fields import (
-    Acceleration,
-    Angle,
-    Expect,
     Length,
     Mass,
     MassOrNone,
     MassPerLength,
     Modulus,
-    Payload,
     Ratio,
-    Rope,
-    Run,
     SecondMoment,
-    Solver,
     Table,
 )
 from towercrane.schema.motions import HoistMotion, TrolleyMotion  # noqa: TC001 - pydantic reads annotations
@@ -50,13 +44,10 @@ class Trolley(Table):
     mass: Mass
 
 
-class OverheadCrane(Table):
+class OverheadCrane(CraneTable):
     """Overhead crane: a bridge on a runway, a trolley on the bridge."""
 
-    name: str
-    source: str = ""
     kind: Literal["overhead"]
-    gravity: Acceleration = 9.81
     runway: Runway
     bridge: Bridge
     trolley: Trolley
@@ -70,23 +61,9 @@ class OverheadMotions(Table):
     hoist: HoistMotion | None = None
 
 
-class OverheadStart(Table):
-    """Initial state of an overhead crane; the angle is the rope's from the vertical, positive along the runway."""
+class OverheadCase(CaseTable):
+    """Case of an overhead crane, whose outward is along the runway."""
 
-    state: Literal["equilibrium", "zero"] = "equilibrium"
-    swing_angle: Angle = 0.0
-
-
-class OverheadCase(Table):
-    """Case of an overhead crane."""
-
-    title: str = ""
     crane: OverheadCrane
-    payload: Payload
-    rope: Rope
     motion: OverheadMotions
-    start: OverheadStart = Field(default_factory=OverheadStart)
-    run: Run
-    solver: Solver = Field(default_factory=Solver)
-    allow_implausible: tuple[str, ...] = ()
-    expect: Expect | None = None
+    start: Start = Field(default_factory=Start)

@@ -1,10 +1,63 @@
-"""Tables that crane files of several families have."""
+"""Tables that files of several families have, and what every crane file and every case has."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from towercrane.schema.fields import Corner, HingeDamping, RotaryStiffness, Table, TorqueOrNone, TurningOrNone
+from pydantic import Field
+
+from towercrane.schema.fields import (
+    Acceleration,
+    Angle,
+    Corner,
+    Expect,
+    HingeDamping,
+    Payload,
+    Rope,
+    RotaryStiffness,
+    Run,
+    Solver,
+    Table,
+    TorqueOrNone,
+    TurningOrNone,
+)
+
+
+class CraneTable(Table):
+    """What every crane file has."""
+
+    name: str
+    source: str = ""
+    kind: str
+    gravity: Acceleration = 9.81
+
+
+class StartTable(Table):
+    """Initial state; the angle is the rope's from the vertical, positive outward."""
+
+    state: str = "equilibrium"
+    swing_angle: Angle = 0.0
+
+
+class Start(StartTable):
+    """Initial state of a crane that hangs still, or of one that is let go undeformed."""
+
+    state: Literal["equilibrium", "zero"] = "equilibrium"
+
+
+class CaseTable(Table):
+    """What every case has; each kind has its own crane and motions."""
+
+    title: str = ""
+    crane: CraneTable
+    payload: Payload
+    rope: Rope
+    motion: Table
+    start: StartTable = Field(default_factory=Start)
+    run: Run
+    solver: Solver = Field(default_factory=Solver)
+    allow_implausible: tuple[str, ...] = ()
+    expect: Expect | None = None
 
 
 class Drive(Table):

@@ -6,25 +6,18 @@ from typing import Literal
 
 from pydantic import Field
 
-from towercrane.cranes.parts.tables import Drive, Friction
+from towercrane.cranes.parts.tables import CaseTable, CraneTable, Drive, Friction, Start
 from towercrane.schema.fields import (
-    Acceleration,
-    Angle,
     Damping,
     Drag,
-    Expect,
     HingeDamping,
     Inertia,
     Length,
     Mass,
     MassMomentOrNone,
     MassOrNone,
-    Payload,
     Reach,
-    Rope,
     RotaryStiffness,
-    Run,
-    Solver,
     Stiffness,
     Table,
 )
@@ -149,13 +142,9 @@ class MultiMassDrag(EnhancedDrag):
     counterweight: Drag = 0.0
 
 
-class SlewingCrane(Table):
+class SlewingCrane(CraneTable):
     """What the lumped slewing cranes share."""
 
-    name: str
-    source: str = ""
-    kind: str
-    gravity: Acceleration = 9.81
     geometry: Geometry
     mass: Table
     inertia: BasicInertia
@@ -205,26 +194,12 @@ class SlewingMotions(Table):
     hoist: HoistMotion | None = None
 
 
-class SlewingStart(Table):
-    """Initial state of a slewing crane; the angle is the rope's from the vertical, positive outward."""
-
-    state: Literal["equilibrium", "zero"] = "equilibrium"
-    swing_angle: Angle = 0.0
-
-
-class SlewingCase(Table):
+class SlewingCase(CaseTable):
     """Case of a lumped slewing crane."""
 
-    title: str = ""
     crane: SlewingCrane
-    payload: Payload
-    rope: Rope
     motion: SlewingMotions
-    start: SlewingStart = Field(default_factory=SlewingStart)
-    run: Run
-    solver: Solver = Field(default_factory=Solver)
-    allow_implausible: tuple[str, ...] = ()
-    expect: Expect | None = None
+    start: Start = Field(default_factory=Start)
 
 
 class MultiMassCase(SlewingCase):

@@ -7,21 +7,17 @@ from typing import Annotated, Literal
 from pydantic import Field, StrictBool, StrictInt
 
 from modal.elements.beam_elements import MOST_ELEMENTS
+from towercrane.cranes.parts.tables import CaseTable, StartTable
 from towercrane.cranes.tower.file.tables import RadialCrane, SpaceCrane  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.targets import MOTIONS, RADIAL, SPACE
 from towercrane.schema.fields import (
     Angle,
     EitherSpeed,
-    Expect,
     Length,
     Mass,
     ModeCount,
-    Payload,
     Position,
     Ratio,
-    Rope,
-    Run,
-    Solver,
     SpeedIfAny,
     Table,
     ToleranceIfAny,
@@ -69,11 +65,10 @@ class Model(Table):
     jib_damping_ratio: Ratio = 0.0
 
 
-class Start(Table):
+class Start(StartTable):
     """Initial state of a tower crane; its equilibrium is that in the wind's mean, the angle counts from there."""
 
     state: Literal["equilibrium", "zero", "zero-no-self-weight"] = "equilibrium"
-    swing_angle: Angle = 0.0
 
 
 class ModesRequest(Table):
@@ -100,24 +95,17 @@ class MapRequest(Table):
     payload_masses: tuple[Mass, ...] = ()
 
 
-class RadialCase(Table):
+class RadialCase(CaseTable):
     """Case of a crane in radial motion."""
 
-    title: str = ""
     kind: Literal["radial"] = "radial"
     crane: RadialCrane
-    payload: Payload
-    rope: Rope
     motion: Motions
     model: Model = Field(default_factory=Model)
     start: Start = Field(default_factory=Start)
-    run: Run
-    solver: Solver = Field(default_factory=Solver)
     modes: ModesRequest = Field(default_factory=ModesRequest)
     map: MapRequest = Field(default_factory=MapRequest)
     accuracy: Accuracy = Field(default_factory=Accuracy)
-    allow_implausible: tuple[str, ...] = ()
-    expect: Expect | None = None
 
 
 class SpaceModel(Table):
@@ -156,21 +144,14 @@ class SpaceModesRequest(Table):
     slewing_angles: tuple[Angle, ...] = ()
 
 
-class SpaceCase(Table):
+class SpaceCase(CaseTable):
     """Case of a tower crane in space."""
 
-    title: str = ""
     kind: Literal["space"] = "space"
     crane: SpaceCrane
-    payload: Payload
-    rope: Rope
     motion: SpaceMotions
     wind: Wind | None = None
     model: SpaceModel = Field(default_factory=SpaceModel)
     start: Start = Field(default_factory=Start)
-    run: Run
-    solver: Solver = Field(default_factory=Solver)
     modes: SpaceModesRequest = Field(default_factory=SpaceModesRequest)
     accuracy: SpaceAccuracy = Field(default_factory=SpaceAccuracy)
-    allow_implausible: tuple[str, ...] = ()
-    expect: Expect | None = None

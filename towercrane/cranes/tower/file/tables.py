@@ -6,10 +6,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from towercrane.cranes.parts.tables import Drive, Friction
+from towercrane.cranes.parts.tables import CraneTable, Drive, Friction
 from towercrane.cranes.tower.file.tower_tables import Foundation, Tower
 from towercrane.schema.fields import (
-    Acceleration,
     AreaOrNone,
     InertiaOrNone,
     Length,
@@ -77,17 +76,13 @@ class SmoothFriction(Friction):
     law: Literal["tanh", "none"]
 
 
-class Crane(Table):
+class Crane(CraneTable):
     """Tower crane.
 
     One file serves cases in the jib's plane and in space. The latter alone use torsion of the tower, bending of the
     jib to its sides, the wind's areas, drive, friction and roll inertia.
     """
 
-    name: str
-    source: str = ""
-    kind: str
-    gravity: Acceleration = 9.81
     tower: Tower
     foundation: Foundation = Field(default_factory=Foundation)
     jib: Jib
