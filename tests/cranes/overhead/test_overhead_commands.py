@@ -10,6 +10,8 @@ from typer.testing import CliRunner
 from towercrane.cases.case import CaseError, load_case
 from towercrane.cases.models import poses_of
 from towercrane.cli import app
+from towercrane.cranes.registry import KINDS
+from towercrane.report.plots.runs.panels import run_pictures
 from towercrane.results import files as results
 from towercrane.runs.run import run_case
 
@@ -112,3 +114,16 @@ def test_poses_are_the_run_s_own_places():
     sag = poses.undeformed["bridge"][:, 20, 2] - poses.members["bridge"][:, 20, 2]
     np.testing.assert_allclose(sag, result["bridge_deflection"].values, rtol=0, atol=1e-14)
     assert not poses.planar
+
+
+def test_what_is_nothing_but_rounding_is_drawn_as_none():
+    case = load_case("overhead-crane/hoist", ["run.duration=3 s"])
+    figures = run_pictures(run_case(case), KINDS[case.kind].pictures)
+    drives, rails, tension = figures["forces.png"].axes
+    assert drives.get_ylim() == (-0.05, 0.05)
+    # What is small beside another unit's values is not: deflections beside lengths.
+    for axes in (rails, tension, figures["overview.png"].axes[3]):
+        low, high = axes.get_ylim()
+        drawn = np.concatenate([line.get_ydata() for line in axes.get_lines()])
+        assert low < drawn.min() < drawn.max() < high
+    assert "20000 kg" in figures["forces.png"].get_suptitle()
