@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from towercrane.bench.runs import events
@@ -21,6 +22,16 @@ def test_each_run_ends_as_a_second_method_says_and_keeps_its_energy(sample):
     assert {scene.kind for scene in sample} == set(drawn_events.KINDS)
     assert max(record["gap"] for _, record in found) < 1e-5
     assert max(record["difference"] for _, record in found) < 1e-4
+
+
+@pytest.mark.parametrize("number", [21, 112, 274])
+def test_what_lies_behind_a_guard_does_not_reach_the_step_that_ends_there(number):
+    """A platform that sticks while the shaft turns beyond the coupling's corner: nothing moves but the work."""
+    scene = list(drawn_events.event_scenes(number + 1, 7))[number]
+    run = events._run(scene, "dopri5", 1e-9)
+    energy = run["total_energy"].values
+    assert run.attrs["outcome"] == "finished"
+    assert abs(energy - energy[0] - run["input_work"].values).max() < 1e-7 * np.ptp(energy)
 
 
 def test_rows_switches_and_ends_meet(sample):

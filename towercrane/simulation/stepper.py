@@ -19,13 +19,17 @@ from towercrane.simulation.system import rhs_signature
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
 """How far a phase has come."""
 
-TIME, STEP, SMALLEST, LONGEST = range(4)
-"""Entries of its clock: time since the phase began, next step, smallest step taken, longest step allowed [s]."""
+TIME, STEP, SMALLEST, LONGEST, RETAKES = range(5)
+"""Entries of its clock: time since the phase began, next step, smallest step taken, longest step allowed [s]; how
+often a step is taken anew."""
 
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
 """Entries of its counts."""
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 10.0
+
+SOON, LATE, ROUGHLY = 1e-3, 0.99, 1e-3
+"""A step is taken anew, up to its guard, where that falls between these parts of it, found as exactly as the last."""
 
 SHORTEST = 16.0 * float(np.finfo(np.float64).eps)
 """Part of a phase that is the shortest step."""
@@ -162,7 +166,7 @@ def advance(
         As in :func:`towercrane.simulation.system.rhs_signature`.
     stages, a, c, error, dense, error_order
         As in :class:`towercrane.simulation.methods.runge_kutta.RungeKutta`.
-    clock, counts : ndarray, shapes (4,) and (5,)
+    clock, counts : ndarray, shapes (5,) and (5,)
         Read and written.
     y : ndarray, shape (size,)
         State, carried on in place.
@@ -186,7 +190,7 @@ def advance(
     lowest, highest = ranges[0], ranges[1]
     t, h = clock[TIME], clock[STEP]
     shortest = SHORTEST * t_end
-    taken, grow = 0, GROW
+    taken, grow, full, retaken = 0, GROW, 0.0, 0
     while t < t_end:
         if taken == max_steps or h < shortest:
             clock[TIME], clock[STEP] = t, h
@@ -232,7 +236,7 @@ def advance(
                 counts[EVALUATIONS] += 1
                 widen(lowest, highest, guards)
             suspect = _near(lowest, highest, floors, CLOSE)
-        low, high, crossed = 0.0, 1.0 / LOOKS, -1
+        low, high, crossed, anew = 0.0, 1.0 / LOOKS, -1, False
         while suspect:
             x = high if crossed < 0 else 0.5 * (low + high)
             _dense(y, dense, k, step, x, trial)
@@ -247,7 +251,14 @@ def advance(
                 low = x
             else:
                 low, high = x, x + 1.0 / LOOKS
-            suspect = high <= 1.0 if crossed < 0 else high - low > NARROWEST
+            anew = crossed >= 0 and retaken < clock[RETAKES] and SOON < high < LATE
+            suspect = high <= 1.0 if crossed < 0 else high - low > (ROUGHLY * high if anew else NARROWEST)
+        if anew:
+            # Stages beyond the guard have seen the equations go on there, perhaps around another corner.
+            full, h = max(full, step), high * step
+            counts[REJECTED] += 1
+            retaken += 1
+            continue
         stop = t_new if crossed < 0 else t + high * step
         while counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= stop:
             row = counts[WRITTEN]
@@ -262,13 +273,13 @@ def advance(
         counts[ACCEPTED] += 1
         clock[SMALLEST] = min(clock[SMALLEST], step)
         if crossed >= 0:
-            clock[TIME], clock[STEP] = t, step
+            clock[TIME], clock[STEP] = t, max(step, full)
             counts[GUARD_INDEX] = crossed
             return GUARD
         factor = GROW if norm == 0.0 else SAFETY * norm ** (-1.0 / (error_order + 1))
         # The cut last step of a phase says nothing about the next one's length.
         h = max(h, step * min(grow, factor)) if last else step * min(grow, max(SHRINK, factor))
-        grow = GROW
+        grow, full, retaken = GROW, 0.0, 0
     clock[TIME], clock[STEP] = t, h
     return FINISHED
 

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 STEPS_PER_CALL = 20_000
 """Steps between two looks at progress and the keyboard."""
 
+MOST_RETAKES = 4
+"""Times that a step which ends at a guard is taken anew, up to there; one or two do as a rule."""
+
 MOST_STALLED = 20
 """Switches in a row without time passing at which a run is given up."""
 
@@ -119,7 +122,9 @@ class RungeKutta(Method):
         owner = phase_of(sample_times, phases)
         for phase, inputs in enumerate(phases.inputs):
             begin, t_end = float(phases.times[phase]), float(phases.times[phase + 1] - phases.times[phase])
-            clock = np.array([0.0, step, run.smallest_step, self.longest_step(system.fastest)])
+            # Where a guard ends the run, nothing goes on from its state.
+            retakes = 0.0 if system.switch is None else MOST_RETAKES
+            clock = np.array([0.0, step, run.smallest_step, self.longest_step(system.fastest), retakes])
             mine = owner == phase
             first = int(np.count_nonzero(owner < phase))
             counts = np.zeros(len(run.counts), dtype=np.int64)
