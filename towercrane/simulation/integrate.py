@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,10 +16,12 @@ from towercrane.simulation.outcomes import FINISHED
 from towercrane.simulation.trajectory import ACCEPTED, EVALUATIONS, REJECTED, WRITTEN, Run, Trajectory, phase_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from towercrane.motions.motion import Phases
-    from towercrane.simulation.system import System
+    from towercrane.simulation.system import Switch, System
     from towercrane.simulation.trajectory import Progress
 
     Floats = NDArray[np.float64]
@@ -115,28 +118,47 @@ def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> t
     -------
     slopes, guards : ndarray, shapes (p, size) and (p, len(system.guards))
     """
+    slopes, guards = np.empty_like(states), np.empty((len(times), len(system.guards)))
+    owner = phase_of(times, phases)
+    for phase in np.unique(owner):
+        mine = np.flatnonzero(owner == phase)
+        part = slice(mine[0], mine[-1] + 1)
+        inputs = phases.inputs[phase] if phase < len(phases.inputs) else phases.after
+        under = partial(_under, system, times[part] - phases.times[phase], states[part], inputs)
+        if system.switch is not None and system.switch.changes_equations:
+            slopes[part], guards[part] = _switched(system, system.switch, states[part], under)
+        else:
+            slopes[part], guards[part] = under(system.numbers)
+    return slopes, guards
+
+
+def _under(system: System, times: Floats, states: Floats, inputs: Floats, numbers: Floats) -> tuple[Floats, Floats]:
+    """Slopes and guards of one phase with these numbers in place of the system's own."""
     from towercrane.simulation import stepper
 
     slopes, guards = np.empty_like(states), np.empty((len(times), len(system.guards)))
-    work, owner = np.zeros(system.work_shape), phase_of(times, phases)
-    switch = system.switch if system.switch is not None and system.switch.changes_equations else None
+    work = np.zeros(system.work_shape)
+    stepper.evaluate(
+        system.rhs, times, states, slopes, guards, inputs, numbers, *system.constants[1:], work
+    )  # fmt: skip
+    return slopes, guards
+
+
+def _switched(
+    system: System, switch: Switch, states: Floats, under: Callable[[Floats], tuple[Floats, Floats]]
+) -> tuple[Floats, Floats]:
+    """Slopes and guards where equations switch: each state has its own, but few of them differ."""
+    slopes, guards = np.empty_like(states), np.empty((len(states), len(system.guards)))
     numbers, floors = system.numbers.copy(), system.floors.copy()
-    for phase in np.unique(owner):
-        mine = np.flatnonzero(owner == phase)
-        inputs = phases.inputs[phase] if phase < len(phases.inputs) else phases.after
-        # Where equations switch, each state has its own.
-        parts = [slice(mine[0], mine[-1] + 1)] if switch is None else [slice(row, row + 1) for row in mine]
-        for part in parts:
-            arguments = (
-                system.rhs, times[part] - phases.times[phase], states[part], slopes[part], guards[part], inputs,
-                numbers, *system.constants[1:], work,
-            )  # fmt: skip
-            if switch is not None:
+    found: dict[bytes, tuple[Floats, Floats]] = {}
 
-                def guards_at(arguments: Any = arguments, row: Floats = guards[part.start]) -> Floats:
-                    stepper.evaluate(*arguments)
-                    return row
+    def of_all() -> tuple[Floats, Floats]:
+        key = numbers.tobytes()
+        if key not in found:
+            found[key] = under(numbers)
+        return found[key]
 
-                switch.begin(states[part.start].copy(), numbers, floors, guards_at)
-            stepper.evaluate(*arguments)
+    for row, state in enumerate(states):
+        switch.begin(state.copy(), numbers, floors, lambda row=row: of_all()[1][row])  # type: ignore[misc]
+        slopes[row], guards[row] = (values[row] for values in of_all())
     return slopes, guards
