@@ -1,0 +1,78 @@
+"""What tables of modes, linear models and lattices say: every number, beside made-up reports."""
+
+import numpy as np
+import pytest
+from samples.tables import ASSUMED, said
+
+from towercrane.report.tables.modes import lattice_tables, linear_tables
+from towercrane.report.tables.space import space_modes_tables
+
+pytestmark = pytest.mark.usefixtures("wide")
+
+
+def test_modes_in_space(capsys):
+    shares = {"radial": 0.25, "torsion": 0.75}
+    mode = {"kind": "lateral sway", "frequency_hz": 0.1234567, "relative_difference": 2e-4, "energy_shares": shares}
+    turned = {"value": np.pi / 3.0, "frequencies_hz": [0.25, 0.5], "kinds": ["torsion", "radial sway"]}
+    buckled = {"value": 4.5, "frequencies_hz": [], "kinds": [], "outcome": "tower buckled"}
+    space_modes_tables(
+        {
+            "name": "Some crane", "at": {"trolley_position_m": 12.5, "rope_length_m": 7.5}, "payload_mass_kg": 640.0,
+            "modes": [mode, {**mode, "kind": "torsion", "relative_difference": None}], "pendulum_hz": 0.1820261,
+            "missing_from_the_model": [{"frequency_hz": 0.0987654, "kind": "lateral"}], "assumed": ASSUMED,
+            "sweeps": {"slewing_angle": [turned], "rope_length": [buckled]},
+        }
+    )  # fmt: skip
+    rows, lines = said(capsys)
+    assert rows[0] == ["kind", "frequency [Hz]", "more modes", "radial energy", "torsion energy"]
+    assert rows[1] == ["lateral sway", "0.123457", "-2.0e-04", "25.0%", "75.0%"]
+    assert rows[2] == ["torsion", "0.123457", "-", "25.0%", "75.0%"]
+    assert "missing from the model: 0.098765 Hz, lateral" in lines
+    assert ["60", "0.25000 T", "0.50000 RS"] in rows
+    assert ["4.5", "tower buckled"] in rows
+    assert lines[0] == "Some crane: small motions, trolley 12.5 m, rope 7.5 m, load 640 kg"
+    assert any("swings at 0.182026 Hz" in line for line in lines)
+
+
+def test_a_linear_model(capsys):
+    row = {
+        "dominant_state": "swing_angle",
+        "frequency_hz": 0.16,
+        "damping_ratio": 0.0125,
+        "real": -0.25,
+        "imaginary": 1.5,
+    }
+    signals = [{"name": name, "value": 2.5, "units": "m"} for name in ("trolley", "swing_angle")]
+    linear_tables(
+        {
+            "name": "Some crane", "states": signals, "inputs": signals[:1], "outputs": [], "assumed": ASSUMED,
+            "equilibrium": False, "rope_inclination_rad": 0.0625, "slope": [0.5, -3.25],
+            "eigenvalues": [row, {**row, "dominant_state": "trolley"},
+                            {**row, "dominant_state": "creep", "imaginary": 0.0, "damping_ratio": None,
+                             "real": -1e-9}],
+        },
+        ["trolley"],
+    )  # fmt: skip
+    rows, lines = said(capsys)
+    assert rows[1:] == [
+        ["swing angle", "0.160000", "6.2500", "0.012500", "-0.250000 +- 1.500000i"],
+        ["creep", "0.160000", "", "", "0.000000"],
+    ]
+    assert "trolley 2.5 m" in lines[0]
+    assert "2 states, 1 inputs, 0 outputs; inputs: trolley" in lines
+    assert "small motions about a state that is no equilibrium" in lines[0]
+    assert "the rope leans by 0.0625 rad there" in lines
+    assert "there swing_angle changes by -3.25 m per second" in lines
+
+
+def test_a_lattice(capsys):
+    answers = {"force_deflection": 1.75e-6, "moment_deflection": 9.8e-8, "frequencies_hz": [2.5, 11.5],
+               "body_frequencies_hz": [0.47, 1.52]}  # fmt: skip
+    errors = {"force_deflection": -0.0015, "moment_deflection": 0.155, "frequencies_hz": [0.0026, 0.44],
+              "body_frequencies_hz": [-0.062, 0.13]}  # fmt: skip
+    models = [{"name": name, "answers": answers, "errors": errors, "seconds": 0.042} for name in ("truss", "euler")]
+    lattice_tables({"name": "Some crane", "height_m": 23.8, "models": models, "assumed": ASSUMED})
+    rows, lines = said(capsys)
+    assert rows[1] == ["truss", "1750 um/kN", "98 um/(kN m)", "2.5 Hz", "11.5 Hz", "0.47 Hz", "1.52 Hz", "42.00"]
+    assert rows[2] == ["euler", "-0.15", "+15.50", "+0.26", "+44.00", "-6.20", "+13.00", "42.00"]
+    assert lines[0].startswith("Some crane: lattice of 23.8 m")
