@@ -2,11 +2,10 @@
 
 import json
 from fnmatch import fnmatchcase
-from functools import partial
 from pathlib import Path
 
 import pytest
-from samples.case_files import SEQUENCE, faults_of, only_fault, with_motion, write_case
+from samples.case_files import SEQUENCE, faults_of, only_fault, with_motion
 
 from towercrane.cases.case import CaseError, load_case
 from towercrane.cases.kinds import every_key
@@ -15,12 +14,6 @@ from towercrane.cases.plausibility import RANGES
 from towercrane.cranes.tower.file.members import lattice_of
 from towercrane.schema.faults import shown
 from towercrane.schema.units import to_si
-
-
-@pytest.fixture
-def write(tmp_path):
-    return partial(write_case, tmp_path)
-
 
 # Faults: (replacement in the case, replacement in the crane, key, words of the message)
 

@@ -1,20 +1,13 @@
 """The door for case files: missing and broken files, and overrides of single values."""
 
-from functools import partial
 from pathlib import Path
 
 import pytest
-from samples.case_files import CASE, CRANE, SEQUENCE, faults_of, only_fault, with_motion, write_case
+from samples.case_files import CASE, CRANE, SEQUENCE, faults_of, only_fault, with_motion
 
 from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.file.requests import modes_of
-
-
-@pytest.fixture
-def write(tmp_path):
-    return partial(write_case, tmp_path)
-
 
 # Files
 

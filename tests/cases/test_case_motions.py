@@ -1,20 +1,12 @@
 """The door for case files: motions of trolley and rope, and tables of them."""
 
-from functools import partial
-
 import pytest
-from samples.case_files import faults_of, only_fault, with_motion, write_case
+from samples.case_files import faults_of, only_fault, with_motion
 
 from towercrane.cases.case import CaseError, load_case
 from towercrane.cases.models import motions_of
 from towercrane.cases.profiles import read_points
 from towercrane.cranes.tower.file.requests import modes_of
-
-
-@pytest.fixture
-def write(tmp_path):
-    return partial(write_case, tmp_path)
-
 
 # Motions
 

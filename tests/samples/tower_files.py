@@ -74,6 +74,9 @@ rotation_stiffness = "2 GN m/rad"
 translation_stiffness = "300 MN/m"
 """
 
+FLEXIBLE = 'youngs_modulus = "210 GPa"\nsecond_moment_of_area = "0.002 m^4"\n'
+"""What a counter-jib is said by that bends."""
+
 CASE = case_files.CASE.replace("A case", "A tower").replace("60 s", "20 s")
 
 
