@@ -1,0 +1,36 @@
+"""Modes of the published crane as the command answers them: numbers, discrepancies, assumed values."""
+
+import json
+
+import numpy as np
+from numpy.testing import assert_allclose
+from samples.program import towercrane
+
+
+def test_modes_answers_in_the_documented_json():
+    report = json.loads(towercrane("modes", "qtz5613/condition-3", "--json").stdout)
+    roots = report["tower"]["roots"]
+    assert_allclose(roots, [0.769077, 1.512129, 4.799683, 7.896404], atol=1e-6)
+    printed = np.array([0.765, 1.508, 4.780, 7.896])
+    assert_allclose(np.delete(roots, 2), np.delete(printed, 2), atol=0.005)
+    assert roots[2] - printed[2] > 0.015
+    assert_allclose(report["tower"]["frequencies_hz"][0], 0.477056, atol=1e-6)
+    assert_allclose(report["jib"]["frequencies_hz"][0], 0.436846, atol=1e-6)
+    # The worst of four at 32 elements.
+    differences = np.array(report["finite_elements"]["relative_difference"])
+    assert_allclose(report["finite_elements"]["frequencies_hz"], report["tower"]["frequencies_hz"], rtol=3e-6)
+    assert np.max(abs(differences[:3])) < 1e-6
+    assert [row["trolley_position_m"] for row in report["crane"]] == [5.0, 23.0, 41.0]
+    assert_allclose(report["crane"][2]["frequencies_hz"][:3], [0.117452, 0.311804, 0.794508], atol=1e-6)
+    assert np.max(np.abs(report["crane"][2]["relative_difference"][:3])) < 2e-5
+    assert report["lattice"]["equivalent_second_moment_of_area"]["use"]
+    assert any(entry["key"] == "crane.jib.second_moment_of_area" for entry in report["assumed"])
+
+
+def test_modes_table_names_the_discrepancy_and_the_assumed_values():
+    text = towercrane("modes", "qtz5613/condition-3").stdout
+    assert "(!) discrepancy" in text
+    assert "f [Hz]" in text
+    assert "trolley [m]" in text
+    assert "assumed  crane.jib.second_moment_of_area = 0.0035 m^4" in text
+    assert "next: towercrane run qtz5613/condition-3" in text
