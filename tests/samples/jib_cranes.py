@@ -31,6 +31,9 @@ HEAVY = JibCrane(
 
 LOAD = Load(5000.0)
 
+TIGHT = {"rtol": 1e-11, "atol": 1e-13}
+G = 9.81
+
 
 def planned(crane: JibCrane = HEAVY, load: Load = LOAD, **options) -> PlannedJibCrane:
     return PlannedJibCrane(crane, load, **options)
@@ -72,6 +75,11 @@ def trapezoid_plan() -> dict:
 
 def standing(slew: float = 0.0, luff: float = 0.6, fold: float = -0.2, rope: float = 20.0) -> dict:
     return {"slew": rest(slew), "luff": rest(luff), "fold": rest(fold), "rope": rest(rope)}
+
+
+def constant(*values):
+    """Channels that rest at these values, in the order of the model's."""
+    return tuple(rest(v) for v in values)
 
 
 def peak(values) -> float:
