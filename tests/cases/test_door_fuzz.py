@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from towercrane.cases.case import CaseError, load_case
-from towercrane.cases.plausibility import _rule
+from towercrane.cases.plausibility import ranges_in
 from towercrane.cli import app
 from towercrane.cranes.registry import KINDS
 from towercrane.runs.run import record_case
@@ -101,7 +101,7 @@ def test_odd_files_are_named(content, tmp_path):
 def _runs():
     for kind, keys in RUNS.items():
         for key in keys:
-            rule = _rule(key, kind)
+            rule = ranges_in((key,), kind)[key]
             for value in (rule.low / FARTHEST, rule.high * FARTHEST):
                 yield kind, key, f"{value:.3g}"
 
@@ -111,7 +111,7 @@ def test_absurd_but_finite_numbers_that_a_case_allows_end_by_a_name(kind, key, v
     short = ["run.duration=0.05", "run.output_step=0.05", "solver.rtol=1e-4", f'allow_implausible=["{key}"]']
     case = load_case(CASES[kind], [*short, f"{key}={value}"])
     assert record_case(case).attrs["outcome"]
-    farther = float(value) * (1e-3 if float(value) < _rule(key, kind).low else 1e3)
+    farther = float(value) * (1e-3 if float(value) < ranges_in((key,), kind)[key].low else 1e3)
     (fault,) = said(CASES[kind], *short, f"{key}={farther}")
     assert fault.key == key.removeprefix("crane.") or fault.file.startswith("--set")
 

@@ -12,7 +12,7 @@ from samples.program import towercrane
 
 from towercrane import load_case, run_case, sweep
 from towercrane.cases.kinds import unit_of
-from towercrane.cases.plausibility import RANGES
+from towercrane.cases.plausibility import ranges_in
 from towercrane.cranes.registry import KINDS
 from towercrane.cranes.tower.file.build import radial_model
 from towercrane.cranes.tower.kernels.layout import STIFFNESS
@@ -22,7 +22,6 @@ from towercrane.runs.sweep import grid
 from towercrane.runs.sweep_data import BAD_INPUT, RADIAL_OUTPUTS
 from towercrane.schema.faults import CaseError
 from towercrane.schema.fields import known_keys, tables
-from towercrane.schema.ranges import range_of
 from towercrane.schema.units import to_si
 
 SHORT = ("run.duration=3 s", "solver.rtol=1e-4", "solver.atol=1e-6")
@@ -188,7 +187,7 @@ def drawn(random, case, key, annotation):
     written = tree.get("value") if isinstance(tree, dict) else tree
     if written is not None and not isinstance(written, list):
         return to_si(written, unit) * random.uniform(0.85, 1.1)
-    rule = range_of(key, (*RANGES, *KINDS[case.kind].ranges))
+    rule = ranges_in((key,), case.kind).get(key)
     return None if rule is None else float(np.exp(random.uniform(np.log(rule.low), np.log(rule.high))))
 
 

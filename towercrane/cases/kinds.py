@@ -76,7 +76,12 @@ def every_key() -> frozenset[str]:
 
 def knows(kind: str, key: str) -> bool:
     """Whether a kind knows a dotted key."""
-    return key in _keys(kind)
+    return plain_key(key) in _keys(kind)
+
+
+def known_leaves(tree: dict[str, Any], kind: str) -> dict[str, Any]:
+    """Values of a case as written by those dotted keys that a kind knows."""
+    return {key: value for key, value in leaves(tree) if knows(kind, key)}
 
 
 def known_to(key: str) -> list[str]:

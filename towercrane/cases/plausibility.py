@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cases.kinds import knows, plain_key
+from towercrane.cases.kinds import known_leaves
 from towercrane.cranes.registry import KINDS
 from towercrane.schema.faults import Fault, did_you_mean, shown
 from towercrane.schema.ranges import (
@@ -17,10 +17,10 @@ from towercrane.schema.ranges import (
     TURNS,
     Range,
     at,
-    range_of,
+    out_of_range,
+    ranges_of,
     si_at,
 )
-from towercrane.schema.text import leaves
 from towercrane.simulation.methods.registry import METHODS
 
 if TYPE_CHECKING:
@@ -126,23 +126,21 @@ RANGES = (
 """Of several rows that fit a key the last holds, or one of the crane's kind."""
 
 
-@lru_cache(maxsize=4096)
-def _rule(key: str, kind: str) -> Range | None:
-    """The range of a dotted key."""
-    return range_of(key, (*RANGES, *KINDS[kind].ranges))
+@lru_cache(maxsize=64)
+def ranges_in(keys: tuple[str, ...], kind: str) -> dict[str, Range]:
+    """Ranges of those dotted keys of a kind of crane that have one."""
+    return ranges_of(keys, (*RANGES, *KINDS[kind].ranges))
 
 
 def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> Iterator[Fault]:
     """Values outside their range for this kind of crane, except where the case allows them."""
-    ruled = {}
-    for key, value in leaves(tree):
-        if knows(kind, plain_key(key)) and (rule := _rule(key, kind)):
-            ruled[key] = rule.fault(key, value, allowed=key in allowed)
+    values = known_leaves(tree, kind)
+    ranges = ranges_in(tuple(values), kind)
     for key in allowed:
-        if key not in ruled:
-            wanted, hint = "keys of this case whose range is checked", did_you_mean(key, ruled)
+        if key not in ranges:
+            wanted, hint = "keys of this case whose range is checked", did_you_mean(key, ranges)
             yield Fault("", "allow_implausible", wanted, shown(key), hint)
-    yield from (fault for fault in ruled.values() if fault)
+    yield from out_of_range(values, ranges, allowed)
 
 
 def check_values(tree: dict[str, Any]) -> Iterator[Fault]:

@@ -84,7 +84,7 @@ def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
     from math import prod
 
     from towercrane.cases.case import load_case
-    from towercrane.cases.kinds import knows, plain_key, unit_of
+    from towercrane.cases.kinds import knows, unit_of
     from towercrane.schema.units import UnitError, to_si
 
     values: dict[str, list[Any]] = {}
@@ -96,7 +96,7 @@ def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
         if key in values:
             fail(f"--vary {option}: the key stands in two options")
         unit, parts = unit_of(case.kind, key), [part.strip() for part in written.split(":")]
-        if not knows(case.kind, plain_key(key)):
+        if not knows(case.kind, key):
             # The case itself tells best what is wrong with a key.
             load_case(case.path, [*case.changes, f"{key}={parts[0].partition(',')[0]}"])
         try:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cases.case import Case, load_case
-from towercrane.cases.kinds import knows, plain_key, unit_of
+from towercrane.cases.kinds import knows, unit_of
 from towercrane.cranes.registry import KINDS
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import accuracy, peaks
@@ -102,7 +102,7 @@ def _read(case: Case, vary: Mapping[str, Sequence[Value] | Floats]) -> dict[str,
     values: dict[str, list[Value]] = {}
     for key, given in vary.items():
         plain = [value.item() if isinstance(value, np.generic) else value for value in given]
-        if not knows(case.kind, plain_key(key)):
+        if not knows(case.kind, key):
             # The message is the case's own.
             load_case(case.path, [*case.changes, change(key, plain[0])])
         unit = unit_of(case.kind, key)

@@ -79,6 +79,11 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
+def printable_lines(text: str) -> str:
+    """Printable text that may have several lines."""
+    return text if text.isprintable() else "\n".join(map(printable, text.split("\n")))
+
+
 def shown(value: object) -> str:
     """A TOML value as its author would write it, shortened to one line."""
     if isinstance(value, dict):

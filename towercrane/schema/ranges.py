@@ -10,7 +10,7 @@ from towercrane.schema.faults import Fault, shown
 from towercrane.schema.units import UnitError, split, to_si
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
 FARTHEST = 1e9
 """How many times beyond its range a value may lie that the case allows: numbers farther off overflow in products."""
@@ -53,18 +53,18 @@ class Range:
         A value that cannot be read is for others to report.
         """
         try:
-            size = to_si(value, self.unit) * (-1.0 if self.signed and split(value)[0] < 0.0 else 1.0)
-            number = abs(split(value)[0])
+            size = to_si(value, self.unit)
         except UnitError:
             return None
         beyond = FARTHEST if allowed else 1.0
-        low, high = self.low / beyond, self.high * beyond
+        low, high, size = self.low / beyond, self.high * beyond, abs(size) if self.signed else size
         if size <= 0.0 or low <= size <= high:
             return None
         wanted = f"a value from {low:g} to {high:g} {self.unit}".removesuffix(" 1")
         if allowed:
             return Fault("", key, wanted, shown(value), "beyond that an implausible value cannot be computed with")
         allow = f'if it is right, put allow_implausible = ["{key}"] at the top of the case file'
+        number = abs(split(value)[0])
         unit = next((unit for unit in self.likely if self._holds(f"{number!r} {unit}")), None)
         hint = f"{unit} meant? {allow}" if unit else allow
         return Fault("", key, wanted, f"{shown(value)}, which is not plausible", hint)
@@ -77,9 +77,16 @@ class Range:
             return False
 
 
-def range_of(key: str, rows: Sequence[Range]) -> Range | None:
-    """The range of a dotted key: of several rows that fit it the last; None where none does."""
-    return next((row for row in reversed(rows) if row.is_for(key)), None)
+def ranges_of(keys: Iterable[str], rows: Sequence[Range]) -> dict[str, Range]:
+    """Ranges of those dotted keys that have one: of several rows that fit a key the last."""
+    found = {key: next((row for row in reversed(rows) if row.is_for(key)), None) for key in keys}
+    return {key: row for key, row in found.items() if row}
+
+
+def out_of_range(values: Mapping[str, object], ranges: Mapping[str, Range], allowed: Collection[str]) -> list[Fault]:
+    """Faults of values that lie outside the ranges of their keys, those at ``allowed`` keys far outside."""
+    faults = [row.fault(key, values[key], allowed=key in allowed) for key, row in ranges.items()]
+    return [fault for fault in faults if fault]
 
 
 LENGTHS = ("mm", "cm", "km", "ft")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from towercrane.schema.faults import CaseError, Fault, did_you_mean, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
 ABOUT = ("assumed", "source")
@@ -334,13 +334,9 @@ def split_provenance(tree: dict[str, Any]) -> tuple[dict[str, Any], list[Assumpt
     return (result if isinstance(result, dict) else {}), found, faults
 
 
-def leaves(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+def leaves(node: Any, key: str = "") -> list[tuple[str, Any]]:
     """Dotted key and value of everything that is neither table nor list."""
-    if isinstance(node, dict):
-        for name, item in node.items():
-            yield from leaves(item, f"{key}.{name}" if key else name)
-    elif isinstance(node, list):
-        for index, item in enumerate(node):
-            yield from leaves(item, f"{key}.{index}")
-    else:
-        yield key, node
+    if not isinstance(node, dict | list):
+        return [(key, node)]
+    items = node.items() if isinstance(node, dict) else enumerate(node)
+    return [leaf for name, item in items for leaf in leaves(item, f"{key}.{name}" if key else str(name))]

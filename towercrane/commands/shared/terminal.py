@@ -169,9 +169,9 @@ def say(text: str) -> None:
 
 
 def _readable(text: str) -> str:
-    from towercrane.schema.faults import printable
+    from towercrane.schema.faults import printable_lines
 
-    return "\n".join(line if line.isprintable() else printable(line) for line in text.split("\n"))
+    return printable_lines(text)
 
 
 def show_warning(message: Warning | str) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from towercrane.schema.faults import printable
+from towercrane.schema.faults import printable_lines
 
 if TYPE_CHECKING:
     from matplotlib.backend_bases import RendererBase
@@ -49,5 +49,5 @@ class LiteralFigure(Figure):
 def _shown(text: str, longest: int) -> str:
     """Text as it can be drawn."""
     lines = text.split("\n")
-    short = "\n".join(printable(line) for line in lines[:MOST_LINES]) + (" ..." if len(lines) > MOST_LINES else "")
+    short = printable_lines("\n".join(lines[:MOST_LINES])) + (" ..." if len(lines) > MOST_LINES else "")
     return short if len(short) <= longest else short[: longest - 3] + "..."

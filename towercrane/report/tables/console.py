@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 
-from towercrane.schema.faults import printable
+from towercrane.schema.faults import printable_lines
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -17,5 +17,5 @@ class ReportConsole(Console):
 
     def render_str(self, text: str, **options: Any) -> Text:
         """Text as it is printed."""
-        lines = "\n".join(printable(line) for line in text.split("\n"))
-        return super().render_str(lines, **{**options, "markup": False, "emoji": False, "highlight": False})
+        spelled = text if text.isprintable() else printable_lines(text)
+        return super().render_str(spelled, **{**options, "markup": False, "emoji": False, "highlight": False})
