@@ -17,7 +17,7 @@ from towercrane.cranes.slewing.build import parameters_of
 from towercrane.cranes.slewing.parameters import BasicParameters, EnhancedParameters, MultiMassParameters
 from towercrane.cranes.slewing.tables import SlewingCase
 from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
-from towercrane.schema.text import split_provenance
+from towercrane.schema.provenance import split_provenance
 
 RAMPS = {
     "multi-mass": [(0.71, 8), (1.42, 8), (2.13, 6), (2.84, 6), (3.55, 6), (4.26, 6)],

@@ -11,7 +11,7 @@ from towercrane.cases.case import case_folder, list_cases, load_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.file.build import radial_crane
 from towercrane.cranes.tower.file.members import lattice_of
-from towercrane.schema.text import split_provenance
+from towercrane.schema.provenance import split_provenance
 
 
 def test_shipped_cases_load_anywhere(tmp_path, monkeypatch):

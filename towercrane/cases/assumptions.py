@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from towercrane.cases.case import Case
-    from towercrane.schema.text import Assumption
+    from towercrane.schema.provenance import Assumption
 
 
 def rests_on(case: Case, *, exact_crane: bool = False, all_modes: bool = False) -> tuple[Assumption, ...]:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from towercrane.cases.shipped import case_folder, case_name, find_case, list_cases
 from towercrane.schema.faults import CaseError, Fault
-from towercrane.schema.text import Assumption, in_utf8, read_case, split_provenance
+from towercrane.schema.provenance import Assumption, split_provenance
+from towercrane.schema.text import in_utf8, read_case
 
 if TYPE_CHECKING:
     import os

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from towercrane.cases.case import Case
 from towercrane.cases.kinds import kind_of
 from towercrane.cranes.registry import KINDS
-from towercrane.schema.text import split_provenance
+from towercrane.schema.provenance import split_provenance
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from towercrane.schema.faults import CaseError, Fault, closest
-from towercrane.schema.text import is_file, read_toml
+from towercrane.schema.toml_files import is_file, read_toml
 
 
 def case_folder() -> Path:

@@ -1,48 +1,19 @@
-"""Text of a case: TOML files, overrides and the provenance of single values, before anything is checked."""
+"""Text of a case: its file, the crane file it names and the overrides, merged before anything is checked."""
 
 from __future__ import annotations
 
 import os
-import re
 import tomllib
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from towercrane.schema.faults import CaseError, Fault, did_you_mean, shown
+from towercrane.schema.toml_files import DEEPEST, is_deep, is_file, read_toml
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
-
-ABOUT = ("assumed", "source")
-"""What may stand beside `value` in a table that says where a value is from."""
-
-
-DEEPEST = 20
-"""Tables and lists within each other; a case has a handful."""
-
-LARGEST = 4 * 2**20
-"""Bytes of a case or a crane file; those that ship with the program have a few thousand."""
-
-
-@dataclass(frozen=True, slots=True)
-class Assumption:
-    """A value that no source gives.
-
-    Parameters
-    ----------
-    key : str
-        Dotted key from the case's root.
-    value : object
-        The value as written.
-    why : str
-        Why this value was taken.
-    """
-
-    key: str
-    value: object
-    why: str
 
 
 @dataclass
@@ -125,38 +96,6 @@ def read_case(path: Path, overrides: Sequence[str], known: Callable[[], frozense
     return text
 
 
-def read_toml(path: Path, known: Callable[[], frozenset[str]] = frozenset) -> dict[str, Any]:
-    """Parse a TOML file.
-
-    Parameters
-    ----------
-    path : Path
-    known : callable
-        Every dotted key of a case: of a text that cannot be parsed a line is shown if it has no other tables.
-
-    Raises
-    ------
-    CaseError
-        If the file cannot be opened, is not UTF-8 or not TOML.
-    """
-    wanted = "a TOML file"
-    try:
-        with path.open("rb") as file:
-            data = file.read(LARGEST + 1)
-        if len(data) > LARGEST:
-            raise CaseError([Fault(str(path), "", f"{wanted} of at most {LARGEST} bytes", "a larger one")])
-        content = data.decode("utf-8-sig")
-    except OSError as error:
-        raise CaseError([Fault(str(path), "", wanted, (error.strerror or "no file").lower())]) from None
-    except UnicodeDecodeError as error:
-        got = f"a byte that is not UTF-8 at position {error.start}"
-        raise CaseError([Fault(str(path), "", wanted, got, "save the file with the encoding UTF-8")]) from None
-    try:
-        return tomllib.loads(content)
-    except (ValueError, RecursionError) as error:
-        raise CaseError([_syntax_fault(path, content, error, known)]) from None
-
-
 def in_utf8(override: str) -> str:
     """An override whose bytes were no text where the terminal's encoding is another.
 
@@ -172,52 +111,6 @@ def in_utf8(override: str) -> str:
             return os.fsencode(override).decode()
         raise CaseError([Fault(f"--set {override}", "", "text in UTF-8", shown(override))]) from None
     return override
-
-
-def is_deep(tree: Any) -> bool:
-    """Whether tables and lists lie so deep within each other that a walk through them would not end well."""
-    level = [tree] if isinstance(tree, dict | list) else []
-    for _ in range(DEEPEST):
-        level = [item for node in level for item in (node.values() if isinstance(node, dict) else node)]
-        level = [item for item in level if isinstance(item, dict | list)]
-    return bool(level)
-
-
-def is_file(path: Path) -> bool:
-    """Whether a file is there; a name that no file can have is none."""
-    try:
-        return path.is_file()
-    except (OSError, ValueError):
-        return False
-
-
-def _syntax_fault(path: Path, content: str, error: Exception, known: Callable[[], frozenset[str]]) -> Fault:
-    message = str(error)
-    at = re.search(r"\s*\(at line (\d+), column (\d+)\)", message)
-    if not at:
-        where = "end of file" if "end of document" in message else ""
-        return Fault(str(path), where, "TOML", message.split(" (at")[0] or "unreadable text")
-    line = content.splitlines()[int(at[1]) - 1 : int(at[1])]
-    written = line[0].strip() if line else ""
-    hint = ""
-    if re.search(r"=\s*[-+.\d]+\s*[A-Za-z°%]", written) or re.search(r"=\s*[A-Za-z]", written):
-        hint = 'text and quantities with a unit stand in quotes: mass = "800 kg"'
-    elif "Cannot overwrite" in message or "Cannot declare" in message:
-        hint = "the same key or table stands in the file twice"
-    said = message[: at.start()]
-    if _is_ours(content, known()):
-        said = f"{said}: {shown(written)}"
-    else:
-        # Any file that the program can read may have been named: neither its lines nor its keys are shown.
-        said = re.sub(r"\s+(\(.*\)|'[^='\]\\]+')", "", said)
-    return Fault(str(path), f"line {at[1]}, column {at[2]}", "TOML", said, hint)
-
-
-def _is_ours(content: str, known: frozenset[str]) -> bool:
-    """Whether all tables of a text that cannot be parsed are those of a case or a crane."""
-    tables = {name for key in known for name in (key, key.removeprefix("crane."))}
-    headings = re.findall(r"^\s*\[+\s*([^\[\]]*?)\s*\]+", content, re.MULTILINE)
-    return bool(headings) and tables.issuperset(headings)
 
 
 def _setting(text: CaseText, override: str) -> tuple[str, Any, str] | None:
@@ -304,34 +197,6 @@ def _read_crane(text: CaseText, known: Callable[[], frozenset[str]]) -> None:
         text.faults.append(Fault(str(path), "", wanted, "a case file, which names a crane itself", hint))
         return
     text.tree["crane"], text.crane_path = crane, path
-
-
-def split_provenance(tree: dict[str, Any]) -> tuple[dict[str, Any], list[Assumption], list[Fault]]:
-    """Replace each table ``{value = ..., assumed = "why"}`` by its value; list assumptions, crane's first."""
-    found: list[Assumption] = []
-    faults: list[Fault] = []
-
-    def plain(node: Any, key: str) -> Any:
-        if isinstance(node, list):
-            return [plain(item, f"{key}.{i}") for i, item in enumerate(node)]
-        if not isinstance(node, dict):
-            return node
-        if "value" not in node:
-            return {name: plain(item, f"{key}.{name}" if key else name) for name, item in node.items()}
-        for name, why in node.items():
-            if name != "value" and name not in ABOUT:
-                hint = did_you_mean(name, ABOUT)
-                got = f'the unknown key "{name}"'
-                faults.append(Fault("", f"{key}.{name}", "beside value: assumed or source", got, hint))
-            elif name in ABOUT and not (isinstance(why, str) and why.strip()):
-                faults.append(Fault("", f"{key}.{name}", "a text that says why or where from", shown(why)))
-            elif name == "assumed":
-                found.append(Assumption(key, node["value"], why))
-        return node["value"]
-
-    result = plain(tree, "")
-    found.sort(key=lambda a: not a.key.startswith("crane."))
-    return (result if isinstance(result, dict) else {}), found, faults
 
 
 def leaves(node: Any, key: str = "") -> list[tuple[str, Any]]:
