@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modal.structures.kernels.piece import TERMS
+from modal.structures.kernels.stiffness import ROWS
+from modal.structures.kernels.structure import block_count, dynamic_stiffness, find_roots, find_runs
 from modal.structures.members import HELD, POINTS, Members
-from modal.structures.piece import TERMS
-from modal.structures.stiffness import ROWS
-from modal.structures.structure_kernel import block_count, dynamic_stiffness, find_roots, find_runs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     Runs = NDArray[np.int64]
 
 LONGEST = 5
-"""Blocks, see `modal.structures.stiffness`, that a run may have without a node of its own; each is 1.7 rad of wave at
-most."""
+"""Blocks, see `modal.structures.kernels.stiffness`, that a run may have without a node of its own; each is 1.7 rad of
+wave at most."""
 
 MOST_RUNS = 128
 """Number of runs from which on they get longer instead: matrices are full."""
@@ -43,7 +43,7 @@ class Assembly:
     units : tuple of float
         Length [m], force [N] and circular frequency [rad/s] that the arrays are counted in.
     segments, nodes, runs, motions, points : ndarray
-        As `modal.structures.structure_kernel` takes them.
+        As `modal.structures.kernels.structure` takes them.
     composition : ndarray, shape (u, n)
         What turns the arrays' unknowns into the structure's u [m, rad]; beyond single blocks they are departures, and
         those inside a run do not follow.
@@ -208,7 +208,7 @@ def units_of(structure: Members) -> tuple[float, float, float]:
 
 
 def row_of(member: Member, structure: Members, units: tuple[float, float, float]) -> Floats:
-    """Row of `modal.structures.piece` for a member, shape (13,)."""
+    """Row of `modal.structures.kernels.piece` for a member, shape (13,)."""
     s, (length, force, frequency) = member.segment, units
     mass = force / (length * frequency**2)
     flexibility = 0.0 if isinf(s.shear_stiffness) else force / s.shear_stiffness

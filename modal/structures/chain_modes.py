@@ -11,8 +11,9 @@ import numpy as np
 
 from modal.beams.beam import EndBody
 from modal.checks import whole_number
+from modal.structures.part_shapes import DEFLECTION, ROTATION, PartShapes
 from modal.structures.structure import chain_structure
-from modal.structures.structure_modes import DEFLECTION, ROTATION, PartShapes, structure_modes
+from modal.structures.structure_modes import structure_modes
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -15,12 +15,14 @@ import numpy as np
 
 from modal.beams.beam import EndBody
 from modal.beams.chain import Chain, Foundation
-from modal.structures.structure_modes import FORCE, MOMENT, SLOPE, StructureModes
+from modal.structures.part_shapes import FORCE, MOMENT, SLOPE
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
     from numpy.typing import NDArray
+
+    from modal.structures.structure_modes import StructureModes
 
     Floats = NDArray[np.float64]
 

@@ -46,7 +46,7 @@ def test_a_change_of_a_source_names_another_cache(tmp_path, monkeypatch):
 
 RUN, STEPPER = ["towercrane.cranes.tower.kernels.rhs", "modal.beams.roots"], "towercrane.simulation.stepper"
 REST = ["towercrane.cranes.tower.kernels.structure", "modal.beams.roots"]
-STRUCTURE = ["modal.structures.structure_kernel", "modal.structures.shape_kernel"]
+STRUCTURE = ["modal.structures.kernels.structure", "modal.structures.kernels.shapes"]
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from modal.compiler.folder import is_compiled
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess
 
-TOGETHER = ("modal.structures.structure_kernel", "modal.structures.shape_kernel")
+TOGETHER = ("modal.structures.kernels.structure", "modal.structures.kernels.shapes")
 """Kernels of exact structures, which call the same functions: a process compiles these once."""
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.structures.structure_modes import DEFLECTION
+from modal.structures.part_shapes import DEFLECTION
 from towercrane.cranes.tower.equations.small_motions import reciprocal_modes
 from towercrane.studies.branches import CLEAR
 from towercrane.studies.plane_modes import MEMBERS

@@ -10,8 +10,9 @@ import numpy as np
 
 from modal import crane_structure
 from modal.structures.members import HELD
+from modal.structures.part_shapes import DEFLECTION, MOMENT, ROTATION, SLOPE
 from modal.structures.structure import Structure
-from modal.structures.structure_modes import DEFLECTION, MOMENT, ROTATION, SLOPE, structure_modes
+from modal.structures.structure_modes import structure_modes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
 
     from modal import Chain, CraneFrame
     from modal.structures.members import Member
-    from modal.structures.structure_modes import PartShapes, StructureModes
+    from modal.structures.part_shapes import PartShapes
+    from modal.structures.structure_modes import StructureModes
 
     Floats = NDArray[np.float64]
 
@@ -39,7 +41,7 @@ outward force at the top."""
 
 
 class Shapes(Protocol):
-    """Shapes of n modes along one part, such as :class:`modal.structures.structure_modes.PartShapes`."""
+    """Shapes of n modes along one part, such as :class:`modal.structures.part_shapes.PartShapes`."""
 
     def evaluate(self, position: Floats | float, quantity: int = DEFLECTION) -> Floats:
         """Deflection or rotation at positions along the part [m], shape (n, *positions)."""

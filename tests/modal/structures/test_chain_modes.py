@@ -10,7 +10,8 @@ from samples.qtz5613 import CRANE
 
 from modal import Beam, Chain, CraneFrame, EndBody, Foundation, Segment, cantilever_modes, crane_structure
 from modal.structures.chain_modes import chain_modes
-from modal.structures.structure_modes import FORCE, MOMENT, ROTATION, SLOPE, structure_modes
+from modal.structures.part_shapes import FORCE, MOMENT, ROTATION, SLOPE
+from modal.structures.structure_modes import structure_modes
 
 TOWER, END_BODY = CRANE.tower, CRANE.end_body
 EI = TOWER.bending_stiffness

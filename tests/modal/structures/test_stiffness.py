@@ -12,10 +12,10 @@ from oracles.determinants import state_matrix
 from modal.beams.chain import Chain
 from modal.beams.segment import Segment
 from modal.compiler.compiled import kernel
-from modal.structures.blocks import SIZES, grown
+from modal.structures.kernels.block_stiffness import make_absolute, relative_stiffness
+from modal.structures.kernels.blocks import SIZES, grown
+from modal.structures.kernels.piece import SERIES, TERMS, piece_transfer, pieces_within
 from modal.structures.members import HELD, Member
-from modal.structures.piece import SERIES, TERMS, piece_transfer, pieces_within
-from modal.structures.stiffness import make_absolute, relative_stiffness
 from modal.structures.structure import Structure, chain_frequencies, chain_structure
 
 INF = float("inf")

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
 
 ROOTS = "modal.beams.roots"
-STRUCTURE, SHAPES = "modal.structures.structure_kernel", "modal.structures.shape_kernel"
+STRUCTURE, SHAPES = "modal.structures.kernels.structure", "modal.structures.kernels.shapes"
 STEPPER = "towercrane.simulation.stepper"
 RUN = ("towercrane.cranes.tower.kernels.rhs", ROOTS)
 AT_REST = ("towercrane.cranes.tower.kernels.structure", ROOTS)

@@ -1,10 +1,10 @@
 """Compiled assembly of runs of segments and bodies into a dynamic stiffness, the count of its modes and their search.
 
 Kernels take a structure as five arrays: ``segments`` (s, 13) and ``nodes`` (s, 3, 3), see
-`modal.structures.stiffness`; ``runs`` (r, 3), the first segment of each run, the first after it, and whether it is a
-single block; ``motions`` (r, 4, n), how (v, theta) of a run's near and far end follow the n unknowns; ``points`` (3,
-n, n), stiffness of springs, geometric stiffness of bodies under unit load (to be taken away), mass of bodies. A
-circular frequency and a load factor say which dynamic stiffness is meant.
+`modal.structures.kernels.stiffness`; ``runs`` (r, 3), the first segment of each run, the first after it, and whether
+it is a single block; ``motions`` (r, 4, n), how (v, theta) of a run's near and far end follow the n unknowns;
+``points`` (3, n, n), stiffness of springs, geometric stiffness of bodies under unit load (to be taken away), mass of
+bodies. A circular frequency and a load factor say which dynamic stiffness is meant.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ import numpy as np
 from numba import types
 
 from modal.compiler.compiled import kernel
-from modal.structures.blocks import SIZES, blocks_of, clear, laden
-from modal.structures.nodes import BODIES, GEOMETRIC, SPRINGS
-from modal.structures.piece import (
+from modal.structures.kernels.blocks import SIZES, blocks_of, clear, laden
+from modal.structures.kernels.nodes import BODIES, GEOMETRIC, SPRINGS
+from modal.structures.kernels.piece import (
     BENDING,
     BENDING_POWER,
     LENGTH,
@@ -29,7 +29,7 @@ from modal.structures.piece import (
     piece_of,
     pieces_within,
 )
-from modal.structures.stiffness import KEPT, MEASURE, TOTAL, UNSTABLE, run_stiffness
+from modal.structures.kernels.stiffness import KEPT, MEASURE, TOTAL, UNSTABLE, run_stiffness
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 _runs = types.int64[:, ::1]

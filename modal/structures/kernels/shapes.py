@@ -8,8 +8,8 @@ import numpy as np
 from numba import types
 
 from modal.compiler.compiled import kernel
-from modal.structures.nodes import node_stiffness
-from modal.structures.piece import (
+from modal.structures.kernels.nodes import node_stiffness
+from modal.structures.kernels.piece import (
     BENDING,
     BENDING_POWER,
     TERMS,
@@ -20,7 +20,7 @@ from modal.structures.piece import (
     pieces_within,
     state_series,
 )
-from modal.structures.stiffness import ROWS, SCALED, SLOT, STATE, run_stiffness
+from modal.structures.kernels.stiffness import ROWS, SCALED, SLOT, STATE, run_stiffness
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 
@@ -65,7 +65,7 @@ def run_shape(
     Parameters
     ----------
     segments, nodes, first, last, single, highest
-        As `modal.structures.stiffness.run_stiffness` takes them.
+        As `modal.structures.kernels.stiffness.run_stiffness` takes them.
     held : ndarray, shape (4,)
         (v, theta) at the near and the far end; of a single block the far end's departure.
     out : ndarray, shape (p, TERMS + 1, 5)

@@ -5,16 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 from modal.compiler.compiled import kernel
-from modal.structures.nodes import BODIES, GEOMETRIC
-from modal.structures.piece import bounds, cell, cells, piece_of, pieces_within
+from modal.structures.kernels.nodes import BODIES, GEOMETRIC
+from modal.structures.kernels.piece import bounds, cell, cells, piece_of, pieces_within
 
 BLOCK = 0.8
-"""The same as `modal.structures.piece.PIECE` for a block of several pieces."""
+"""The same as `modal.structures.kernels.piece.PIECE` for a block of several pieces."""
 
 SIZES = 7
 """Numbers that measure a block: its length; ``int dx/EI``, ``int x dx/EI`` and ``int x^2 dx/EI`` with x the distance
 from the far end; ``int dx/S``; what inertia takes under unit circular frequency; the largest force, see
-`modal.structures.piece.bounds`."""
+`modal.structures.kernels.piece.bounds`."""
 
 
 @kernel()
@@ -27,7 +27,7 @@ def clear(sizes: Any) -> None:
 @kernel()
 def _strained(sizes: Any, omega2: float) -> float:
     """Part of a block's energy that inertia and compression take at most, see
-    `modal.structures.piece.pieces_within`."""
+    `modal.structures.kernels.piece.pieces_within`."""
     return float(omega2 * sizes[5] + sizes[6] * sizes[0] * sizes[1])
 
 

@@ -1,46 +1,14 @@
-"""Dynamic stiffness of a run of segments between its two ends, and its count of fixed-end modes.
-
-Short pieces, see `modal.structures.piece`, are put together as transfers of their states while no more than a block
-comes about that cannot vibrate or buckle with its ends held: however finely a beam is cut, its stiffness is that of
-blocks of the size of its waves. Blocks are joined by condensing the node between them. Joining keeps the count of
-Wittrick and Williams (1971): a negative eigenvalue of the condensed node is one more fixed-end mode below the
-frequency. So neither the count of a closed form with its blind spots at simply supported frequencies nor growing
-exponentials appear anywhere.
-"""
+"""Dynamic stiffness of a block: from its transfer, and joined to that of the blocks before it."""
 
 from __future__ import annotations
 
-from itertools import accumulate
 from typing import Any
 
 from modal.compiler.compiled import kernel
 from modal.compiler.traced import traced
-from modal.structures.blocks import SIZES, clear, grown, laden
-from modal.structures.nodes import load_node
-from modal.structures.piece import (
-    RATIO,
-    SERIES,
-    TERMS,
-    WEIGHT,
-    cell,
-    cells,
-    piece_of,
-    piece_transfer,
-    pieces_within,
-)
-
-UNSTABLE = 1 << 30
-"""Count where a segment has no shear stiffness left (Engesser)."""
 
 STIFF = 0.3
 """Largest part of a motion that the flexibility of a block may add where it counts as stiff beside those before."""
-
-SLOT = 7
-"""Rows that keep a block: its relative stiffness (4, 4); what gives the node before it (2, 4), see `join`; its
-length, the pieces to its end, whether what acts on the node before it belongs to it, and whether it is stiff."""
-
-STATE, SCALED, PIECE, TRANSFER, KEPT, MEASURE, TOTAL, ROWS = accumulate((SERIES, TERMS + 1, 4, 4, 4, SLOT, 1, 4))
-"""Rows of the scratch array where its parts begin, after a piece's series; the last is their number."""
 
 
 @traced
@@ -155,22 +123,7 @@ def join(near: Any, piece: Any, recovery: Any) -> None:
 
 
 @kernel()
-def follow(total: Any, length: float, piece: Any, step: float) -> None:
-    """Append a piece's transfer (4, 4), see `modal.structures.piece.piece_transfer`, to that of a block, in place."""
-    # (R2 + D2) (R1 + D1) - R2 R1 = R2 D1 + D2 R1 + D2 D1
-    for j in range(4):
-        d0, d1, d2, d3 = total[0, j], total[1, j], total[2, j], total[3, j]
-        r0, r1 = (1.0 if j == 0 else (length if j == 1 else 0.0)), (1.0 if j == 1 else 0.0)
-        r2, r3 = (1.0 if j == 2 else 0.0), (1.0 if j == 3 else (-length if j == 2 else 0.0))
-        for i in range(4):
-            moved = piece[i, 0] * (r0 + d0) + piece[i, 1] * (r1 + d1)
-            total[i, j] += moved + piece[i, 2] * (r2 + d2) + piece[i, 3] * (r3 + d3)
-        total[0, j] += step * d1
-        total[3, j] -= step * d2
-
-
-@kernel()
-def _extended(total: Any, transfer: Any, length: float, recovery: Any, scratch: Any) -> bool:
+def extended(total: Any, transfer: Any, length: float, recovery: Any, scratch: Any) -> bool:
     """Append a block that is stiff beside what is before it, in place, see `join`; False where it is not stiff.
 
     Its large stiffness would drown that of the rest in rounding; its flexibility is a small correction.
@@ -209,93 +162,3 @@ def _extended(total: Any, transfer: Any, length: float, recovery: Any, scratch: 
         total[2, i], total[3, i] = total[i, 2], total[i, 3]
     total[2, 2], total[2, 3], total[3, 2], total[3, 3] = k00, k01, k01, k11
     return True
-
-
-@kernel()
-def _end_block(work: Any, kept: Any, length: float, pieces: int, single: bool, joined: bool, total: Any) -> int:
-    """Stiffness of the block in scratch onto that of those before; negative eigenvalues of the node between.
-
-    The next block's transfer begins.
-    """
-    transfer, matrix, count = work[TRANSFER:KEPT], work[SCALED:PIECE], 0
-    relative_stiffness(transfer, length, matrix, kept)
-    kept[SLOT - 1, 0], kept[SLOT - 1, 1] = length, pieces
-    for i in range(4):
-        for j in range(4):
-            matrix[i, j] = kept[i, j]
-    if not single:
-        make_absolute(matrix, length)
-    if joined:
-        count = negative(total[2, 2] + matrix[0, 0], total[2, 3] + matrix[0, 1], total[3, 3] + matrix[1, 1])
-        kept[SLOT - 1, 3] = 1.0
-        if not _extended(total, transfer, length, kept[4:], work[STATE:SCALED]):
-            join(total, matrix, kept[4:])
-            kept[SLOT - 1, 3] = 0.0
-    for i in range(4):
-        for j in range(4):
-            transfer[i, j] = 0.0
-            if not joined:
-                total[i, j] = matrix[i, j]
-    return count
-
-
-@kernel()
-def run_stiffness(
-    segments: Any, nodes: Any, first: int, last: int, single: bool, highest: float, omega2: float, load: float,
-    work: Any, kept: Any, total: Any,
-) -> int:  # fmt: skip
-    """Dynamic stiffness (4, 4) of segments one after the other into ``total``; their count of fixed-end modes.
-
-    Parameters
-    ----------
-    segments : ndarray, shape (s, 13)
-    nodes : ndarray, shape (s, 3, 3)
-        What acts on the node before each segment but the first of a run: rows `SPRINGS`, `GEOMETRIC` and `BODIES`,
-        each of entries (v, v), (v, theta) and (theta, theta).
-    first, last : int
-        The run is ``segments[first:last]``.
-    single : bool
-        It is one block, whatever the frequency: the caller sees to that; the far end's unknowns are its departure.
-    highest : float
-        Square of the circular frequency that the pieces are short enough for.
-    work : ndarray, shape (ROWS, TERMS)
-        Scratch.
-    kept : ndarray, shape (b SLOT, ...)
-        Takes the blocks, the last in what is left where they are more.
-    """
-    piece, transfer, sizes = work[PIECE:TRANSFER], work[TRANSFER:KEPT], work[MEASURE, :SIZES]
-    clear(sizes)
-    for i in range(4):
-        for j in range(4):
-            transfer[i, j] = 0.0
-    count, blocks, pieces, length, most = 0, 0, 0, 0.0, kept.shape[0] // SLOT - 1
-    kept[SLOT - 1, 2] = 0.0
-    for s in range(first, last):
-        segment = segments[s]
-        if s > first:
-            if not laden(sizes, nodes[s], omega2, load) and not single:
-                slot = SLOT * min(blocks, most)
-                count += _end_block(work, kept[slot : slot + SLOT], length, pieces, single, blocks > 0, total)
-                blocks, length = blocks + 1, 0.0
-                kept[SLOT * min(blocks, most) + SLOT - 1, 2] = 1.0
-            load_node(transfer, length, nodes[s], omega2, load)
-        uniform = segment[RATIO] == 1.0 and load * segment[WEIGHT] == 0.0
-        number = cells(segment)
-        for k in range(number):
-            ends = cell(segment, k, number)
-            parts = pieces_within(segment, ends, highest, load)
-            if parts == 0:
-                return UNSTABLE
-            for i in range(parts):
-                part = piece_of(ends, i, parts)
-                if i == 0 or not uniform:
-                    piece_transfer(segment, part, omega2, load, work[:STATE], work[STATE:SCALED], piece)
-                if not grown(sizes, segment, part, omega2, load) and not single and length > 0.0:
-                    slot = SLOT * min(blocks, most)
-                    count += _end_block(work, kept[slot : slot + SLOT], length, pieces, single, blocks > 0, total)
-                    blocks, length = blocks + 1, 0.0
-                    kept[SLOT * min(blocks, most) + SLOT - 1, 2] = 0.0
-                follow(transfer, length, piece, part[2])
-                length, pieces = length + part[2], pieces + 1
-    slot = SLOT * min(blocks, most)
-    return int(count + _end_block(work, kept[slot : slot + SLOT], length, pieces, single, blocks > 0, total))
