@@ -25,6 +25,7 @@ from towercrane.commands.sweep import sweep
 app = typer.Typer(
     help="How a tower crane vibrates and how its load swings.",
     epilog="Start with: towercrane cases",
+    rich_markup_mode=None,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},

@@ -29,11 +29,23 @@ def test_help_and_version_name_every_command():
     assert towercrane("--version").stdout.startswith("towercrane 0.")
 
 
-def test_help_loads_nothing_heavy():
-    heavy = {"numpy", "numba", "scipy", "skfem", "xarray", "pint", "pydantic", "matplotlib"}
-    check = f"import sys, towercrane.cli; print(sorted({heavy} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", check], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+def test_help_has_a_whole_sentence_for_each_command_in_80_columns():
+    _, _, listed = towercrane("--help").stdout.partition("Commands:\n")
+    commands = listed.partition("\n\n")[0].splitlines()
+    assert len(commands) == 13
+    assert all(line.endswith(".") and not line.endswith("...") and len(line) <= 80 for line in commands)
+
+
+@pytest.mark.parametrize("command", [(), ("run",)], ids=["all", "run"])
+def test_help_loads_nothing_heavy(command):
+    heavy = {"numpy", "numba", "scipy", "skfem", "xarray", "pint", "matplotlib", "rich"}
+    check = f"""if True:
+        import atexit, sys, towercrane.cli
+        atexit.register(lambda: print(sorted({heavy} & set(sys.modules)), file=sys.stderr))
+        towercrane.cli.main()"""
+    arguments = [sys.executable, "-c", check, *command, "--help"]
+    done = subprocess.run(arguments, capture_output=True, text=True, check=True)
+    assert done.stderr.strip() == "[]"
 
 
 @pytest.mark.parametrize(

@@ -65,7 +65,10 @@ def animate(
     start: Annotated[str, typer.Option("--from", metavar="TIME", help='First moment, such as "10 s".')] = "0 s",
     end: Annotated[str | None, typer.Option("--to", metavar="TIME", help="Last moment; else the run's.")] = None,
 ) -> None:
-    """Film a run: the crane from the side and from above, its deformation magnified beside true scale."""
+    """Film a run: the crane from the side and from above.
+
+    Its deformation is magnified, beside true scale.
+    """
     finished = _finished(case, changes) if case.endswith(".nc") else None
     task = begin(case, changes) if finished is None else Task(case, [], _case_of(case, finished))
     task.say_notices()

@@ -30,7 +30,10 @@ def bench(
     out: Annotated[Path | None, out_option("Folder for bench.json and the pictures.")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Measure speed against error on this machine, beside other solvers."""
+    """Measure speed against error on this machine.
+
+    Other solvers and structures stand beside.
+    """
     chosen = [
         name for name, wanted in (("--subject", subject), ("--hard", hard), ("--stability", stability)) if wanted
     ]

@@ -27,7 +27,10 @@ def compare(
     as_json: AsJson = False,
     pictures: Pictures = True,
 ) -> None:
-    """Run a case in models from rigid to rich; which modes it needs for an error, and why."""
+    """Run a case in models from rigid to rich.
+
+    Which modes it needs for an error, and why.
+    """
     task = begin(case, changes, as_json=as_json, notices=True)
     task.into(out, "compare")
     if target is not None and not 0.0 < target < 1.0:

@@ -23,7 +23,10 @@ def figures(
     out: Annotated[Path, out_option("Folder for the pictures.")] = Path("results/figures"),
     changes: Changes = None,
 ) -> None:
-    """Draw Fig. 4 to 11 of Gao et al. (2023) from the corrected model."""
+    """Draw figures 4 to 11 of the source from the corrected model.
+
+    The source is Gao et al. (2023).
+    """
     folder_for_results(out)
     compile_for(load("qtz5613/condition-1", changes))
     from towercrane.report.plots.runs import radial

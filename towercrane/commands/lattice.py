@@ -7,7 +7,10 @@ from towercrane.commands.shared.terminal import AsJson, CaseName, Changes
 
 
 def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) -> None:
-    """The tower's lattice as beams beside its truss: deflections, frequencies, errors and times."""
+    """The tower's lattice as beams beside its truss.
+
+    Deflections, frequencies, errors and times.
+    """
     task = begin(case, changes, as_json=as_json)
     task.need("lattice", "lattice")
     from towercrane.cranes.tower.file.members import has_lattice

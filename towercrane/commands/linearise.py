@@ -30,7 +30,10 @@ def linearise(
     changes: Changes = None,
     as_json: AsJson = False,
 ) -> None:
-    """Linear state-space model of a case: eigenvalues, and a file for MATLAB or Python."""
+    """Linear state-space model of a case and its eigenvalues.
+
+    A file is for MATLAB or Python.
+    """
     from towercrane.linear.statespace import FILE_TYPES
 
     task = begin(case, changes, as_json=as_json, notices=True)

@@ -57,7 +57,10 @@ def frequency_map(
     as_json: AsJson = False,
     pictures: Pictures = True,
 ) -> None:
-    """Natural frequencies of the plane crane over trolley position and payload; the tower's buckling load."""
+    """Natural frequencies over trolley position and payload.
+
+    Of the crane in the plane, with the tower's buckling load.
+    """
     task = begin(case, changes, as_json=as_json)
     task.need("map", "beams")
     task.into(out, "map")

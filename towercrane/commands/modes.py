@@ -24,7 +24,10 @@ def modes(
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Natural frequencies of tower, jib and crane, each checked a second way; what matters for them."""
+    """Natural frequencies of tower, jib and crane.
+
+    Each is checked a second way, beside what matters for it.
+    """
     task = begin(case, changes, as_json=as_json)
     task.need("modes", "beams")
     if out is not None:

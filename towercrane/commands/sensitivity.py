@@ -29,7 +29,10 @@ def sensitivity(
     as_json: AsJson = False,
     pictures: Pictures = True,
 ) -> None:
-    """Which parameters and degrees of freedom of a slewing crane matter, and the reduced crane that follows."""
+    """Which parameters and freedoms of a slewing crane matter.
+
+    And the reduced crane that follows, beside the full one.
+    """
     task = begin(case, changes, as_json=as_json)
     task.into(out, "sensitivity")
     if not 1.0 <= step <= 100.0:

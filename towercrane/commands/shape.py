@@ -27,7 +27,10 @@ def shape(
     as_json: AsJson = False,
     pictures: Pictures = True,
 ) -> None:
-    """Motions that leave the load at rest: how still, how surely, how fast; tables for the drives."""
+    """Motions that leave the load at rest, and tables of them.
+
+    How still, how surely and how fast each is.
+    """
     task = begin(case, changes, as_json=as_json, notices=True)
     task.into(out, "shape")
     loaded = task.case

@@ -50,7 +50,10 @@ def sweep(
     as_json: AsJson = False,
     pictures: Pictures = True,
 ) -> None:
-    """Run a case over a grid of values; write sweep.nc, sweep.csv and a picture."""
+    """Run a case over a grid of values.
+
+    Writes sweep.nc, sweep.csv and a picture.
+    """
     task = begin(case, changes, as_json=as_json, notices=True)
     task.into(out, "sweep")
     values = _values(task.case, vary)
