@@ -13,7 +13,7 @@ from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, 
 from towercrane.accuracy.scene import Setting
 from towercrane.cli import app
 from towercrane.report.tables.runs import run_tables, verification_tables
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case, run_case
 from towercrane.runs.summary import summarise
 from towercrane.schema.faults import CaseError
 from towercrane.schema.targets import Tolerance
@@ -24,7 +24,7 @@ SHORT = ["run.duration=60 s"]
 
 def promised(name, *changes):
     case = load_case(name, [*SHORT, *changes])
-    result = run_case(case)
+    result = record_case(case)
     return case, result, json.loads(result.attrs["accuracy"])
 
 

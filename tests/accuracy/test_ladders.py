@@ -23,7 +23,7 @@ from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid
 from towercrane.report.tables.runs import run_tables, verification_tables
 from towercrane.results.measures import departures, gap, peak
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case, run_case
 from towercrane.runs.summary import summarise
 from towercrane.schema.faults import CaseError
 from towercrane.schema.targets import Tolerance
@@ -149,7 +149,7 @@ def test_targets_of_a_case_in_space():
 
 def test_a_case_says_what_it_chose_and_a_richer_model_agrees(capsys):
     case = load_case(NAME, SHORT)
-    result = run_case(case)
+    result = record_case(case)
     found = json.loads(result.attrs["accuracy"])
     assert found["outcome"] == KEPT
     assert found["stated"] == []

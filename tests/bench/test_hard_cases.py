@@ -8,7 +8,7 @@ import pytest
 
 from towercrane.bench.runs import hard
 from towercrane.cases.case import CaseError, list_cases, load_case
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case, run_case
 from towercrane.runs.summary import expected, summarise
 
 NAMES = [name for name, _ in list_cases() if name.startswith(hard.FOLDER)]
@@ -90,12 +90,12 @@ def test_a_hard_case_with_a_wrong_expectation_is_reported(monkeypatch):
 
 def test_expectations_are_checked_after_a_run():
     case = load_case("hard/hard-stop", ["run.duration=1 s", "expect.energy_gap=1e-20"])
-    summary = summarise(case, run_case(case))
+    summary = summarise(case, record_case(case))
     assert not summary["expected"]["met"]
     assert summary["expected"]["misses"][0].startswith("expected an energy balance within 1e-20, got ")
-    assert summarise(load_case("hard/hard-stop"), run_case(case))["expected"]["met"]
+    assert summarise(load_case("hard/hard-stop"), record_case(case))["expected"]["met"]
     plain = load_case("qtz5613/condition-3", ["run.duration=1 s"])
-    assert summarise(plain, run_case(plain))["expected"] is None
+    assert summarise(plain, record_case(plain))["expected"] is None
 
 
 def test_expect_is_a_checked_table():

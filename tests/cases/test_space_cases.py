@@ -19,7 +19,7 @@ from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.cranes.tower.file.build import space_crane
 from towercrane.cranes.tower.file.effects import kept_tower
 from towercrane.cranes.tower.file.members import tower_of
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case, run_case
 from towercrane.runs.summary import summarise
 from towercrane.simulation.simulate import simulate
 from towercrane.studies.linear_report import linear_model
@@ -102,7 +102,7 @@ def test_the_extended_crane_changes_nothing_in_the_plane(write):
     short = ["run.duration=10 s"]
     plain = run_case(load_case(RADIAL, short))
     extended = load_case(write(RADIAL, ('"crane.toml"', '"crane-space.toml"')), short)
-    result = run_case(extended)
+    result = record_case(extended)
     for name in plain.data_vars:
         assert_array_equal(result[name].values, plain[name].values)
     assert [a.key for a in rests_on(extended)] == [a.key for a in rests_on(load_case(RADIAL))]

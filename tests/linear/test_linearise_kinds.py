@@ -10,7 +10,7 @@ from towercrane.cases.models import model_of, motions_of
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.motions.profiles import speed_trapezoid
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case
 from towercrane.runs.summary import summarise
 from towercrane.simulation.simulate import simulate
 
@@ -95,7 +95,7 @@ HOIST_LATER = (
 
 def test_a_summary_tells_the_frequencies_where_the_run_ended_though_motions_go_on():
     case = load_case("slewing/basic/example-1", HOIST_LATER)
-    found = summarise(case, run_case(case))["natural_frequencies_hz"]
+    found = summarise(case, record_case(case))["natural_frequencies_hz"]
     assert found[0] == pytest.approx(0.350, abs=5e-4)
 
 
@@ -103,8 +103,8 @@ def test_a_summary_tells_the_frequencies_where_the_run_ended_though_motions_go_o
 def test_a_summary_looks_at_the_end_of_the_run_not_at_its_last_row(name):
     end = 20.0
     rows = [load_case(name, [f"run.duration={end} s", f"run.output_step={step} s"]) for step in (20.0, 15.0)]
-    found = [summarise(case, run_case(case))["natural_frequencies_hz"] for case in rows]
+    found = [summarise(case, record_case(case))["natural_frequencies_hz"] for case in rows]
     assert_allclose(found[1], found[0], rtol=1e-12)
     before = load_case(name, ["run.duration=15 s", "run.output_step=15 s"])
-    earlier = np.array(summarise(before, run_case(before))["natural_frequencies_hz"])
+    earlier = np.array(summarise(before, record_case(before))["natural_frequencies_hz"])
     assert np.max(abs(earlier / found[0] - 1.0)) > 1e-3

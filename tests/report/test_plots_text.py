@@ -12,7 +12,7 @@ from towercrane.cases.case import load_case
 from towercrane.commands.shared.pictures import run_pictures
 from towercrane.report.plots import style
 from towercrane.report.plots.literal import LiteralFigure
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case
 
 ODD = ["a $5 \\foo $6", "$$ \\frac{", "$x_1^2$", "_hidden", "x\ny", "中文 кран \u202e \x1b[31m", "%s {} [red] " * 3]
 
@@ -66,5 +66,5 @@ def test_every_picture_of_a_run_bears_any_name(name, tmp_path):
     odd = f"'''{' '.join(ODD[:4])}'''"
     short = ("run.duration=0.1 s", "run.output_step=0.05 s", "solver.rtol=1e-4")
     case = load_case(name, [f"crane.name={odd}", f"title={odd}", *short])
-    for file, figure in run_pictures(case, run_case(case)).items():
+    for file, figure in run_pictures(case, record_case(case)).items():
         style.save(figure, tmp_path / file)

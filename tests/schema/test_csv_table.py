@@ -14,7 +14,7 @@ from towercrane.cases.models import motions_of
 from towercrane.cases.table_notices import scatter, table_notices
 from towercrane.cases.wind_file import read_gusts
 from towercrane.motions.profiles import table, trapezoid
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case
 from towercrane.runs.summary import summarise
 from towercrane.schema.csv_table import MOST_BYTES, MOST_ROWS, TIME, Column, read_table
 
@@ -162,7 +162,7 @@ def test_a_record_that_ends_before_the_run_is_named(tmp_path):
     (notice,) = table_notices(case)
     assert "the record ends at 2 s; in the 1 s" in notice
     assert "x, y, z = 0, 40, 0 m/s" in notice
-    result = run_case(case)
+    result = record_case(case)
     assert json.loads(result.attrs["notices"]) == [notice]
     assert notice in summarise(case, result)["notices"]
     assert table_notices(load_case(PARKED, [f"wind.series={path}", "run.duration=2 s"])) == ()

@@ -10,7 +10,7 @@ from samples.qtz5613 import model, motions
 from towercrane.bench.runs.stability import agrees
 from towercrane.bench.scenes.free_vibration import FreeVibration
 from towercrane.cases.case import CaseError, load_case
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case
 from towercrane.runs.summary import summarise
 from towercrane.simulation.methods import method as drift
 from towercrane.simulation.methods.registry import METHODS
@@ -106,7 +106,7 @@ def test_a_run_says_it_in_its_summary_once_and_a_case_is_refused_at_the_door():
     case = load_case(CASE, changes)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        notices = summarise(case, run_case(case))["notices"]
+        notices = summarise(case, record_case(case))["notices"]
     assert len([n for n in notices if "gains energy" in n]) == 1
     with pytest.raises(CaseError, match=r"(?s)solver.rtol.*tolerances at which dopri5 is stable"):
         load_case(CASE, ["solver.method=dopri5", "solver.rtol=2e-3"])

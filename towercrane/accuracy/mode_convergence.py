@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.accuracy.space_scene import SpaceScene
-    from towercrane.results.recording import Recording
     from towercrane.schema.targets import Tolerance
+    from towercrane.simulation.run import Run
     from towercrane.simulation.trajectory import Progress
 
     Floats = NDArray[np.float64]
@@ -73,10 +73,10 @@ class Ladders:
 
     scene: SpaceScene
     base: SpaceSetting
-    runs: dict[SpaceSetting, Recording] = field(default_factory=dict)
+    runs: dict[SpaceSetting, Run] = field(default_factory=dict)
     differences: dict[tuple[SpaceSetting, SpaceSetting], Floats] = field(default_factory=dict)
 
-    def run(self, setting: SpaceSetting, progress: Progress | None = None) -> Recording:
+    def run(self, setting: SpaceSetting, progress: Progress | None = None) -> Run:
         """The scene in a setting, from an earlier run if there was one.
 
         Raises
@@ -126,7 +126,7 @@ def measured_choice(
     targets: Mapping[str, Tolerance],
     stated: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
-) -> tuple[Choice[SpaceSetting], Recording]:
+) -> tuple[Choice[SpaceSetting], Run]:
     """The setting with the fewest modes that is expected to keep all targets, and the run in it.
 
     Parameters
@@ -252,7 +252,7 @@ def _lost(ladders: Ladders, setting: SpaceSetting, allowed: Floats, kind: str) -
 
 def _solved(
     ladders: Ladders, setting: SpaceSetting, allowed: Floats, stated: dict[str, Any], progress: Progress | None
-) -> tuple[SpaceSetting, Recording, Floats]:
+) -> tuple[SpaceSetting, Run, Floats]:
     """A setting with tolerances for the solver's part, the run, and what its steps cost; shape (outputs,)."""
     if "rtol" in stated or "atol" in stated:
         tighter = setting.tightened(TIGHTER)

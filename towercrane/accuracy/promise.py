@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from towercrane.cases.case import Case
     from towercrane.results.recording import Recording
+    from towercrane.simulation.run import Run
     from towercrane.simulation.trajectory import Progress
 
 KEPT = "promised"
@@ -65,7 +66,7 @@ def stated(case: Case) -> dict[str, Any]:
     return {key: value for key, value in written.items() if key in fields}
 
 
-def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice[Any], Recording]:
+def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice[Any], Run]:
     """Setting for the error that a case asks for, and the run in it.
 
     Raises

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.kernels.payload import Load
     from towercrane.motions.motion import Motion
-    from towercrane.results.recording import Recording
+    from towercrane.simulation.run import Run
     from towercrane.simulation.system import Model
     from towercrane.simulation.trajectory import Progress
 
@@ -88,7 +88,7 @@ class Scene(ABC, Generic[AnySetting]):
     def model(self, setting: AnySetting) -> Model:
         """The crane in the setting's coordinates."""
 
-    def run(self, setting: AnySetting, *, progress: Progress | None = None) -> Recording:
+    def run(self, setting: AnySetting, *, progress: Progress | None = None) -> Run:
         """Simulate the scene, see :func:`towercrane.simulation.simulate.record`."""
         with warnings.catch_warnings():
             # What a loose tolerance damps is in the estimate.

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.registry import KINDS
+from towercrane.results.measures import picked_in
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,9 +23,14 @@ def model_of(case: Case, **changes: Any) -> Model:
     return KINDS[case.kind].build(case.checked, **changes)
 
 
-@lru_cache(maxsize=8)
-def motions_of(case: Case) -> dict[str, Motion]:
+def motions_of(case: Case, model: Model | None = None) -> dict[str, Motion]:
     """What drives the crane, by channel; where a ramp is shaped for the model's frequencies, the model is asked.
+
+    Parameters
+    ----------
+    case : Case
+    model : Model, optional
+        The case's own, where it has been built.
 
     Raises
     ------
@@ -41,16 +46,16 @@ def motions_of(case: Case) -> dict[str, Motion]:
     from towercrane.schema.faults import CaseError, Fault
     from towercrane.simulation.system import NoEquilibrium
 
-    model: Any = model_of(case)
+    asked: Any = model or model_of(case)
     try:
-        return shaped_motions(case.plans, SwayFrequencies(model))
+        return shaped_motions(case.plans, SwayFrequencies(asked))
     except (NoEquilibrium, NotSettled) as failure:
         key = f"motion.{'hoist' if modelled[0] == 'rope' else modelled[0]}"
         wanted, hint = "frequencies that the model has, or a list of them", "towercrane modes shows what it has"
         raise CaseError([Fault(str(case.path), f"{key}.frequencies", wanted, str(failure), hint)]) from failure
 
 
-def poses_of(case: Case, result: xr.Dataset, times: NDArray[np.float64]) -> Poses:
+def poses_of(case: Case, result: xr.Dataset, times: NDArray[np.float64], model: Model | None = None) -> Poses:
     """Poses of a run at any times within it.
 
     Between two rows of the result its coordinates are interpolated linearly; on a row they are the row's.
@@ -62,10 +67,15 @@ def poses_of(case: Case, result: xr.Dataset, times: NDArray[np.float64]) -> Pose
     result : xarray.Dataset
     times : ndarray, shape (f,)
         [s]
+    model : Model, optional
+        The one that was run; that of a file is built in the modes that were picked for it.
 
     Raises
     ------
     ValueError
         If the result does not hold what the case's kind of crane needs.
     """
-    return KINDS[case.kind].poses(case.checked, result, times)
+    kind = KINDS[case.kind]
+    if model is None:
+        model = model_of(case, **{key: count for key, count in picked_in(result).items() if key in kind.modes})
+    return kind.poses(model, case.checked, result, times)

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from towercrane.cases.case import Case
     from towercrane.report.film.film import Film
     from towercrane.report.film.playback import Playback
+    from towercrane.simulation.run import Run
+    from towercrane.simulation.system import Model
 
 MOST_MAGNIFIED = 1e5
 
@@ -83,11 +85,13 @@ def animate(
     duration = loaded.run.duration if finished is None else float(finished["time"][-1])
     playback = _playback(duration, start, end, speed, frames_per_second)
     task.compile()
-    result = _run(loaded) if finished is None else finished
+    run = _run(loaded) if finished is None else None
+    result = finished if run is None else run.dataset()
+    assert result is not None
     if (over := float(result["time"][-1])) <= playback.start:
         _nothing(loaded, result)
     playback = replace(playback, end=min(playback.end, over))
-    _film(case, loaded, result, playback, magnify, out)
+    _film(case, loaded, result, None if run is None else run.model, playback, magnify, out)
     suggest(*(task.command("run") if finished is None else _slower(case, playback)))
     _exit(loaded, result)
 
@@ -162,24 +166,32 @@ def _seconds(option: str, text: str) -> float:
         fail(f"{option}: {error}")
 
 
-def _run(case: Case) -> xr.Dataset:
+def _run(case: Case) -> Run:
     from towercrane.runs.run import record_case
 
     result = with_progress(case, record_case)
     if result.attrs["outcome"] == outcomes.INTERRUPTED:
         raise KeyboardInterrupt
-    return result.dataset()
+    return result
 
 
-def _film(source: str, case: Case, result: xr.Dataset, playback: Playback, magnify: float | None, out: Path) -> None:
-    """Draw and write the film; messages name its source."""
+def _film(
+    source: str,
+    case: Case,
+    result: xr.Dataset,
+    model: Model | None,
+    playback: Playback,
+    magnify: float | None,
+    out: Path,
+) -> None:
+    """Draw and write the film; messages name its source, and a run has its model."""
     with held_interrupts() as ask:
         from towercrane.cases.models import poses_of
         from towercrane.report.film.film import Film
         from towercrane.runs.vibration import step_of
 
         try:
-            poses = poses_of(case, result, playback.times)
+            poses = poses_of(case, result, playback.times, model)
             magnification = poses.fitting_magnification() if magnify is None else magnify
             film = Film(result, poses, playback, magnification)
         except ValueError as error:

@@ -66,7 +66,7 @@ def run(
     try:
         if pictures and not interrupted:
             with held_interrupts():
-                files |= run_pictures(task.case, result.dataset())
+                files |= run_pictures(task.case, result)
     except KeyboardInterrupt:
         interrupted = True
     finally:

@@ -104,7 +104,7 @@ class Kind:
     build : callable
         Model of a case's tables; keyword arguments replace what the case chose.
     poses : callable
-        Of its tables, a result and times, see :class:`towercrane.cranes.parts.poses.Poses`.
+        Of its model, its tables, a result and times, see :class:`towercrane.cranes.parts.poses.Poses`.
     kernels : callable
         Modules whose import compiles, of its tables and a use: "run" or one of those that it serves.
     checks : tuple of callable
@@ -116,10 +116,9 @@ class Kind:
     idle : callable, optional
         Beginnings of keys of its tables that do not enter the equations of motion.
     natural : callable, optional
-        `Natural` of its tables, the values of its drives and what was chosen for a run; without it the linear model
-        is asked.
+        `Natural` of its model and the values of its drives; without it the linear model is asked.
     lengths : callable, optional
-        Length of the member that each deflection in a result is of [m], of its tables.
+        Length of the member that each deflection in a result is of [m], of its model.
     targets : dict of str to str
         Outputs whose error can be asked for, and their units.
     modes : dict of str to str

@@ -124,7 +124,7 @@ class Recording:
         kept = np.arange(len(self.times)) % self.looks == 0
         kept[-1] |= self.attrs["outcome"] != "finished"
         quantities = {name: replace(q, values=q.values[kept]) for name, q in self.data_vars.items()}
-        return Recording(self.times[kept], quantities, self.attrs)
+        return replace(self, times=self.times[kept], data_vars=quantities, looks=1)
 
     def dataset(self) -> xr.Dataset:
         """The same as a labelled data set."""

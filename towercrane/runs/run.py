@@ -16,40 +16,39 @@ from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Case
-    from towercrane.results.recording import Recording
+    from towercrane.motions.motion import Motion
+    from towercrane.simulation.run import Run
     from towercrane.simulation.system import Model
     from towercrane.simulation.trajectory import Progress
 
 
-def record_case(case: Case, *, model: Model | None = None, progress: Progress | None = None) -> Recording:
-    """Simulate a case, or another model of its crane: a `Recording`, from :func:`run_case` an `xarray.Dataset`.
+def record_case(
+    case: Case,
+    *,
+    model: Model | None = None,
+    motions: dict[str, Motion] | None = None,
+    progress: Progress | None = None,
+) -> Run:
+    """Simulate a case: a `Run`, from :func:`run_case` an `xarray.Dataset`.
 
     Text and assumed values go into the result's attributes.
     Where the case asks for an error, model and solver are chosen by it, and the attribute ``accuracy`` says how.
+
+    Parameters
+    ----------
+    case : Case
+    model : Model, optional
+        Another one of its crane.
+    motions : dict of str to Motion, optional
+        Those of the case, where they have been built.
+    progress : callable, optional
+        As in :func:`towercrane.simulation.integrate.integrate`.
     """
     with warnings.catch_warnings():
         # The summary says it.
         warnings.simplefilter("ignore", EnergyDriftWarning)
-        found = None
-        if model is None:
-            try:
-                found = _to_target(case, progress)
-            except NoEquilibrium:
-                # Nothing can be chosen for a tower that its weight buckles; the run says so at its start.
-                model = model_of(case, weight_softening=True)
-        result = found or record(
-            model_of(case) if model is None else model,
-            motions_of(case),
-            case.run.duration,
-            output_step=case.run.output_step,
-            looks=looks_per_row(case.run.duration, case.run.output_step),
-            state="equilibrium" if case.start.state == "equilibrium" else "zero",
-            swing_angle=case.start.swing_angle,
-            method=case.solver.method,
-            rtol=case.solver.rtol,
-            atol=case.solver.atol,
-            progress=progress,
-        )
+        result = _to_target(case, progress) if model is None else None
+        result = result or _as_stated(case, model, motions, progress)
     result.attrs["title"] = case.title
     result.attrs["case"] = case.name
     result.attrs["changes"] = json.dumps(case.changes)
@@ -59,13 +58,37 @@ def record_case(case: Case, *, model: Model | None = None, progress: Progress | 
     return result
 
 
-def _to_target(case: Case, progress: Progress | None) -> Recording | None:
+def _to_target(case: Case, progress: Progress | None) -> Run | None:
     """The run of a case that asks for an error; None for one that does not."""
     if not targets_of(case):
         return None
-    choice, result = chosen(case, progress)
+    try:
+        choice, result = chosen(case, progress)
+    except NoEquilibrium:
+        # Nothing can be chosen for a tower that its weight buckles; the run says so at its start.
+        return _as_stated(case, model_of(case, weight_softening=True), None, progress)
     result.attrs["accuracy"] = json.dumps(promise(case, choice, result))
     return result
+
+
+def _as_stated(case: Case, model: Model | None, motions: dict[str, Motion] | None, progress: Progress | None) -> Run:
+    """The run of a case with the solver that it states."""
+    if model is None:
+        model = model_of(case)
+        motions = motions_of(case, model)
+    return record(
+        model,
+        motions or motions_of(case),
+        case.run.duration,
+        output_step=case.run.output_step,
+        looks=looks_per_row(case.run.duration, case.run.output_step),
+        state="equilibrium" if case.start.state == "equilibrium" else "zero",
+        swing_angle=case.start.swing_angle,
+        method=case.solver.method,
+        rtol=case.solver.rtol,
+        atol=case.solver.atol,
+        progress=progress,
+    )
 
 
 run_case = labelled("run_case", record_case)

@@ -9,11 +9,9 @@ import numpy as np
 
 from towercrane.accuracy.promise import AS_ASKED
 from towercrane.cases.assumptions import idle_in_file
-from towercrane.cases.models import model_of, motions_of
 from towercrane.cases.table_notices import table_notices
 from towercrane.cranes.kind import Natural
 from towercrane.cranes.registry import KINDS
-from towercrane.results.measures import picked_in
 from towercrane.runs.vibration import vibration
 from towercrane.simulation.arguments import TIGHTEST
 from towercrane.simulation.energy_balance import NOT_CONSERVED
@@ -24,6 +22,7 @@ from towercrane.simulation.system import NoEquilibrium
 if TYPE_CHECKING:
     from towercrane.cases.case import Case
     from towercrane.results.recording import Result
+    from towercrane.simulation.run import Run
 
 TUNED = 0.05
 """Structure and twice the swing count as tuned when their frequencies differ by less than this fraction."""
@@ -38,7 +37,7 @@ SMALL = 0.1
 """Tip deflection over length beyond which slopes are not small."""
 
 
-def summarise(case: Case, result: Result) -> dict[str, Any]:
+def summarise(case: Case, run: Run) -> dict[str, Any]:
     """Summary of a run of a case, ready for JSON.
 
     Returns
@@ -54,13 +53,13 @@ def summarise(case: Case, result: Result) -> dict[str, Any]:
         ``wall_seconds``; ``accuracy`` where the case asks for an error, see
         :func:`towercrane.accuracy.promise.promise`.
     """
-    attributes = result.attrs
-    free = _after_the_drives(case, result["time"].values)
-    natural = _natural(case, result, float(attributes["end_time"]))
+    attributes = run.attrs
+    free = _after_the_drives(run)
+    natural = _natural(case, run, float(attributes["end_time"]))
     frequencies = natural.frequencies
     swings = [frequencies[index] for index in natural.swings.values()]
     shown = vibration(
-        KINDS[case.kind].signals, result, free, swings, frequencies, lambda: _at_the_start(case, result, natural)
+        KINDS[case.kind].signals, run, free, swings, frequencies, lambda: _at_the_start(case, run, natural)
     )
     return {
         "case": case.name,
@@ -72,15 +71,15 @@ def summarise(case: Case, result: Result) -> dict[str, Any]:
         "end_time_s": float(attributes["end_time"]),
         "output_step_s": float(attributes["output_step"]),
         "look_step_s": shown.step,
-        "peaks": peaks(result),
+        "peaks": peaks(run),
         **shown.report(),
         "natural_frequencies_hz": frequencies,
         **({"natural_kinds": natural.kinds} if natural.kinds else {}),
         "swing_mode": natural.swing_mode,
-        "energy_balance": energy_balance(result),
-        "expected": expected(case, result),
-        "notices": [*notices(case, result, natural, free), *shown.unseen],
-        "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(result)],
+        "energy_balance": energy_balance(run),
+        "expected": expected(case, run),
+        "notices": [*notices(case, run, natural, free), *shown.unseen],
+        "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(run)],
         "idle": list(idle_in_file(case)),
         "solver": {
             key: attributes[key]
@@ -91,7 +90,7 @@ def summarise(case: Case, result: Result) -> dict[str, Any]:
         },
         "versions": json.loads(attributes["versions"]),
         "wall_seconds": attributes["wall_seconds"],
-        **({"accuracy": promised} if (promised := accuracy(result)) else {}),
+        **({"accuracy": promised} if (promised := accuracy(run)) else {}),
     }  # fmt: skip
 
 
@@ -161,39 +160,39 @@ def expected(case: Case, result: Result) -> dict[str, Any] | None:
     return {"met": not misses, "misses": misses}
 
 
-def notices(case: Case, result: Result, natural: Natural, free: slice) -> list[str]:
+def notices(case: Case, run: Run, natural: Natural, free: slice) -> list[str]:
     """What deserves a second look, in sentences."""
     found = []
-    if result.attrs["outcome"] != FINISHED:
-        reason = f": {result.attrs['message']}" if result.attrs["message"] else ""
-        found.append(f"ended at {result.attrs['end_time']:.6g} s: {result.attrs['outcome']}{reason}")
-    if (promised := accuracy(result)) and promised["reasons"]:
+    if run.attrs["outcome"] != FINISHED:
+        reason = f": {run.attrs['message']}" if run.attrs["message"] else ""
+        found.append(f"ended at {run.attrs['end_time']:.6g} s: {run.attrs['outcome']}{reason}")
+    if (promised := accuracy(run)) and promised["reasons"]:
         found.append(f"the error asked for is {promised['outcome']}: {'; '.join(promised['reasons'])}")
     found += table_notices(case)
-    tension = result["rope_tension"].values
+    tension = run["rope_tension"].values
     if case.rope.slack == "rod" and tension.min() < 0.0:
-        first = float(result["time"].values[int(np.argmax(tension < 0.0))])
+        first = float(run["time"].values[int(np.argmax(tension < 0.0))])
         found.append(
             f"the rope pushes from {first:.2f} s on (down to {tension.min():.0f} N): "
             "a real rope would be slack there; this case takes it as a rod"
         )
-    said = method_of(result.attrs["method"]).notice(result.attrs["rtol"], result.attrs["atol"])
+    said = method_of(run.attrs["method"]).notice(run.attrs["rtol"], run.attrs["atol"])
     # A promised error holds what the solver damps.
-    if said and (accuracy(result) or {}).get("outcome") not in AS_ASKED:
+    if said and (accuracy(run) or {}).get("outcome") not in AS_ASKED:
         found.append(said)
-    gap = energy_balance(result)["relative_gap"]
-    if gap > LOOSE and result.attrs["outcome"] != NOT_CONSERVED:
-        tight = [max(result.attrs[name] * LOOSE / gap, TIGHTEST) for name in ("rtol", "atol")]
+    gap = energy_balance(run)["relative_gap"]
+    if gap > LOOSE and run.attrs["outcome"] != NOT_CONSERVED:
+        tight = [max(run.attrs[name] * LOOSE / gap, TIGHTEST) for name in ("rtol", "atol")]
         remedy = "with solver.rtol {:.0e} and solver.atol {:.0e} it would be about a thousandth".format(*tight)
         found.append(f"the energy balance is off by {gap:.1e} of the change: {remedy}")
     kind = KINDS[case.kind]
-    for name, length in (kind.lengths(case.checked) if kind.lengths else {}).items():
-        share = float(abs(result[name].values).max()) / length
+    for name, length in (kind.lengths(run.model) if kind.lengths else {}).items():
+        share = float(abs(run[name].values).max()) / length
         if share > SMALL:
             what = name.replace("_", " ")
             found.append(f"{what} reaches {share:.0%} of the beam's length: beyond the small slopes of the model")
     for signal, swing in natural.swings.items():
-        found += _parametric(result, natural.frequencies, signal, swing, free)
+        found += _parametric(run, natural.frequencies, signal, swing, free)
     return found
 
 
@@ -215,35 +214,34 @@ def _parametric(result: Result, frequencies: list[float], signal: str, swing: in
     return [f"2:1 tuning ({ratio}): a ringing structure can pump the swing; in this run it did not"]
 
 
-def _natural(case: Case, result: Result, at: float) -> Natural:
+def _natural(case: Case, run: Run, at: float) -> Natural:
     """Natural frequencies where the drives are at a time of a run [s]; nothing for a tower that buckles."""
     natural = KINDS[case.kind].natural
     try:
         if natural is None:
-            return Natural(_linearised(case, at), [], {})
-        drives = {channel: float(motion(at)) for channel, motion in motions_of(case).items()}
-        return natural(case.checked, drives, picked_in(result))
+            return Natural(_linearised(run, at), [], {})
+        return natural(run.model, {channel: float(motion(at)) for channel, motion in run.motions.items()})
     except NoEquilibrium:
         return Natural([], [], {})
 
 
-def _at_the_start(case: Case, result: Result, at_the_end: Natural) -> list[float]:
+def _at_the_start(case: Case, run: Run, at_the_end: Natural) -> list[float]:
     """Natural frequencies [Hz] where the run began."""
-    ways = [result[name].values for name in ("trolley_position", "rope_length") if name in result]
+    ways = [run[name].values for name in ("trolley_position", "rope_length") if name in run]
     if KINDS[case.kind].natural is None or all(way[0] == way[-1] for way in ways):
         return at_the_end.frequencies
-    return _natural(case, result, 0.0).frequencies
+    return _natural(case, run, 0.0).frequencies
 
 
-def _linearised(case: Case, at: float) -> list[float]:
+def _linearised(run: Run, at: float) -> list[float]:
     """Frequencies [Hz] about the equilibrium with the drives where they are at a time [s]."""
     from towercrane.linear.linearise import linearise
 
-    found = linearise(model_of(case), motions_of(case), time=at, outputs=[]).eigenvalues()
+    found = linearise(run.model, run.motions, time=at, outputs=[]).eigenvalues()
     return sorted(e.frequency for e in found if e.value.imag > 0.0)
 
 
-def _after_the_drives(case: Case, times: Any) -> slice:
+def _after_the_drives(run: Run) -> slice:
     """Rows after the last drive has stopped."""
-    stop = max(motion.duration for motion in motions_of(case).values())
-    return slice(int(np.searchsorted(times, stop)), None)
+    stop = max(motion.duration for motion in run.motions.values())
+    return slice(int(np.searchsorted(run.times, stop)), None)

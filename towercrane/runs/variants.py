@@ -110,8 +110,8 @@ class Variants:
     def _lane(self, case: Case) -> LaneRun:
         from towercrane.simulation.lanes.crane import LaneRun
 
-        tables, motions = case.tables(RadialCase), motions_of(case)
-        model = radial_model(tables)
+        model = radial_model(case.tables(RadialCase))
+        motions = motions_of(case, model)
         # Written out, floats to the last digit: equal text is equal data.
         crane = repr([getattr(model, f.name) for f in dataclasses.fields(model) if f.name != "load"])
         model = self._models.setdefault(crane, model).with_load(model.load)

@@ -14,7 +14,6 @@ import numpy as np
 
 from modal.checks import check_positive, number_in
 from towercrane.motions.motion import Motion, phases
-from towercrane.results.recording import Recording
 from towercrane.results.versions import versions
 from towercrane.simulation import energy_balance
 from towercrane.simulation.arguments import check_tolerances
@@ -22,6 +21,7 @@ from towercrane.simulation.integrate import evaluate, integrate
 from towercrane.simulation.methods.method import DEFAULT, EnergyDriftWarning
 from towercrane.simulation.methods.registry import method_of
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
+from towercrane.simulation.run import Run
 from towercrane.simulation.system import Model, NoEquilibrium, start_inputs
 from towercrane.simulation.trajectory import Trajectory
 
@@ -55,8 +55,8 @@ def record(
     split: bool = True,
     progress: Progress | None = None,
     looks: int = 1,
-) -> Recording:
-    """Simulate a crane: a `Recording`, from :func:`simulate` an `xarray.Dataset`.
+) -> Run:
+    """Simulate a crane: a `Run`, from :func:`simulate` an `xarray.Dataset`.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def record(
 
     Returns
     -------
-    Recording, xarray.Dataset
+    Run, xarray.Dataset
         Variables over ``time`` with units; the attribute ``outcome`` is "finished" or names what ended the run,
         with ``end_time`` [s]. Rows of an outcome "energy not conserved" end where the balance is off, see
         :mod:`towercrane.simulation.energy_balance`.
@@ -158,7 +158,7 @@ def record(
         "wall_seconds": time.perf_counter() - began,
         "versions": json.dumps(versions()),
     }
-    return Recording(times, quantities, provenance, looks)
+    return Run(times, quantities, provenance, looks, model=model, motions=motions)
 
 
 def _motion(motions: dict[str, Motion], channel: str) -> Motion:
@@ -169,7 +169,7 @@ def _motion(motions: dict[str, Motion], channel: str) -> Motion:
     return found
 
 
-def labelled(name: str, recorded: Callable[Arguments, Recording]) -> Callable[Arguments, xr.Dataset]:
+def labelled(name: str, recorded: Callable[Arguments, Run]) -> Callable[Arguments, xr.Dataset]:
     """The same simulation, under its own name, with a labelled data set as its result."""
 
     @wraps(recorded)

@@ -115,9 +115,9 @@ def compare(
     chosen = variants(case)
     if len(chosen[-1].kinds) == 0:
         raise ValueError("case: wanted one mode or more to compare with a rigid crane, got none")
-    results = {}
+    results, motions = {}, motions_of(case)
     for number, variant in enumerate(chosen):
-        results[variant.name] = record_case(case, model=variant.model(case)).dataset()
+        results[variant.name] = record_case(case, model=variant.model(case), motions=motions).dataset()
         if results[variant.name].attrs["outcome"] == INTERRUPTED:
             raise KeyboardInterrupt
         if progress is not None:

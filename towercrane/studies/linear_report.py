@@ -31,7 +31,7 @@ def linear_model(case: Case, at: float) -> StateSpace:
     known = (*getattr(model, "state_names", ()), *model.channels)
     # Outward is along the jib, wherever that points.
     turning = next((angle for angle in TURNING if angle in known), None)
-    return linearise(model, motions_of(case), time=at, turning=turning)
+    return linearise(model, motions_of(case, model), time=at, turning=turning)
 
 
 def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:

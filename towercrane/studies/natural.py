@@ -10,7 +10,7 @@ import numpy as np
 from modal.clock import timed
 from towercrane.cases.assumptions import as_entries
 from towercrane.cases.models import motions_of
-from towercrane.cranes.tower.file.build import crane_frame, radial_crane, radial_model
+from towercrane.cranes.tower.file.build import crane_frame, radial_model
 from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.cranes.tower.file.effects import effects_in, effects_report
 from towercrane.cranes.tower.file.members import lattice_of
@@ -29,12 +29,14 @@ FRAME_MODES = 5
 """Frequencies of the coupled crane that are shown, commonly the pendulum's and four of the structure."""
 
 
-def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
+def natural_frequencies(case: Case, *, model: RadialModel | None = None, actual: bool = False) -> dict[str, Any]:
     """Roots and frequencies of a case, ready for JSON.
 
     Parameters
     ----------
     case : Case
+    model : RadialModel, optional
+        The case's own, where it has been built.
     actual : bool
         Put beside every prediction what a solution gives.
 
@@ -54,8 +56,9 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
     from modal import Beam
 
     tables = case.tables(RadialCase)
-    asked = modes_of(tables, motions_of(case)["trolley"])
-    crane, count, elements = radial_crane(tables), asked.count, asked.elements
+    model = model or radial_model(tables)
+    asked = modes_of(tables, motions_of(case, model)["trolley"])
+    crane, count, elements = model.crane, asked.count, asked.elements
     jib, effects = crane.jib_modes(count), effects_in(tables)
     if isinstance(crane.tower, Beam) and not effects.kept:
         tower, check = _uniform_tower(crane.tower, crane.end_body, count, elements)
@@ -72,7 +75,6 @@ def natural_frequencies(case: Case, *, actual: bool = False) -> dict[str, Any]:
         "rope_length_m": case.rope.length,
         "payload_mass_kg": case.payload.mass,
     }
-    model = radial_model(tables)
     report["crane"] = [_coupled(tables, model, position) for position in asked.trolley_positions]
     report["buckling_factor"] = _buckling_factor(tables, asked.trolley_positions[0])
     if tables.crane.tower.published_roots and "roots" in tower:

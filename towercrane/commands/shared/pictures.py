@@ -6,32 +6,29 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from towercrane.cases.case import Case
+    from towercrane.simulation.run import Run
 
 
-def run_pictures(case: Case, result: xr.Dataset) -> dict[str, Any]:
+def run_pictures(case: Case, run: Run) -> dict[str, Any]:
     """Pictures of a run by the names of their files."""
     from towercrane.cranes.registry import KINDS
     from towercrane.report.plots.runs import panels
 
-    kind = KINDS[case.kind]
+    kind, result = KINDS[case.kind], run.dataset()
     if isinstance(kind.pictures, str):
         drawn = dict(import_module(f"towercrane.report.plots.runs.{kind.pictures}").run_pictures(result))
     else:
         drawn = panels.run_pictures(result, kind.pictures)
-    return {**drawn, "modes.png": mode_picture(case)} if "members" in kind.serves else drawn
+    return {**drawn, "modes.png": mode_picture(case, run.model)} if "members" in kind.serves else drawn
 
 
-def mode_picture(case: Case) -> Any:
+def mode_picture(case: Case, model: Any) -> Any:
     """Modes of a plane crane's tower and jib."""
     from towercrane.cases.assumptions import as_notes, rests_on
-    from towercrane.cranes.tower.file.build import radial_crane
     from towercrane.cranes.tower.file.case_tables import RadialCase
     from towercrane.report.plots.runs import radial
 
-    tables = case.tables(RadialCase)
-    crane, count = radial_crane(tables), tables.modes.count
+    crane, count = model.crane, case.tables(RadialCase).modes.count
     notes = as_notes(a for a in rests_on(case) if a.key.startswith("crane."))
     return radial.modes(crane.tower_modes(count), crane.jib_modes(count), notes)

@@ -6,26 +6,26 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.jib.build import parameters_of
 from towercrane.cranes.parts.poses import Poses, sampled
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
+    from towercrane.cranes.jib.model import PlannedJibCrane
     from towercrane.cranes.jib.tables import JibCase
 
     Floats = NDArray[np.float64]
 
 
-def jib_poses(tables: JibCase, result: xr.Dataset, times: Floats) -> Poses:
+def jib_poses(model: PlannedJibCrane, tables: JibCase, result: xr.Dataset, times: Floats) -> Poses:
     """Poses of a jib crane."""
-    crane, angles = parameters_of(tables.crane), sampled(result, "joint_angle", times)
+    crane, angles = model.crane, sampled(result, "joint_angle", times)
     slew, luff = angles[:, 0], angles[:, 1]
     foot, hinge = np.zeros((2, len(times), 3))
-    hinge[:, 2] = crane["post_height"]
-    elbow = hinge + crane["primary_length"] * _towards(slew, luff)
-    tip = elbow + crane["secondary_length"] * _towards(slew, luff + angles[:, 2])
+    hinge[:, 2] = crane.post_height
+    elbow = hinge + crane.primary_length * _towards(slew, luff)
+    tip = elbow + crane.secondary_length * _towards(slew, luff + angles[:, 2])
     members = {
         "post": np.stack([foot, hinge], axis=1),
         "booms": np.stack([hinge, elbow, tip], axis=1),

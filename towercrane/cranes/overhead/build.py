@@ -19,6 +19,6 @@ def model_of(tables: OverheadCase) -> OverheadModel:
     return OverheadModel(crane, load_of(tables.payload), rope_as_rod=tables.rope.slack == "rod")
 
 
-def lengths_of(tables: OverheadCase) -> dict[str, float]:
+def lengths_of(model: OverheadModel) -> dict[str, float]:
     """Length of what deflects [m]."""
-    return {"bridge_deflection": tables.crane.bridge.span}
+    return {"bridge_deflection": model.crane.bridge_span}

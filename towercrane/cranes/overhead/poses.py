@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
+    from towercrane.cranes.overhead.model import OverheadModel
     from towercrane.cranes.overhead.tables import OverheadCase
 
     Floats = NDArray[np.float64]
@@ -20,21 +21,21 @@ POINTS = 41
 """Of the bent bridge."""
 
 
-def overhead_poses(tables: OverheadCase, result: xr.Dataset, times: Floats) -> Poses:
+def overhead_poses(model: OverheadModel, tables: OverheadCase, result: xr.Dataset, times: Floats) -> Poses:
     """Poses of an overhead crane; its heading is along the bridge."""
-    runway, span = tables.crane.runway, tables.crane.bridge.span
+    height, length, span = model.crane.runway_height, model.crane.runway_length, model.crane.bridge_span
     bridge, trolley = sampled(result, "bridge_position", times), sampled(result, "trolley_position", times)
     uplift = -sampled(result, "bridge_deflection", times)
     rails = {}
     for name, y in (("first rail", 0.0), ("second rail", span)):
-        ends = ((0.0, 0.0), (0.0, runway.height), (runway.length, runway.height), (runway.length, 0.0))
+        ends = ((0.0, 0.0), (0.0, height), (length, height), (length, 0.0))
         line = np.array([[x, y, z] for x, z in ends])
         rails[name] = np.broadcast_to(line, (len(times), *line.shape))
 
     def across(places: Floats, bent: Floats) -> Floats:
         """Points of the bridge; shape (f, points, 3)."""
         x, y = np.broadcast_arrays(bridge[:, None], places)
-        return np.stack([x, y, runway.height + bent[:, None] * np.sin(np.pi * y / span)], axis=-1)
+        return np.stack([x, y, height + bent[:, None] * np.sin(np.pi * y / span)], axis=-1)
 
     def crane(bent: Floats) -> dict[str, Floats]:
         places = np.linspace(0.0, span, POINTS)[None]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.parts.poses import Poses, sampled
-from towercrane.cranes.slewing.build import builder_of, parameters_of
+from towercrane.cranes.slewing.build import parameters_of
 from towercrane.cranes.slewing.models import PLATFORM, TOWER, TOWER_X, TOWER_Y
 from towercrane.cranes.slewing.outputs import position
 
@@ -25,7 +25,7 @@ POINTS = 20
 """Points along the tower."""
 
 
-def slewing_poses(tables: SlewingCase, result: xr.Dataset, times: Floats) -> Poses:
+def slewing_poses(model: LumpedModel, tables: SlewingCase, result: xr.Dataset, times: Floats) -> Poses:
     """Poses of a slewing crane.
 
     Jib and counter-jib are straight between the crane's points; the tower bends as the parabola of a cantilever under
@@ -33,6 +33,7 @@ def slewing_poses(tables: SlewingCase, result: xr.Dataset, times: Floats) -> Pos
 
     Parameters
     ----------
+    model : LumpedModel
     tables : SlewingCase
     result : xarray.Dataset
     times : ndarray, shape (f,)
@@ -44,7 +45,6 @@ def slewing_poses(tables: SlewingCase, result: xr.Dataset, times: Floats) -> Pos
         If the result lacks one of the crane's coordinates.
     """
     parameters = parameters_of(tables.crane)
-    model = builder_of(tables)(parameters)
     names, angles = model.crane.coordinates, model.crane.angles
     q = np.stack([sampled(result, name, times) for name in names], axis=1)
     heading = q[:, names.index(PLATFORM)]

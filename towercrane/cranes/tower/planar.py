@@ -153,6 +153,14 @@ class RadialModel:
         vars(other)["scene"] = self.scene.with_load(load)
         return other
 
+    def without_cap(self) -> RadialModel:
+        """The same crane with the frequencies that its modes have."""
+        if self.cap == np.inf:
+            return self
+        other = replace(self, cap=np.inf)
+        vars(other)["scene"] = replace(self.scene, cap=np.inf)
+        return other
+
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at rest at the start, see :meth:`towercrane.cranes.tower.equations.flexible.Equations.start`."""
         return self.scene.start(inputs, state, swing_angle)

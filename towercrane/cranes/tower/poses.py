@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.parts.poses import Poses, sampled
-from towercrane.cranes.tower.file.build import radial_crane, space_crane
-from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
     from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
-    from towercrane.cranes.tower.modes.parameters import TowerCrane
+    from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
+    from towercrane.cranes.tower.planar import RadialModel
 
     Floats = NDArray[np.float64]
 
@@ -26,24 +26,31 @@ IN_PLANE = {"tower_x": "tower", "jib_vertical": "jib"}
 """What a result in the plane calls coordinates."""
 
 
-def radial_poses(tables: RadialCase, result: xr.Dataset, times: Floats) -> Poses:
-    """Poses of a case in the plane, with the modes that the result has; see `_poses`."""
-    return _poses(radial_crane(tables), IN_PLANE, np.zeros(len(times)), result, times)
+def radial_poses(model: RadialModel, tables: RadialCase, result: xr.Dataset, times: Floats) -> Poses:
+    """Poses of a case in the plane; see `_poses`."""
+    back = tables.crane.counter_jib.length
+    return _poses(model.scene.crane, back, IN_PLANE, np.zeros(len(times)), result, times)
 
 
-def space_poses(tables: SpaceCase, result: xr.Dataset, times: Floats) -> Poses:
-    """Poses of a case in space, with the modes that the result has; see `_poses`."""
-    return _poses(space_crane(tables.crane), {}, sampled(result, "slewing_angle", times), result, times)
+def space_poses(model: FlexibleModel, tables: SpaceCase, result: xr.Dataset, times: Floats) -> Poses:
+    """Poses of a case in space; see `_poses`."""
+    back = tables.crane.counter_jib.length
+    return _poses(model.crane, back, {}, sampled(result, "slewing_angle", times), result, times)
 
 
-def _poses(written: TowerCrane, names: dict[str, str], heading: Floats, result: xr.Dataset, times: Floats) -> Poses:
+def _poses(
+    crane: FlexibleCrane, behind: float, names: dict[str, str], heading: Floats, result: xr.Dataset, times: Floats
+) -> Poses:
     """Poses of a tower crane.
 
     The positions are those of the equations of motion, in which tilt and twist of the head are finite rotations.
 
     Parameters
     ----------
-    written : TowerCrane
+    crane : FlexibleCrane
+        In the modes that the result has.
+    behind : float
+        Length of the counter-jib [m].
     names : dict of str to str
         What the result calls coordinates.
     heading : ndarray, shape (f,)
@@ -63,13 +70,7 @@ def _poses(written: TowerCrane, names: dict[str, str], heading: Floats, result: 
         kind: _coordinates(result, names.get(kind, kind), times)
         for kind in ("tower_x", "tower_y", "torsion", "jib_lateral", "jib_vertical")
     }
-    counts = ModeCounts(
-        tower=q["tower_x"].shape[1],
-        torsion=q["torsion"].shape[1],
-        lateral=q["jib_lateral"].shape[1],
-        vertical=q["jib_vertical"].shape[1],
-    )
-    crane, height = flexible_crane(written, counts), written.tower.length
+    height, lateral = crane.tower_height, q["jib_lateral"].shape[1]
 
     up = np.linspace(0.0, height, POINTS)
     upright = np.broadcast_to(np.stack([0.0 * up, 0.0 * up, up], axis=1), (len(times), POINTS, 3))
@@ -84,7 +85,7 @@ def _poses(written: TowerCrane, names: dict[str, str], heading: Floats, result: 
     twist = q["torsion"] @ crane.torsion(height)
     head = (tilt * Rotation.from_euler("z", (heading + twist)[:, None])).as_matrix()
     turned = Rotation.from_euler("z", heading[:, None]).as_matrix()
-    top, lateral = tower[:, -1], counts.lateral
+    top = tower[:, -1]
 
     def on_head(along: Floats, deflection: Floats) -> tuple[Floats, Floats]:
         """Points on the jib's line, shapes (f or 1, p) and (2, f, p): deformed, and undeformed."""
@@ -95,17 +96,17 @@ def _poses(written: TowerCrane, names: dict[str, str], heading: Floats, result: 
             upright[:, -1:] + np.einsum("tij,tpj->tpi", turned, straight),
         )
 
-    along = np.linspace(0.0, written.jib.length, POINTS)
+    along = np.linspace(0.0, crane.jib_length, POINTS)
     jib = crane.jib_shapes(along)
     deflection = np.stack([q["jib_lateral"] @ jib[:lateral], q["jib_vertical"] @ jib[lateral:]])
     # A trolley that leaves the jib ends the run; its last row stands a hair beyond the end.
-    trolley = np.clip(sampled(result, "trolley_position", times), 0.0, written.jib.length)
+    trolley = np.clip(sampled(result, "trolley_position", times), 0.0, crane.jib_length)
     there = crane.jib_shapes(trolley)
     at_trolley = np.stack([
         np.einsum("ti,it->t", q["jib_lateral"], there[:lateral]),
         np.einsum("ti,it->t", q["jib_vertical"], there[lateral:]),
     ])  # fmt: skip
-    back = np.array([0.0, -written.counter_jib_length])
+    back = np.array([0.0, -behind])
     pairs = {
         "tower": (tower, upright),
         "jib": on_head(along[None], deflection),

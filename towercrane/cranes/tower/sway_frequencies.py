@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -57,16 +58,17 @@ class SwayFrequencies:
         return self._known[key]
 
     def _found(self, turns: bool, trolley: float, rope: float) -> tuple[float, ...]:
-        modes = natural_modes(self._scene(), trolley, rope)
+        modes = natural_modes(self._scene, trolley, rope)
         if turns:
             across = [m for m in modes if sum(m.shares[kind] for kind in ACROSS) > 0.5]
             return tuple(m.frequency_hz for m in across[:LATERAL_PAIR])
         return (max(modes, key=lambda m: m.shares["radial sway"]).frequency_hz,)
 
+    @cached_property
     def _scene(self) -> FlexibleModel:
         """The crane with a load that may swing to all sides."""
-        model = self.model if self.model.axes == 3 else dataclasses.replace(self.model, axes=3)
-        return model if isinstance(model, FlexibleModel) else model.scene
+        model = self.model if isinstance(self.model, FlexibleModel) else self.model.scene
+        return model if model.axes == 3 else dataclasses.replace(model, axes=3)
 
 
 @dataclass(frozen=True, slots=True)

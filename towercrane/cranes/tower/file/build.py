@@ -26,20 +26,15 @@ def radial_crane(tables: RadialCase) -> TowerCrane:
 
 def space_crane(crane: Crane) -> TowerCrane:
     """The crane in space: with its torsion, its jib's bending to the sides and its roll inertia where given."""
-    return in_space(crane_on(tower_of(crane), crane), crane)
-
-
-def in_space(plane: TowerCrane, crane: Crane) -> TowerCrane:
-    """A crane of the plane with the torsion, the lateral bending and the roll inertia that its file gives."""
     from modal.beams.torsion import Shaft
 
-    tower, jib = crane.tower, crane.jib
+    tower, jib, standing = crane.tower, crane.jib, tower_of(crane)
     lateral, shaft = None, None
     if jib.lateral_second_moment_of_area is not None:
         lateral = Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.lateral_second_moment_of_area)
     if tower.torsional_stiffness is not None and tower.torsional_inertia_per_length is not None:
-        shaft = Shaft(plane.tower.length, tower.torsional_inertia_per_length, tower.torsional_stiffness)
-    return replace(plane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
+        shaft = Shaft(standing.length, tower.torsional_inertia_per_length, tower.torsional_stiffness)
+    return crane_on(standing, crane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
 
 
 def crane_frame(tables: RadialCase, *, weight: bool = False) -> CraneFrame:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from modal.beams.beam import Beam
-from towercrane.cranes.tower.file.members import tower_of
+from towercrane.cranes.tower.file.members import uniform_of
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
@@ -32,9 +31,10 @@ def radial_kernels(tables: RadialCase, use: str) -> tuple[str, ...]:
 
 def space_kernels(tables: SpaceCase, use: str) -> tuple[str, ...]:
     """Modules for a use of a case in space."""
-    return {"run": (*RUN, *_chain(tables), STEPPER), "modes": (*AT_REST, *_chain(tables))}[use]
+    chain = _chain(tables)
+    return {"run": (*RUN, *chain, STEPPER), "modes": (*AT_REST, *chain)}[use]
 
 
 def _chain(tables: RadialCase | SpaceCase) -> tuple[str, ...]:
     """Those for a tower that is a chain of segments."""
-    return () if isinstance(tower_of(tables.crane), Beam) else (STRUCTURE, SHAPES)
+    return () if uniform_of(tables.crane) is not None else (STRUCTURE, SHAPES)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from modal import Beam, Chain, ColumnTruss, EndBody, Foundation, LacedColumn, Segment
 from modal.lattices.lattice_taper import column_segments
@@ -27,21 +27,28 @@ def tower_of(crane: Crane) -> Beam | Chain:
     forms; any other, and one that is written as segments, is a `Chain`.
     """
     tower = crane.tower
-    foundation = Foundation(**dict(crane.foundation))
+    if (uniform := uniform_of(crane)) is not None:
+        modulus = tower.youngs_modulus
+        assert modulus is not None, "the file is checked to give one"
+        return Beam(uniform.length, uniform.mass_per_length, modulus, uniform.bending_stiffness / modulus)
     segments = tuple(segment for piece in _pieces(tower) for segment in _segments(tower, piece))
+    foundation = Foundation(**dict(crane.foundation))
     chain = Chain(segments, foundation=foundation, shear_theory=tower.shear_theory)
     for body in tower.bodies:
         # The sum of the segments may fall short of the stated height by rounding.
         chain, node = chain.with_node(min(body.height, chain.length))
         more = EndBody(body.mass, body.rotary_inertia, body.offset)
         chain = replace(chain, bodies={**chain.bodies, node: joined(chain.bodies.get(node, EndBody()), more)})
-    plain = segments[0].shear_stiffness == inf and segments[0].rotary_inertia == 0.0
-    if tower.segments or tower.bodies or foundation != Foundation() or not plain:
-        return chain
-    modulus = tower.youngs_modulus
-    assert modulus is not None, "the file is checked to give one"
-    stiffness = segments[0].bending_stiffness
-    return Beam(segments[0].length, segments[0].mass_per_length, modulus, stiffness / modulus)
+    return chain
+
+
+def uniform_of(crane: Crane) -> Segment | None:
+    """The one segment of a tower that is a `Beam`, see `tower_of`; None for a `Chain`."""
+    tower = crane.tower
+    if tower.segments or tower.bodies or Foundation(**dict(crane.foundation)) != Foundation():
+        return None
+    first = _segments(tower, _pieces(tower)[0])[0]
+    return first if first.shear_stiffness == inf and first.rotary_inertia == 0.0 else None
 
 
 def beam_choice(tower: Tower, section: Section) -> BeamChoice:
@@ -149,8 +156,11 @@ def counter_jib_of(crane: Crane) -> Chain | None:
     return Chain((segment,), {1: EndBody(jib.counterweight)})
 
 
-def crane_on(tower: Beam | Chain, crane: Crane) -> TowerCrane:
-    """The crane of a file, in the plane of its jib, on a tower that may differ from the file's."""
+def crane_on(tower: Beam | Chain, crane: Crane, **aside: Any) -> TowerCrane:
+    """The crane of a file, in the plane of its jib, on a tower that may differ from the file's.
+
+    Keyword arguments are what a :class:`towercrane.cranes.tower.modes.parameters.TowerCrane` has out of that plane.
+    """
     return TowerCrane(
         name=crane.name,
         tower=tower,
@@ -160,6 +170,7 @@ def crane_on(tower: Beam | Chain, crane: Crane) -> TowerCrane:
         counterweight=crane.counter_jib.counterweight,
         trolley_mass=crane.trolley.mass,
         gravity=crane.gravity,
+        **aside,
     )
 
 

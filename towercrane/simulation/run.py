@@ -1,0 +1,27 @@
+"""A run: what it recorded, with the model and the motions that were built for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from towercrane.results.recording import Recording
+
+if TYPE_CHECKING:
+    from towercrane.motions.motion import Motion
+    from towercrane.simulation.system import Model
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Run(Recording):
+    """A recording that hands on what it was computed from: who asks more of the crane builds none of it again.
+
+    Parameters
+    ----------
+    model : Model
+    motions : dict of str to Motion
+        What drove it, by channel.
+    """
+
+    model: Model
+    motions: dict[str, Motion]
