@@ -8,6 +8,11 @@ that frequency, which is so from about 1.15 rad of swing on, they grow without b
 
 So both are put back after every step. Of all slopes only n' = p depends on N and c, the others see u and w alone:
 the next step begins with the slopes that this one has ended with, and keeps its order.
+
+Within the plane at right angles errors stay errors. The estimate of a step says how large they are, not that they all
+have one sign: what an explicit method takes from the energy of a swing adds up, and the period of a wide swing hangs
+on its energy, so that the error of the position grows with the square of time. What steps take falls by two orders
+more than the estimate where they are short beside the motion itself, which :func:`longest_turn` sees to.
 """
 
 from __future__ import annotations
@@ -20,6 +25,12 @@ from modal.compiler.compiled import kernel
 
 FIRST, RATE, COMPONENTS = range(3)
 """Columns of the table of directions: first state of the vector, first state of its rate, number of components."""
+
+STEEPEST = 4.0
+"""Largest change in the square of an acceleration that is expected to go on into the next step."""
+
+NOTHING = 1e-300
+"""Square of an acceleration that is none, so that nothing is divided by zero."""
 
 
 @kernel()
@@ -46,6 +57,43 @@ def restore(y: Any, k: Any, row: int, directions: Any) -> None:
         for i in range(directions[number, COMPONENTS]):
             y[rate + i] -= along * y[first + i]
             k[row, first + i] = y[rate + i]
+
+
+@kernel()
+def longest_turn(k: Any, row: int, directions: Any, turn: Any) -> Any:
+    """Longest next step in which no direction turns by more than an angle, as if it went on round a circle.
+
+    A point on a unit circle with the acceleration a turns at the rate sqrt(a). Seen so, a load that hangs still or
+    vibrates with its rope's upper end by a hair turns slowly, however short its period: such steps are left to the
+    error estimate. The acceleration is that at the end of the next step, if it goes on to change as in this one: a
+    step bounded by where it begins would be longer on the way down from the top than on the way up, and the energy
+    that steps take on the one would not be given back on the other.
+
+    Parameters
+    ----------
+    k : ndarray, shape (m, size)
+        Slopes of a step, of which the first is the one where it began; numbers or lane vectors.
+    row : int
+        Of k, the slope where it ended.
+    directions : ndarray of int, shape (count, 3)
+    turn : float
+        The angle [rad].
+
+    Returns
+    -------
+    float or lane vector
+        [s]
+    """
+    largest = k[0, 0] * 0.0 + NOTHING
+    for number in range(directions.shape[0]):
+        rate = directions[number, RATE]
+        began, ended = k[0, 0] * 0.0, k[0, 0] * 0.0
+        for i in range(directions[number, COMPONENTS]):
+            began += k[0, rate + i] * k[0, rate + i]
+            ended += k[row, rate + i] * k[row, rate + i]
+        change = min(max(ended / (began + NOTHING), 1.0 / STEEPEST), STEEPEST)
+        largest = max(largest, ended * change)
+    return turn / np.sqrt(np.sqrt(largest))
 
 
 def restore_rows(states: Any, directions: Any) -> float:

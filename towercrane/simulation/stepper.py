@@ -12,16 +12,16 @@ import numpy as np
 from numba import types
 
 from modal.compiler.compiled import kernel
-from towercrane.simulation.directions import restore
+from towercrane.simulation.directions import longest_turn, restore
 from towercrane.simulation.guards import CLOSE, FEW_LOOKS, LOOKS, NARROWEST, NEAR, fallen, is_near, widen
 from towercrane.simulation.system import rhs_signature
 
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
 """How far a phase has come."""
 
-TIME, STEP, SMALLEST, LONGEST, RETAKES = range(5)
+TIME, STEP, SMALLEST, LONGEST, RETAKES, TURN = range(6)
 """Entries of its clock: time since the phase began, next step, smallest step taken, longest step allowed [s]; how
-often a step is taken anew."""
+often a step is taken anew; largest turn of a direction in a step [rad]."""
 
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
 """Entries of its counts."""
@@ -166,7 +166,7 @@ def advance(
         As in :func:`towercrane.simulation.system.rhs_signature`.
     stages, a, c, error, dense, error_order
         As in :class:`towercrane.simulation.methods.runge_kutta.RungeKutta`.
-    clock, counts : ndarray, shapes (5,) and (5,)
+    clock, counts : ndarray, shapes (6,) and (5,)
         Read and written.
     y : ndarray, shape (size,)
         State, carried on in place.
@@ -264,6 +264,7 @@ def advance(
             row = counts[WRITTEN]
             _dense(y, dense, k, step, (sample_times[row] - t) / step, samples[row])
             counts[WRITTEN] += 1
+        bound = longest_turn(k, stages, directions, clock[TURN])
         restore(new, k, stages, directions)
         for m in range(y.size):
             y[m] = new[m]
@@ -279,6 +280,7 @@ def advance(
         factor = GROW if norm == 0.0 else SAFETY * norm ** (-1.0 / (error_order + 1))
         # The cut last step of a phase says nothing about the next one's length.
         h = max(h, step * min(grow, factor)) if last else step * min(grow, max(SHRINK, factor))
+        h = min(h, bound)
         grow, full, retaken = GROW, 0.0, 0
     clock[TIME], clock[STEP] = t, h
     return FINISHED

@@ -16,7 +16,7 @@ from modal.compiler.compiled import kernel
 from towercrane.kernels.arrays import in_lanes, lane_observer_signature, lane_rhs_signature, lent
 from towercrane.kernels.choices import choose
 from towercrane.kernels.vector import LANES
-from towercrane.simulation.directions import restore
+from towercrane.simulation.directions import longest_turn, restore
 from towercrane.simulation.guards import FEW_LOOKS, LOOKS, widen
 from towercrane.simulation.lanes import dense_output as looks
 from towercrane.simulation.lanes import queue as lane_queue
@@ -34,6 +34,7 @@ from towercrane.simulation.lanes.queue import (
     MOMENT,
     PHASE,
     RUN,
+    STEP,
     TIME,
     TRIAL,
     answers_type,
@@ -63,7 +64,7 @@ def _take_stages(
         types.FunctionType(lane_rhs_signature()), types.FunctionType(lane_observer_signature()),
         queue_type(), answers_type(), lanes_type(),
         types.int64, types.float64[:, ::1], types.float64[::1], types.float64[:, ::1], types.float64[:, ::1],
-        types.int64, types.float64, types.int64,
+        types.int64, types.float64, types.float64, types.int64,
     ),
     parallel_calls=True,
 )  # fmt: skip
@@ -80,6 +81,7 @@ def advance(
     dense: Any,
     error_order: int,
     rtol: float,
+    turn: float,
     most_steps: int,
 ) -> bool:
     """Carry all lanes on by at most so many steps each.
@@ -96,6 +98,8 @@ def advance(
         As in :class:`towercrane.simulation.methods.runge_kutta.RungeKutta`.
     rtol : float
         Relative tolerance per step.
+    turn : float
+        Largest turn of a direction in a step [rad].
     most_steps : int
         Steps tried in each lane before this returns.
 
@@ -214,6 +218,8 @@ def advance(
                 looks.record(lane_outputs, wanted, places, counts, sample_times, extremes, series)
                 wanted = looks.wanted_samples(places, clock, sample_times)
         accepted = clocks[ACCEPTED_STEP]
+        bound = longest_turn(k, stages, directions, turn)
+        clocks[STEP] = choose(accepted, min(clocks[STEP], bound), clocks[STEP])
         restore(new, k, stages, directions)
         for m in range(size):
             y[m] = choose(accepted, new[m], y[m])

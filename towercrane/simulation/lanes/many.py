@@ -144,7 +144,7 @@ def integrate_many(
     answers = _answers(len(runs), system, len(crane.outputs), len(sample_times) if series else 0)
     workers = threads or available_cores()
     share = min(RUNS_PER_TASK, max(LANES, -(-len(runs) // (4 * workers))))
-    stop = threading.Event()
+    turn, stop = pair.longest_turn(rtol), threading.Event()
 
     def work(first: int) -> None:
         task = slice(first, first + share)
@@ -155,7 +155,7 @@ def integrate_many(
         while left and not stop.is_set():
             left = advance(
                 crane.rhs, crane.observe, queue, mine, lanes, pair.stages, pair.a, pair.c, pair.error, pair.dense,
-                pair.error_order, rtol, STEPS_PER_CALL,
+                pair.error_order, rtol, turn, STEPS_PER_CALL,
             )  # fmt: skip
         record_ends(crane, runs[task], queue, mine)
         off = off_balance(crane, runs[task], queue, mine, rtol, atol)

@@ -34,6 +34,9 @@ MOST_STALLED = 20
 CONSISTENT = 1e-12
 """Rounding of coefficients."""
 
+TURN_TOLERANCE = 1e-8
+"""Relative tolerance for which pairs state their largest turn."""
+
 REACH_USED = 0.9
 """Part of a pair's reach that its steps use: the fastest vibration is known for small motions only."""
 
@@ -64,6 +67,9 @@ class RungeKutta(Method):
     reach : float
         Largest step times angular frequency of a vibration at which no such step makes it grow; none where every
         long step does.
+    turn : float
+        Largest angle by which a step at rtol 1e-8 may turn a direction among the states, as
+        :func:`towercrane.simulation.directions.longest_turn` takes it [rad].
 
     Raises
     ------
@@ -79,6 +85,7 @@ class RungeKutta(Method):
     error: Floats
     dense: Floats
     reach: float = np.inf
+    turn: float = np.inf
 
     compiled: ClassVar[bool] = True
     follows_switches: ClassVar[bool] = True
@@ -110,6 +117,16 @@ class RungeKutta(Method):
         frequency = fastest()
         return REACH_USED * self.reach / frequency if frequency > 0.0 else np.inf
 
+    def longest_turn(self, rtol: float) -> float:
+        """Largest turn of a direction in a step at a relative tolerance [rad].
+
+        Errors that come back with the other sign half a swing later leave nothing behind: what a method takes from
+        the energy is of an even power of the step, beyond its order. With that power the error at the end falls as
+        the tolerance does.
+        """
+        power = self.order + 2 - self.order % 2
+        return float(self.turn * (rtol / TURN_TOLERANCE) ** (1.0 / power))
+
     def carry(self, run: Run, phases: Phases, sample_times: Floats, split: bool, progress: Progress | None) -> str:
         """Carry a run on through its phases, in place; how it ended."""
         from towercrane.simulation import stepper
@@ -118,13 +135,14 @@ class RungeKutta(Method):
         guards, numbers, floors = np.empty(len(system.guards)), system.numbers.copy(), system.floors.copy()
         ranges = np.empty((2, len(guards)))
         k, scratch = np.empty((len(self.a), system.size)), np.empty((3, system.size))
-        work, step = np.zeros(system.work_shape), 0.0
+        work, step, turn = np.zeros(system.work_shape), 0.0, self.longest_turn(run.rtol)
         owner = phase_of(sample_times, phases)
         for phase, inputs in enumerate(phases.inputs):
             begin, t_end = float(phases.times[phase]), float(phases.times[phase + 1] - phases.times[phase])
             # Where a guard ends the run, nothing goes on from its state.
             retakes = 0.0 if system.switch is None else MOST_RETAKES
-            clock = np.array([0.0, step, run.smallest_step, self.longest_step(system.fastest), retakes])
+            longest = self.longest_step(system.fastest)
+            clock = np.array([0.0, step, run.smallest_step, longest, retakes, turn])
             mine = owner == phase
             first = int(np.count_nonzero(owner < phase))
             counts = np.zeros(len(run.counts), dtype=np.int64)

@@ -133,6 +133,7 @@ DOPRI5 = RungeKutta(
     energy_drift=((1e-3, 7.1), (1e-4, -0.037), (1e-5, -5.2e-3), (1e-6, -5.7e-4)),
     # At ten times that it feeds vibration sixtyfold.
     loosest=1e-3,
+    turn=0.03,
 )
 
 DOP853 = RungeKutta(
@@ -146,5 +147,6 @@ DOP853 = RungeKutta(
     error=np.array(_DOP853_ERROR),
     dense=_dop853_dense(np.array(_DOP853_A[12]), np.array(_DOP853_D)),
     reach=5.96,
+    turn=0.12,
     energy_drift=((1e-2, -0.39), (1e-3, -0.18), (1e-4, -0.016), (1e-5, -1.2e-3), (1e-6, -8.9e-5)),
 )
