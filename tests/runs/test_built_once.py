@@ -85,3 +85,11 @@ def test_pictures_and_films_show_the_crane_that_was_run(built, arguments, tmp_pa
     done = CliRunner().invoke(app, [*arguments, *SHORT])
     assert done.exit_code == 0, done.output
     check(built, {FlexibleModel} if "qtz5613" in arguments[1] else {LumpedModel})
+
+
+def test_a_verification_stands_on_the_crane_that_was_run(built, tmp_path):
+    command = ["run", "qtz5613/condition-3", "--verify", "--no-pictures", "--out", str(tmp_path), *SHORT]
+    done = CliRunner().invoke(app, command)
+    assert done.exit_code == 0, done.output
+    assert len(built[TowerCrane]) == 1
+    assert len(built[RadialModel]) > 1

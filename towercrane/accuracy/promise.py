@@ -151,7 +151,7 @@ def finer_in_space(setting: SpaceSetting, described: tuple[str, ...]) -> SpaceSe
     return replace(setting.with_counts(counts).tightened(_fine(setting.rtol)), planar=False)
 
 
-def verification(case: Case, result: Recording) -> dict[str, Any]:
+def verification(case: Case, result: Run) -> dict[str, Any]:
     """Estimated errors of a run beside its differences from a richer model's.
 
     Returns
@@ -226,8 +226,8 @@ Verified = tuple[Any, Any, Estimate, tuple[str, ...], "Recording"]
 """Setting of a run and a finer one, estimate of the first and doubts of it, run of the second."""
 
 
-def _in_plane(case: Case, result: Recording) -> Verified:
-    scene, picked = scene_of(case), picked_in(result)
+def _in_plane(case: Case, result: Run) -> Verified:
+    scene, picked = scene_of(case, result), picked_in(result)
     setting = Setting(**{**picked, "cap": picked["cap"] or np.inf}) if picked else setting_of(case)
     indicators, better = Indicators(scene, setting.tower_modes, setting.jib_modes), finer(setting)
     return (
@@ -239,8 +239,8 @@ def _in_plane(case: Case, result: Recording) -> Verified:
     )
 
 
-def _in_space(case: Case, result: Recording) -> Verified:
-    scene, picked = space_scene_of(case), picked_in(result)
+def _in_space(case: Case, result: Run) -> Verified:
+    scene, picked = space_scene_of(case, result), picked_in(result)
     setting = SpaceSetting(**picked) if picked else space_setting_of(case)
     anything = dict.fromkeys(scene.outputs, Tolerance(1e-3, relative=True))
     checked, _ = measured_choice(scene, anything, vars(setting))

@@ -170,13 +170,14 @@ class RadialScene(Scene[Setting]):
         )
 
 
-def scene_of(case: Case) -> RadialScene:
-    """The scene of a radial case."""
+def scene_of(case: Case, run: Run | None = None) -> RadialScene:
+    """The scene of a radial case, of what was built for a run of it where there is one."""
     tables = case.tables(RadialCase)
+    model: Any = run and run.model
     return RadialScene(
-        crane=radial_crane(tables),
-        load=load_of(tables.payload),
-        motions=motions_of(case),
+        crane=radial_crane(tables) if model is None else model.crane,
+        load=load_of(tables.payload) if model is None else model.load,
+        motions=motions_of(case) if run is None else run.motions,
         duration=tables.run.duration,
         output_step=tables.run.output_step,
         state="equilibrium" if tables.start.state == "equilibrium" else "zero",

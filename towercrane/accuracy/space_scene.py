@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.parts.wind import WindAreas
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.simulation.run import Run
 
 
 @dataclass(frozen=True)
@@ -121,11 +122,11 @@ class SpaceScene(Scene[SpaceSetting]):
         )
 
 
-def space_scene_of(case: Case) -> SpaceScene:
-    """The scene of a case in space."""
+def space_scene_of(case: Case, run: Run | None = None) -> SpaceScene:
+    """The scene of a case in space, with the motions of a run of it where there is one."""
     tables = case.tables(SpaceCase)
     return SpaceScene(
-        motions=motions_of(case),
+        motions=motions_of(case) if run is None else run.motions,
         duration=tables.run.duration,
         output_step=tables.run.output_step,
         state="equilibrium" if tables.start.state == "equilibrium" else "zero",
