@@ -129,8 +129,8 @@ def test_a_swing_past_the_pole_of_the_angles_is_the_exact_spherical_pendulum(del
     m = (c_low - c_high) / (c_low - third)
     sn = ellipj(np.sqrt(0.5 * omega2 * (c_low - third)) * times + ellipk(m), m)[0]
     assert_allclose(-run.states[:, 2], c_low - (c_low - c_high) * sn**2, atol=2e-7)
-    # No angle is a state: the pole costs nothing.
-    assert run.evaluations < 1500
+    # No angle is a state: the pole costs nothing, only the turn of so wide a swing bounds the steps.
+    assert run.evaluations < 3000
 
 
 def test_one_hour_of_free_swing_keeps_the_rope_s_length_and_its_period():
