@@ -1,7 +1,7 @@
 """How a tower crane vibrates and how its load swings.
 
-``load_case`` reads a case file and ``run_case`` simulates it. ``TowerCrane``, ``Load`` and ``RadialModel``
-(or ``FlexibleModel`` of a ``flexible_crane`` in space) with
+``load_case`` reads a case file and ``run_case`` simulates it. ``tower_crane_model`` of a
+``TowerCrane`` and a ``Load`` in a number of modes with
 :func:`towercrane.simulation.simulate.simulate` and the motions of :mod:`towercrane.motions.profiles` do the same
 without files.
 """
@@ -15,10 +15,10 @@ from towercrane.results.versions import __version__ as __version__
 
 if TYPE_CHECKING:
     from towercrane.cases.case import load_case
+    from towercrane.cranes.tower.crane_model import tower_crane_model
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
     from towercrane.cranes.tower.modes.parameters import TowerCrane
-    from towercrane.cranes.tower.planar import RadialModel
     from towercrane.kernels.payload import Load
     from towercrane.runs.run import run_case
     from towercrane.runs.sweep import sweep
@@ -27,24 +27,24 @@ __all__ = [
     "FlexibleModel",
     "Load",
     "ModeCounts",
-    "RadialModel",
     "TowerCrane",
     "flexible_crane",
     "load_case",
     "run_case",
     "sweep",
+    "tower_crane_model",
 ]
 
 _HOME = {
     "FlexibleModel": "cranes.tower.model",
     "Load": "kernels.payload",
     "ModeCounts": "cranes.tower.modes.modal_crane",
-    "RadialModel": "cranes.tower.planar",
     "TowerCrane": "cranes.tower.modes.parameters",
     "flexible_crane": "cranes.tower.modes.modal_crane",
     "load_case": "cases.case",
     "run_case": "runs.run",
     "sweep": "runs.sweep",
+    "tower_crane_model": "cranes.tower.crane_model",
 }
 
 

@@ -17,7 +17,7 @@ class NoCompiler(RuntimeError):
 def kernel(
     signature: Any = None,
     *,
-    door: bool | tuple[Any, ...] = False,
+    python_entry: bool | tuple[Any, ...] = False,
     inline: bool = False,
     allocates: bool = False,
     parallel_calls: bool = False,
@@ -29,7 +29,7 @@ def kernel(
     signature : numba signature, optional
         A function with a signature can be called from Python, and be passed to kernels as a function pointer. One
         without stays as it is for Python.
-    door : bool or tuple of numba types
+    python_entry : bool or tuple of numba types
         Python calls a function without a signature: compile it for that at its first call, or for arguments of these
         types at once.
     inline : bool
@@ -51,8 +51,8 @@ def kernel(
     compile_: Any = numba.njit
     if config.DISABLE_JIT:
         raise NoCompiler("NUMBA_DISABLE_JIT: wanted unset or 0, got 1: the equations are written for the compiler")
-    # A door for Python takes longer to compile than many a function behind it.
-    inner = signature is None and not (door or inline)
+    # An entry for Python takes longer to compile than many a function behind it.
+    inner = signature is None and not (python_entry or inline)
 
     def decorate(function: Callable[..., Any]) -> Any:
         made = compile_(
@@ -64,7 +64,7 @@ def kernel(
             no_cfunc_wrapper=inner,
         )(function)
         if inner:
-            # Not kept: numba would take the machine code of a function without a door for that of one with a door.
+            # Not kept: numba would take the machine code of a function without an entry for that of one with it.
             made.__class__ = _inner(type(made))
             return made
         before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
@@ -75,15 +75,15 @@ def kernel(
         if signature is not None:
             made.compile(signature)
             made.disable_compile()
-        if isinstance(door, tuple):
-            made.compile(door)
+        if isinstance(python_entry, tuple):
+            made.compile(python_entry)
         return made
 
     return decorate
 
 
 def _inner(dispatcher: type) -> type:
-    """Class of compiled functions without a door: Python, which would crash without it, calls what they were."""
+    """Class of compiled functions without an entry for Python, which calls what they were instead of crashing."""
 
     def call(self: Any, *arguments: Any) -> Any:
         return self.py_func(*arguments)

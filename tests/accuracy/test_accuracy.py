@@ -11,19 +11,19 @@ from samples.qtz5613 import CRANE, motions, standing
 from towercrane.accuracy.choice import Indicators, choose
 from towercrane.accuracy.indicators import drift, vibration
 from towercrane.accuracy.instants import OUTPUTS, RICHEST, nodes_of
-from towercrane.accuracy.scene import RadialScene, Setting
+from towercrane.accuracy.scene import Scene, Setting
 from towercrane.kernels.payload import Load
 from towercrane.motions.profiles import s_curve, smooth_ramps
 from towercrane.schema.targets import Tolerance
 
 POSITIONS = OUTPUTS[:3]
-SCENE = RadialScene(CRANE, Load(800.0), motions(), 80.0)
+SCENE = Scene(CRANE, Load(800.0), motions(), 80.0)
 SCENES = {
     "trapezoid": SCENE,
     "s-curve": replace(SCENE, motions={**motions(), "trolley": s_curve(5.0, 41.0, 0.8, 0.2, 0.2)}),
     "smooth": replace(SCENE, motions={**motions(), "trolley": smooth_ramps(41.0, -0.6, 2.5, 40.0)}),
     "hoist": replace(SCENE, motions={**standing(30.0, 18.0), "rope": s_curve(18.0, 9.0, 0.5, 0.3, 0.6)}),
-    "swinging": replace(SCENE, swing_angle=0.2, tower_damping_ratio=0.01, jib_damping_ratio=0.01),
+    "swinging": replace(SCENE, swing_angle=0.2, tower_damping_ratio=0.01, jib_vertical_damping_ratio=0.01),
     "let fall": replace(SCENE, state="zero", self_weight=False, rope_as_rod=True),
 }
 
@@ -50,7 +50,9 @@ def test_nodes_hold_the_models_own_small_motions():
     assert nodes.pendulum[end] == pytest.approx(stiffness[-1, -1], rel=1e-12)
     inputs = np.zeros((2, 3))
     inputs[:, 0] = 41.0, 18.0
-    weight = SCENE.model(RICHEST).scene.static_force(np.zeros(RICHEST.tower_modes + RICHEST.jib_modes), inputs)
+    weight = SCENE.model(RICHEST).scene.static_force(
+        np.zeros(RICHEST.tower_modes + RICHEST.jib_vertical_modes), inputs
+    )
     np.testing.assert_allclose(nodes.weight[end, :-1], weight, atol=1e-12 * abs(weight).max())
 
 
@@ -136,10 +138,10 @@ def test_a_looser_target_takes_fewer_modes_and_an_output_that_feels_little_fewer
     tight, loose = (
         choose(SCENE, {name: Tolerance(target, True) for name in POSITIONS}).setting for target in (3e-4, 3e-2)
     )
-    swing = choose(SCENE, {"swing_angle": Tolerance(3e-2, True)}).setting
-    assert tight.tower_modes + tight.jib_modes > loose.tower_modes + loose.jib_modes
-    assert (loose.tower_modes, loose.jib_modes) == (2, 2)
-    assert swing.tower_modes + swing.jib_modes < 2
+    swing = choose(SCENE, {"sway_radial": Tolerance(3e-2, True)}).setting
+    assert tight.tower_modes + tight.jib_vertical_modes > loose.tower_modes + loose.jib_vertical_modes
+    assert (loose.tower_modes, loose.jib_vertical_modes) == (2, 2)
+    assert swing.tower_modes + swing.jib_vertical_modes < 2
     assert tight.rtol < loose.rtol
 
 
@@ -151,21 +153,25 @@ def test_an_absolute_target():
 
 def test_what_is_stated_is_kept_and_checked():
     targets = {name: Tolerance(1e-4, relative=True) for name in POSITIONS}
-    choice = choose(SCENE, targets, {"tower_modes": 1, "jib_modes": 1, "weight_softening": False})
-    assert (choice.setting.tower_modes, choice.setting.jib_modes, choice.setting.weight_softening) == (1, 1, False)
+    choice = choose(SCENE, targets, {"tower_modes": 1, "jib_vertical_modes": 1, "weight_softening": False})
+    assert (choice.setting.tower_modes, choice.setting.jib_vertical_modes, choice.setting.weight_softening) == (
+        1,
+        1,
+        False,
+    )
     assert not choice.kept
 
 
 def test_a_method_that_was_not_measured_promises_nothing():
-    choice = choose(SCENE, {"swing_angle": Tolerance(0.1, relative=True)}, {"method": "dopri5"})
+    choice = choose(SCENE, {"sway_radial": Tolerance(0.1, relative=True)}, {"method": "dopri5"})
     assert not choice.kept
 
 
 def test_parametric_resonance_cannot_be_promised():
     tuned = replace(SCENE, motions=motions(rope=10.0), state="zero", rope_as_rod=True, duration=120.0)
-    (doubt,) = choose(tuned, {"swing_angle": Tolerance(1e-2, relative=True)}).doubts
+    (doubt,) = choose(tuned, {"sway_radial": Tolerance(1e-2, relative=True)}).doubts
     assert "twice the swing's 0.15" in doubt
-    wide = choose(replace(SCENE, swing_angle=0.8), {"swing_angle": Tolerance(1e-2, relative=True)}).doubts
+    wide = choose(replace(SCENE, swing_angle=0.8), {"sway_radial": Tolerance(1e-2, relative=True)}).doubts
     assert "the load swings 0.74" in wide[0]
 
 

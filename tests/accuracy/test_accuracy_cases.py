@@ -38,8 +38,8 @@ def test_a_target_takes_ratios_lengths_and_a_table():
         name: Tolerance(pytest.approx(1e-4), relative=False)
         for name in ("tower_tip_displacement", "jib_tip_deflection")
     }
-    mixed = targets('{ swing_angle = "0.01 deg", rope_tension = "50 N" }')
-    assert mixed["swing_angle"].value == pytest.approx(np.radians(0.01))
+    mixed = targets('{ sway_radial = "0.01 deg", rope_tension = "50 N" }')
+    assert mixed["sway_radial"].value == pytest.approx(np.radians(0.01))
     assert mixed["rope_tension"] == Tolerance(50.0, relative=False)
 
 
@@ -51,8 +51,8 @@ def test_a_target_takes_ratios_lengths_and_a_table():
         ("-1e-3", ("got:    -0.001",)),
         ('"fast"', ('got:    "fast"', "a quantity begins with its number")),
         ('"3 kg"', ('such as "0.1 mm"', '"3 kg"')),
-        ("{ swing = 1e-3 }", ('unknown output "swing"', 'did you mean "swing_angle"?')),
-        ('{ swing_angle = "1 mm" }', ("an error of swing_angle in rad", '"1 mm"')),
+        ("{ swing = 1e-3 }", ('unknown output "swing"', 'did you mean "sway_radial"?')),
+        ('{ sway_radial = "1 mm" }', ("an error of sway_radial in rad", '"1 mm"')),
         ("{}", ("an empty table",)),
     ],
 )
@@ -65,18 +65,18 @@ def test_a_target_that_makes_no_sense(text, words):
 
 
 def test_outputs_without_a_target():
-    with pytest.raises(CaseError, match=r"(?s)accuracy\.target.*an error of swing_angle in rad"):
-        load_case(STATED, ['accuracy.target="1 mm"', 'accuracy.outputs=["swing_angle"]'])
-    with pytest.raises(CaseError, match="none for swing_angle"):
-        load_case(STATED, ["accuracy.target={ rope_tension = 0.1 }", 'accuracy.outputs=["swing_angle"]'])
-    with pytest.raises(CaseError, match=r'(?s)accuracy\.outputs.*got:    "swing".*did you mean "swing_angle"'):
+    with pytest.raises(CaseError, match=r"(?s)accuracy\.target.*an error of sway_radial in rad"):
+        load_case(STATED, ['accuracy.target="1 mm"', 'accuracy.outputs=["sway_radial"]'])
+    with pytest.raises(CaseError, match="none for sway_radial"):
+        load_case(STATED, ["accuracy.target={ rope_tension = 0.1 }", 'accuracy.outputs=["sway_radial"]'])
+    with pytest.raises(CaseError, match=r'(?s)accuracy\.outputs.*got:    "swing".*did you mean "sway_radial"'):
         load_case(STATED, ["accuracy.target=1e-3", 'accuracy.outputs=["swing"]'])
 
 
 def test_without_a_target_nothing_changes():
     result = run_case(load_case(STATED, SHORT))
     assert "accuracy" not in result.attrs
-    assert (result.attrs["tower_modes"], result.attrs["jib_modes"], result.attrs["rtol"]) == (2, 3, 1e-8)
+    assert (result.attrs["tower_modes"], result.attrs["jib_vertical_modes"], result.attrs["rtol"]) == (2, 3, 1e-8)
     assert result.attrs["frequency_cap"] == 0.0
 
 
@@ -84,10 +84,10 @@ def test_a_run_says_what_it_chose_and_promises(capsys):
     case, result, found = promised(OPEN)
     assert found["outcome"] == KEPT
     assert found["stated"] == []
-    assert set(found["outputs"]) == {"tower_tip_displacement", "jib_tip_deflection", "swing_angle"}
+    assert set(found["outputs"]) == {"tower_tip_displacement", "jib_tip_deflection", "sway_radial"}
     for output in found["outputs"].values():
         assert 0.0 < output["estimated"] <= output["allowed"] == pytest.approx(1e-3 * output["peak"])
-    assert result.attrs["jib_modes"] == found["setting"]["jib_modes"]
+    assert result.attrs["jib_vertical_modes"] == found["setting"]["jib_vertical_modes"]
     summary = summarise(case, result)
     assert summary["accuracy"] == found
     run_tables(summary)
@@ -99,8 +99,8 @@ def test_a_run_says_what_it_chose_and_promises(capsys):
 def test_what_the_case_states_is_checked():
     case, result, found = promised(STATED, "accuracy.target=1e-4", "model.weight_softening=false")
     assert found["outcome"] == OUT_OF_REACH
-    assert found["stated"] == ["atol", "jib_modes", "method", "rtol", "tower_modes", "weight_softening"]
-    assert stated(case)["jib_modes"] == 3
+    assert found["stated"] == ["atol", "jib_vertical_modes", "method", "rtol", "tower_modes", "weight_softening"]
+    assert stated(case)["jib_vertical_modes"] == 3
     assert result.attrs["rtol"] == 1e-8
     assert any("jib tip deflection" in reason and "wanted" in reason for reason in found["reasons"])
     assert any("softening" in part and "%" in part for part in found["left_out"])
@@ -122,7 +122,7 @@ def test_a_tower_that_buckles_is_named():
 def test_verification_compares_with_a_richer_model(capsys):
     case, result, _ = promised(OPEN)
     report = verification(case, result)
-    assert report["finer"]["jib_modes"] == report["setting"]["jib_modes"] + 4
+    assert report["finer"]["jib_vertical_modes"] == report["setting"]["jib_vertical_modes"] + 4
     assert report["finer"]["rtol"] == pytest.approx(1e-8)
     assert finer(Setting(2, 3, rtol=1e-8)).rtol == pytest.approx(1e-10)
     for name in ("tower_tip_displacement", "jib_tip_deflection"):
@@ -130,7 +130,7 @@ def test_verification_compares_with_a_richer_model(capsys):
         assert 0.02 * output["estimated"] < output["actual"] < output["estimated"]
     verification_tables(report)
     assert "Run beside a richer model" in capsys.readouterr().out
-    assert (finer(Setting(8, 14)).tower_modes, finer(Setting(8, 14)).jib_modes) == (10, 18)
+    assert (finer(Setting(8, 14)).tower_modes, finer(Setting(8, 14)).jib_vertical_modes) == (10, 18)
 
 
 @pytest.mark.parametrize("name", ["towers/laced", "towers/tapered", OPEN])

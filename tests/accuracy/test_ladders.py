@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 from towercrane import load_case
 from towercrane.accuracy.mode_convergence import Ladders, measured_choice
 from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer_in_space, verification
-from towercrane.accuracy.space_scene import SpaceScene, SpaceSetting
+from towercrane.accuracy.scene import Scene, Setting
 from towercrane.cli import app
 from towercrane.cranes.parts.wind import WindAreas, gusts
 from towercrane.cranes.tower.modes.damping import ModalDamping
@@ -31,7 +31,7 @@ from towercrane.schema.targets import Tolerance
 NAME = "qtz5613/manoeuvre-within-2e-2"
 SHORT = ["run.duration=25 s", "run.output_step=0.1 s"]
 
-SLEW = SpaceScene(CRANE, Load(1500.0), manoeuvre(), 40.0, 0.1)
+SLEW = Scene(CRANE, Load(1500.0), manoeuvre(), 40.0, 0.1)
 GUSTS = gusts(4.0, np.array([[3.0, 8.0, 0.0], [9.0, 2.0, 0.5], [-4.0, 6.0, 0.0], [5.0, -5.0, 0.0], [0.0, 0.0, 0.0]]))
 SCENES = {
     "manoeuvre": SLEW,
@@ -116,7 +116,7 @@ def test_what_is_stated_is_kept_and_judged():
 
 
 def test_a_rung_is_the_difference_of_two_runs():
-    base = SpaceSetting(1, 1, 1, 1, rtol=1e-6, atol=1e-8)
+    base = Setting(1, 1, 1, 1, rtol=1e-6, atol=1e-8)
     ladders = Ladders(SLEW, base)
     runs = SLEW.run(base), SLEW.run(replace(base, jib_lateral_modes=2))
     place = np.linalg.norm(runs[0]["payload_position"].values - runs[1]["payload_position"].values, axis=1)
@@ -126,8 +126,8 @@ def test_a_rung_is_the_difference_of_two_runs():
 
 
 def test_an_unknown_output():
-    with pytest.raises(ValueError, match=r"targets: wanted some of payload_position.*got swing_angle"):
-        measured_choice(SLEW, every(0.1, ("swing_angle",)))
+    with pytest.raises(ValueError, match=r"targets: wanted some of payload_position.*got sway_radial"):
+        measured_choice(SLEW, every(0.1, ("sway_radial",)))
 
 
 def test_targets_of_a_case_in_space():

@@ -30,8 +30,7 @@ from towercrane.accuracy.promise import (
     settle,
     verification,
 )  # fmt: skip
-from towercrane.accuracy.scene import RadialScene, Setting
-from towercrane.accuracy.space_scene import SpaceScene
+from towercrane.accuracy.scene import Scene, Setting
 from towercrane.cli import app
 from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.slewing.description import Drive
@@ -60,7 +59,7 @@ def moves(start, *steps, speed, acceleration):
     return sequence(*parts)
 
 
-HEAVY_ON_A_LONG_ROPE = RadialScene(
+HEAVY_ON_A_LONG_ROPE = Scene(
     TowerCrane(
         "tall",
         Beam(98.76810196028987, 241.02002674591515, STEEL, 4.305997315315723),
@@ -86,7 +85,7 @@ HEAVY_ON_A_LONG_ROPE = RadialScene(
     swing_angle=-0.19552973284747477,
 )
 
-LEANING = RadialScene(
+LEANING = Scene(
     TowerCrane(
         "leaning",
         Chain((Segment(13.0, 450.0, 2e8),), foundation=Foundation(1.4e8)),
@@ -103,7 +102,7 @@ LEANING = RadialScene(
     rope_as_rod=True,
 )
 
-STUBBY = RadialScene(
+STUBBY = Scene(
     replace(CRANE, tower=Chain((Segment(20.0, 900.0, 3e9, 1e7),), foundation=Foundation(3e8))),
     Load(2000.0),
     {"trolley": trapezoid(30.0, 38.0, 0.8, 0.4), "rope": rest(12.0)},
@@ -119,28 +118,28 @@ def over(value, *names):
 
 def test_a_wide_swing_of_a_heavy_load_wants_the_jib_to_bend():
     target = 0.003498
-    choice = choose(HEAVY_ON_A_LONG_ROPE, over(target, "swing_angle"))
+    choice = choose(HEAVY_ON_A_LONG_ROPE, over(target, "sway_radial"))
     assert choice.kept
     assert not choice.doubts
-    assert choice.setting.jib_modes > 0
+    assert choice.setting.jib_vertical_modes > 0
     exact = HEAVY_ON_A_LONG_ROPE.run(replace(CAPPED, cap=20.0))
-    reached = gap(HEAVY_ON_A_LONG_ROPE.run(choice.setting), exact, "swing_angle") / peak(exact, "swing_angle")
+    reached = gap(HEAVY_ON_A_LONG_ROPE.run(choice.setting), exact, "sway_radial") / peak(exact, "sway_radial")
     assert 0.01 * target < reached < target
     rigid = Setting(1, 0, rtol=1e-7, atol=1e-10)
-    lost = gap(HEAVY_ON_A_LONG_ROPE.run(rigid), exact, "swing_angle")
-    assert lost > 2.0 * target * peak(exact, "swing_angle")
+    lost = gap(HEAVY_ON_A_LONG_ROPE.run(rigid), exact, "sway_radial")
+    assert lost > 2.0 * target * peak(exact, "sway_radial")
     assert Indicators(HEAVY_ON_A_LONG_ROPE).truncation(rigid)[SWING] > lost
 
 
-@pytest.mark.parametrize("jib_modes", [1, 2])
-def test_a_swing_is_slower_on_a_crane_that_yields(jib_modes):
-    scene = RadialScene(CRANE, Load(2000.0), standing(45.0, 25.0), 60.0, swing_angle=0.1)
+@pytest.mark.parametrize("jib_vertical_modes", [1, 2])
+def test_a_swing_is_slower_on_a_crane_that_yields(jib_vertical_modes):
+    scene = Scene(CRANE, Load(2000.0), standing(45.0, 25.0), 60.0, swing_angle=0.1)
     nodes = nodes_of(scene)
-    soft, stiff = Setting(0, jib_modes, rtol=1e-9, atol=1e-12), Setting(0, 0, rtol=1e-9, atol=1e-12)
+    soft, stiff = Setting(0, jib_vertical_modes, rtol=1e-9, atol=1e-12), Setting(0, 0, rtol=1e-9, atol=1e-12)
 
     def last_crossing(setting):
         run = scene.run(setting)
-        angle, times = run["swing_angle"].values, run["time"].values
+        angle, times = run["sway_radial"].values, run["time"].values
         at = np.flatnonzero((angle[:-1] < 0.0) & (angle[1:] >= 0.0))[-1]
         return times[at] - angle[at] * (times[at + 1] - times[at]) / (angle[at + 1] - angle[at])
 
@@ -157,7 +156,7 @@ def test_a_tower_that_leans_far_promises_nothing():
 
 def test_kinds_of_modes_that_matter_only_together_are_found():
     target = 0.003384
-    scene = SpaceScene(
+    scene = Scene(
         TowerCrane(
             "small",
             Chain(
@@ -200,7 +199,7 @@ def test_kinds_of_modes_that_matter_only_together_are_found():
     ],
 )
 def test_drives_that_never_move_steadily_are_chosen_for_like_any_other(motion, duration):
-    scene = RadialScene(CRANE, Load(800.0), {"trolley": motion, "rope": rest(18.0)}, duration)
+    scene = Scene(CRANE, Load(800.0), {"trolley": motion, "rope": rest(18.0)}, duration)
     choice = choose(scene, over(1e-2, *OUTPUTS))
     assert choice.kept
     assert not choice.doubts
@@ -213,15 +212,17 @@ def test_drives_that_never_move_steadily_are_chosen_for_like_any_other(motion, d
 
 
 def test_a_wide_swing_of_drives_that_never_move_steadily_is_doubted():
-    scene = RadialScene(CRANE, Load(800.0), {"trolley": minimum_jerk(5.0, 41.0, 9.0), "rope": rest(18.0)}, 9.0)
-    assert "the load swings" in choose(scene, over(1e-2, "swing_angle")).doubts[0]
+    scene = Scene(CRANE, Load(800.0), {"trolley": minimum_jerk(5.0, 41.0, 9.0), "rope": rest(18.0)}, 9.0)
+    assert "the load swings" in choose(scene, over(1e-2, "sway_radial")).doubts[0]
 
 
 @pytest.mark.parametrize("counts", [(7, 3), (11, 2), (2, 12), (14, 14)])
 def test_any_stated_numbers_of_modes_are_compared_with_more(counts):
-    scene = RadialScene(CRANE, Load(800.0), motions(), 80.0)
-    choice = choose(scene, over(0.1, *OUTPUTS[:3]), dict(zip(("tower_modes", "jib_modes"), counts, strict=True)))
-    assert (choice.setting.tower_modes, choice.setting.jib_modes) == counts
+    scene = Scene(CRANE, Load(800.0), motions(), 80.0)
+    choice = choose(
+        scene, over(0.1, *OUTPUTS[:3]), dict(zip(("tower_modes", "jib_vertical_modes"), counts, strict=True))
+    )
+    assert (choice.setting.tower_modes, choice.setting.jib_vertical_modes) == counts
     assert (choice.estimate.truncation[:2] > 0.0).all()
     assert choice.kept
 
@@ -250,9 +251,9 @@ def test_what_the_richest_model_lacks_is_in_every_promise():
     ],
 )
 def test_what_a_verification_finds_is_the_outcome(outcome, actual, richer, settled):
-    promised = {"outcome": outcome, "reasons": [], "outputs": {"swing_angle": {"allowed": 1.0, "units": "rad"}}}
+    promised = {"outcome": outcome, "reasons": [], "outputs": {"sway_radial": {"allowed": 1.0, "units": "rad"}}}
     result = Recording(np.zeros(1), {}, {"accuracy": json.dumps(promised)})
-    settle(result, {"outcome": richer, "outputs": {"swing_angle": {"actual": actual}}})
+    settle(result, {"outcome": richer, "outputs": {"sway_radial": {"actual": actual}}})
     found = json.loads(result.attrs["accuracy"])
     assert found["outcome"] == settled
     assert ("found beside a richer model" in " ".join(found["reasons"])) == (not actual <= 1.0)
@@ -262,7 +263,7 @@ def test_what_a_verification_finds_is_the_outcome(outcome, actual, richer, settl
 def test_a_promise_that_its_verification_breaks_ends_with_an_exit_code(tmp_path, monkeypatch):
     def found(case, result):
         report = verification(case, result)
-        report["outputs"]["swing_angle"]["actual"] = 1.0
+        report["outputs"]["sway_radial"]["actual"] = 1.0
         return report
 
     command = ["run", OPEN, "--verify", "--no-pictures", "--out", str(tmp_path), "--set", "run.duration=5 s"]
@@ -280,6 +281,6 @@ def test_a_promise_that_its_verification_breaks_ends_with_an_exit_code(tmp_path,
 def test_a_rich_model_is_verified_beside_a_richer_one():
     case = load_case("hard/modes-8-14", ["run.duration=1 s", "run.output_step=0.5 s"])
     report = verification(case, record_case(case))
-    assert (report["finer"]["tower_modes"], report["finer"]["jib_modes"]) == (10, 18)
+    assert (report["finer"]["tower_modes"], report["finer"]["jib_vertical_modes"]) == (10, 18)
     for output in report["outputs"].values():
         assert output["actual"] < output["estimated"]

@@ -19,7 +19,7 @@ from towercrane.bench.scenes.prepared import jib_scene, lumped_scene, radial_sce
 from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
 from towercrane.commands.shared.skeleton import as_text
-from towercrane.cranes.tower.file.build import radial_model
+from towercrane.cranes.tower.file.build import tower_model
 from towercrane.motions.motion import phases
 from towercrane.simulation.methods.registry import METHODS
 
@@ -35,7 +35,7 @@ def short():
 
 
 def test_plain_equations_are_the_compiled_ones_at_random_states():
-    model = radial_model(load_case("qtz5613/condition-3").checked)
+    model = tower_model(load_case("qtz5613/condition-3").checked)
     rhs, n, rng = plain_rhs(model), model.coordinates, np.random.default_rng(3)
     inputs = np.array([[5.0, 0.3, 0.05], [12.0, -0.2, 0.03]])
     for _ in range(20):

@@ -15,7 +15,7 @@ from towercrane.cases.case import Assumption, CaseError, Fault, load_case
 from towercrane.cases.kinds import every_key
 from towercrane.cases.models import motions_of
 from towercrane.cranes.parts.load import load_of
-from towercrane.cranes.tower.file.build import radial_crane
+from towercrane.cranes.tower.file.build import crane_of
 from towercrane.cranes.tower.file.effects import kept_tower
 from towercrane.cranes.tower.file.members import jib_of, lattice_of
 from towercrane.cranes.tower.file.requests import modes_of
@@ -30,8 +30,8 @@ def test_values_are_si_and_defaults_hold(write):
     assert (case.crane.gravity, case.crane.source, case.crane.tower.lattice) == (9.81, "", None)
     assert (case.payload.mass, case.payload.rope_damping, case.payload.drag_area) == (800.0, 0.0, 0.0)
     model, modes = case.checked.model, modes_of(case.checked, motions_of(case)["trolley"])
-    assert (model.tower_modes, model.jib_modes, model.weight_softening) == (2, 3, False)
-    assert (model.tower_damping_ratio, model.jib_damping_ratio) == (0.0, 0.0)
+    assert (model.tower_modes, model.jib_vertical_modes, model.weight_softening) == (2, 3, False)
+    assert (model.tower_damping_ratio, model.jib_vertical_damping_ratio) == (0.0, 0.0)
     assert (case.start.state, case.start.swing_angle) == ("equilibrium", 0.0)
     assert (case.run.duration, case.run.output_step) == (60.0, 0.05)
     assert (case.solver.method, case.solver.rtol, case.solver.atol) == ("dop853", 1e-8, 1e-10)
@@ -43,10 +43,10 @@ def test_every_optional_key_is_read(write):
     options = """
 [model]
 tower_modes = 0
-jib_modes = 14
+jib_vertical_modes = 14
 weight_softening = true
 tower_damping_ratio = "2 %"
-jib_damping_ratio = 0.01
+jib_vertical_damping_ratio = 0.01
 [start]
 state = "zero"
 swing_angle = "-5 deg"
@@ -67,9 +67,9 @@ elements = 64
     case = load_case(path)
     assert (case.payload.mass, case.payload.rope_damping, case.payload.drag_area) == (800.0, 3.0, 2.0)
     model, modes = case.checked.model, modes_of(case.checked, motions_of(case)["trolley"])
-    assert (model.tower_modes, model.jib_modes, model.weight_softening) == (0, 14, True)
+    assert (model.tower_modes, model.jib_vertical_modes, model.weight_softening) == (0, 14, True)
     assert model.tower_damping_ratio == pytest.approx(0.02)
-    assert model.jib_damping_ratio == 0.01
+    assert model.jib_vertical_damping_ratio == 0.01
     assert case.start.swing_angle == pytest.approx(math.radians(-5))
     assert case.start.state == "zero"
     assert case.run.output_step == pytest.approx(0.02)
@@ -80,7 +80,7 @@ elements = 64
 
 def test_domain_objects(write):
     case = load_case(write())
-    crane = radial_crane(case.checked)
+    crane = crane_of(case.checked)
     assert crane.tower == kept_tower(case.checked) == Beam(30.0, 300.0, to_si("210 GPa", "Pa"), 0.01)
     assert crane.jib == jib_of(case.crane) == Beam(40.0, 100.0, to_si("210 GPa", "Pa"), 0.003)
     assert (crane.counter_jib_length, crane.counter_jib_mass_per_length) == (10.0, 150.0)

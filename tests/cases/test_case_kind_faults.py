@@ -47,7 +47,7 @@ MEND = [
     (MULTI, "crane.trolley.mass=2", "crane.trolley", ['cranes of kind "radial"', '"multi-mass"']),
     (MULTI, "crane.post.inertia=2", "crane.post", ['cranes of kind "jib"']),
     (RADIAL, "crane.mass.jib_tip=2", "crane.mass", ['"multi-mass", "basic" or "enhanced"; this crane']),
-    (MULTI, "model.jib_modes=2", "model", ['cranes of kind "radial"']),
+    (MULTI, "model.jib_vertical_modes=2", "model", ['cranes of kind "radial"']),
     (PLAN, "modes.count=2", "modes", ['cranes of kind "radial"']),
     (MULTI, "motion.trolley.start=2", "motion.trolley", ["one of the keys shaft, hoist", '"radial"']),
     (PLAN, "motion.shaft.start=2", "motion.shaft", ['"multi-mass", "basic", "enhanced" or "space"']),
@@ -184,7 +184,7 @@ def test_a_crane_without_its_kind_is_told_which(copied, name, kind):
     assert '"radial"' in fault.hint
 
 
-def test_a_radial_crane_may_state_its_kind():
+def test_a_crane_of_may_state_its_kind():
     assert load_case(RADIAL, ["crane.kind=radial"]).kind == "radial"
 
 

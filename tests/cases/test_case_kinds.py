@@ -16,7 +16,7 @@ from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.slewing.build import parameters_of
 from towercrane.cranes.slewing.parameters import BasicParameters, EnhancedParameters, MultiMassParameters
 from towercrane.cranes.slewing.tables import SlewingCase
-from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.schema.provenance import split_provenance
 
 RAMPS = {
@@ -190,15 +190,15 @@ def test_parameters_refuse_what_is_no_crane():
 
 def test_tables_are_asked_of_their_own_kind():
     radial, multi, jib = (load_case(name) for name in (RADIAL, MULTI, PLAN))
-    assert radial.tables(RadialCase) is radial.checked
+    assert radial.tables(TowerCase) is radial.checked
     assert multi.tables(SlewingCase) is multi.checked
     calls = [
         (radial, SlewingCase, '"multi-mass" or "basic" or "enhanced"', "radial"),
         (radial, JibCase, '"jib"', "radial"),
-        (multi, RadialCase, '"radial"', "multi-mass"),
+        (multi, TowerCase, '"radial"', "multi-mass"),
         (jib, SlewingCase, '"multi-mass"', "jib"),
-        (jib, RadialCase, '"radial"', "jib"),
-        (jib, SpaceCase, '"space"', "jib"),
+        (jib, TowerCase, '"radial"', "jib"),
+        (jib, TowerCase, '"space"', "jib"),
     ]
     for case, tables, wanted, got in calls:
         with pytest.raises(CaseError) as caught:

@@ -9,7 +9,7 @@ from samples.tower_files import FLEXIBLE, LACED, MEMBERS, ONE_SEGMENT, SEGMENTS,
 from modal import Beam, Chain, EndBody, Foundation, LacedColumn, Segment
 from towercrane.cases.assumptions import rests_on
 from towercrane.cases.case import load_case
-from towercrane.cranes.tower.file.build import radial_crane
+from towercrane.cranes.tower.file.build import crane_of
 from towercrane.cranes.tower.file.effects import kept_tower
 from towercrane.cranes.tower.file.members import beam_choice, lattice_of
 from towercrane.cranes.tower.file.tower_tables import Foundation as FoundationTable
@@ -72,7 +72,7 @@ def test_every_key_of_the_tables_is_in_the_file_of_these_tests():
 def test_each_effect_of_a_uniform_tower_makes_it_a_chain(write_tower, key, chain):
     case = load_case(write_tower(UNIFORM + key + "\n"))
     same(kept_tower(case.checked), chain)
-    assert radial_crane(case.checked).tower == kept_tower(case.checked)
+    assert crane_of(case.checked).tower == kept_tower(case.checked)
 
 
 @pytest.mark.parametrize("nothing", ["", "[foundation]\n", "bodies = []\n", "segments = []\n", 'beam = "stated"\n'])

@@ -99,7 +99,7 @@ def test_twist_and_lateral_bending_carry_the_jib_tip_sideways(posed):
 
 
 def test_jib_at_rest_hangs_as_a_cantilever_does():
-    changes = ["model.tower_modes=0", "model.jib_modes=14", "run.duration=0.1 s"]
+    changes = ["model.tower_modes=0", "model.jib_vertical_modes=14", "run.duration=0.1 s"]
     case = load_case("qtz5613/condition-3", changes)
     result = run_case(case)
     poses = poses_of(case, result, np.zeros(1))

@@ -83,7 +83,7 @@ def test_head_rests_where_nothing_turns_it():
 def test_towers_of_segments_and_lattices_serve_in_space(write):
     laced = (case_folder() / "towers" / "crane-laced.toml").read_text("utf-8")
     tower = laced[laced.index("[tower]") : laced.index("[jib]")]
-    crane = (case_folder() / "qtz5613" / "crane-space.toml").read_text("utf-8")
+    crane = (case_folder() / "qtz5613" / "crane.toml").read_text("utf-8")
     uniform = crane[crane.index("[tower]") : crane.index("[jib]")]
     torsion = "".join(line + "\n" for line in uniform.splitlines() if line.startswith("torsional"))
     path = write(SLEWING, (uniform, tower.replace("[tower.lattice]", f"{torsion}\n[tower.lattice]")))
@@ -101,7 +101,7 @@ def test_towers_of_segments_and_lattices_serve_in_space(write):
 def test_the_extended_crane_changes_nothing_in_the_plane(write):
     short = ["run.duration=10 s"]
     plain = run_case(load_case(RADIAL, short))
-    extended = load_case(write(RADIAL, ('"crane.toml"', '"crane-space.toml"')), short)
+    extended = load_case(RADIAL, short)
     result = record_case(extended)
     for name in plain.data_vars:
         assert_array_equal(result[name].values, plain[name].values)
@@ -135,9 +135,7 @@ def test_a_run_names_what_it_rests_on_and_what_it_leaves_idle(name, changes, use
 def test_a_case_states_its_kind_or_its_crane_does(write):
     in_crane = ('source = "Gao', 'kind = "space"\nsource = "Gao')
     assert load_case(write(SLEWING, ('kind = "space"\n', ""), in_crane)).kind == "space"
-    assert (
-        load_case(write(RADIAL, ('"crane.toml"', '"crane-space.toml"'), in_crane), ["kind=radial"]).kind == "radial"
-    )
+    assert load_case(write(RADIAL, ('"crane.toml"', '"crane.toml"'), in_crane), ["kind=radial"]).kind == "radial"
     fault = only_fault(write(SLEWING, ('kind = "space"\n', "")))
     assert (fault.key, fault.got) == ("kind", "nothing: the key is missing")
     assert 'put kind = "space" at the top' in fault.hint
@@ -187,7 +185,7 @@ def test_one_slip_makes_one_message(name, changes, key, words):
     ],
 )
 def test_modes_of_a_member_need_its_data(write, table, line, key, words):
-    crane = (case_folder() / "qtz5613" / "crane-space.toml").read_text("utf-8")
+    crane = (case_folder() / "qtz5613" / "crane.toml").read_text("utf-8")
     whole = next(text for text in crane.splitlines() if text.startswith(line))
     path = write(table, (whole + "\n", ""))
     fault = only_fault(path)
@@ -198,7 +196,7 @@ def test_modes_of_a_member_need_its_data(write, table, line, key, words):
 
 
 def test_a_shaft_needs_its_drive_and_a_wind_something_to_press_on(write):
-    crane = (case_folder() / "qtz5613" / "crane-space.toml").read_text("utf-8")
+    crane = (case_folder() / "qtz5613" / "crane.toml").read_text("utf-8")
     drive = crane[crane.index("[drive]") : crane.index("[friction]")]
     fault = only_fault(write(DRIVEN, (drive, "")))
     assert fault.key == "drive"
@@ -231,7 +229,7 @@ def test_gusts_are_checked_line_by_line(write, old, new, line, wanted):
 
 
 def test_every_space_key_is_shown_in_a_shipped_crane():
-    crane = tomllib.loads((case_folder() / "qtz5613" / "crane-space.toml").read_text("utf-8"))
+    crane = tomllib.loads((case_folder() / "qtz5613" / "crane.toml").read_text("utf-8"))
     assert {"soft_stiffness", "stiff_stiffness", "corner", "damping", "inertia"} == set(crane["drive"])
     assert {"tower", "jib", "counter_jib", "counterweight"} == set(crane["wind_areas"])
     plain = tomllib.loads((case_folder() / "qtz5613" / "crane.toml").read_text("utf-8"))

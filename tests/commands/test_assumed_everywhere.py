@@ -35,7 +35,7 @@ COMMANDS = {
     "sweep": (RADIAL, ("--vary", "rope.length=10,12"), SHORT, "payload.mass"),
     "linearise to .mat": (RADIAL, (), (LOAD,), "payload.mass"),
     "linearise to .npz": (RADIAL, (), (LOAD,), "payload.mass"),
-    "shape": (RADIAL, (), (LOAD, "model.tower_modes=1", "model.jib_modes=1"), "payload.mass"),
+    "shape": (RADIAL, (), (LOAD, "model.tower_modes=1", "model.jib_vertical_modes=1"), "payload.mass"),
     "sensitivity": ("slewing/basic/example-1", ("--vary", "stiffness_*", "--step", "50"), SHORT, "payload.mass"),
     "compare": ("qtz5613/slewing", (), ("run.duration=1 s", "model.torsion_modes=0", TWIST), TWISTED),
 }  # fmt: skip

@@ -10,14 +10,14 @@ from towercrane.cli import app
 from towercrane.results import files as results
 
 IN_THE_PLANE, IN_SPACE = "qtz5613/condition-3", "qtz5613/slewing"
-PLANE = ("tower_modes", "jib_modes")
+PLANE = ("tower_modes", "jib_vertical_modes")
 SPACE = ("tower_modes", "torsion_modes", "jib_lateral_modes", "jib_vertical_modes")
 RIGID = [
     *((IN_THE_PLANE, kinds) for kinds in (PLANE[:1], PLANE[1:], PLANE)),
     *((IN_SPACE, kinds) for kinds in (*((kind,) for kind in SPACE), SPACE)),
 ]
 COORDINATES = {
-    IN_THE_PLANE: {"tower_modes": {"tower"}, "jib_modes": {"jib"}},
+    IN_THE_PLANE: {"tower_modes": {"tower"}, "jib_vertical_modes": {"jib"}},
     IN_SPACE: {
         "tower_modes": {"tower_x", "tower_y"},
         "torsion_modes": {"torsion"},
@@ -58,8 +58,8 @@ def test_maps_take_rigid_members(kinds, tmp_path):
 
 
 def test_comparisons_and_sweeps_pass_through_rigid_members(tmp_path):
-    invoked("compare", IN_THE_PLANE, ("jib_modes",), "--out", str(tmp_path))
-    invoked("sweep", IN_THE_PLANE, (), "--vary", "model.jib_modes=0,1", "--out", str(tmp_path))
+    invoked("compare", IN_THE_PLANE, ("jib_vertical_modes",), "--out", str(tmp_path))
+    invoked("sweep", IN_THE_PLANE, (), "--vary", "model.jib_vertical_modes=0,1", "--out", str(tmp_path))
 
 
 @pytest.mark.parametrize(("case", "kinds"), [(IN_THE_PLANE, PLANE), (IN_SPACE, SPACE)])

@@ -30,8 +30,8 @@ def run(folder):
 
 def test_run_answers_in_the_documented_json(run):
     assert run["outcome"] == "finished"
-    assert_allclose(run["peaks"]["swing_angle"]["minimum"], -0.020412, atol=2e-6)
-    assert_allclose(run["peaks"]["swing_angle"]["minimum_time_s"], 4.25, atol=0.051)
+    assert_allclose(run["peaks"]["sway_radial"]["minimum"], -0.020412, atol=2e-6)
+    assert_allclose(run["peaks"]["sway_radial"]["minimum_time_s"], 4.25, atol=0.051)
     assert run["peaks"]["rope_tension"]["units"] == "N"
     assert run["wall_seconds"] > 0.0
     assert run["swing_period_s"] is None  # seven seconds after the stop are less than a period
@@ -68,7 +68,7 @@ def test_swing_period_of_the_source(tmp_path):
 def test_parametric_resonance_is_named(tmp_path):
     done = towercrane("run", "qtz5613/condition-4-zero", "--out", str(tmp_path), "--json", "--no-pictures")
     summary = json.loads(done.stdout)
-    assert_allclose(max(abs(summary["peaks"]["swing_angle"][k]) for k in ("maximum", "minimum")), 0.603, atol=5e-3)
+    assert_allclose(max(abs(summary["peaks"]["sway_radial"][k]) for k in ("maximum", "minimum")), 0.603, atol=5e-3)
     notices = " ".join(summary["notices"])
     assert "parametric resonance" in notices
     assert "twice the swing" in notices

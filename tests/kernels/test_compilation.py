@@ -113,7 +113,7 @@ def _doubled(x):
 
 
 def test_what_kernels_call_is_python_to_python_until_it_has_a_door():
-    inner, outer = compiled.kernel()(_doubled), compiled.kernel(door=True)(_doubled)
+    inner, outer = compiled.kernel()(_doubled), compiled.kernel(python_entry=True)(_doubled)
     assert inner("a") == "aa"
     assert not inner.signatures
     assert outer(1.5) == inner(1.5) == 3.0

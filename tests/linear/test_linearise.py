@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from samples.qtz5613 import CRANE, model, standing
 from scipy.linalg import expm
 
-from towercrane.cranes.tower.planar import RadialModel
+from tests.samples.qtz5613 import in_plane
 from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
@@ -19,8 +19,8 @@ G = 9.81
 TIGHT = {"rtol": 1e-13, "atol": 1e-16}
 
 
-def weightless(gravity: float, **options) -> RadialModel:
-    return RadialModel(dataclasses.replace(CRANE, gravity=gravity), Load(800.0), **options)
+def weightless(gravity: float, **options):
+    return in_plane(dataclasses.replace(CRANE, gravity=gravity), Load(800.0), **options)
 
 
 def names(signals) -> list[str]:
@@ -109,7 +109,7 @@ def test_a_rope_in_mid_swing(axes, angle, rate):
     inputs = np.array([[20.0, 0.0, 0.0], [18.0, 0.0, 0.0]])
     state = crane.start(inputs, "zero", angle)
     state[axes], state[2 * axes - 1] = rate * np.cos(angle), rate * np.sin(angle)
-    linear = linearise(crane, inputs, state=state, outputs=["swing_angle", "swing_rate"])
+    linear = linearise(crane, inputs, state=state, outputs=["sway_radial", "swing_rate"])
     assert_allclose(linear.a[axes - 1, 0], -G * np.cos(angle) / 18.0 - rate**2, rtol=1e-11)
     assert_allclose(linear.a[axes - 1, axes - 1], 0.0, atol=1e-12)
     assert_allclose(linear.c[:, [0, axes - 1]], np.eye(2), rtol=1e-11, atol=1e-12)
@@ -118,7 +118,7 @@ def test_a_rope_in_mid_swing(axes, angle, rate):
 
 
 def test_air_drag_at_rest_is_of_second_order():
-    linear = linearise(RadialModel(CRANE, Load(800.0, drag_area=5.0), 0, 0), standing(20.0, 18.0), outputs=[])
+    linear = linearise(in_plane(CRANE, Load(800.0, drag_area=5.0), 0, 0), standing(20.0, 18.0), outputs=[])
     assert abs(linear.a[1, 1]) < 1e-11
     assert linear.error < 1e-9
 
@@ -162,13 +162,13 @@ def test_frequencies_with_all_weights_beside_the_undeformed_crane():
 
 
 def test_damping_ratios_are_recovered():
-    crane = weightless(0.0, tower_modes=1, jib_modes=0, tower_damping_ratio=0.03)
+    crane = weightless(0.0, tower_modes=1, jib_vertical_modes=0, tower_damping_ratio=0.03)
     light = dataclasses.replace(crane, crane=dataclasses.replace(crane.crane, trolley_mass=1e-6), load=Load(1e-6))
     [row] = [e for e in linearise(light, standing(0.0, 18.0)).eigenvalues() if e.state == "tower_mode_1"]
     assert_allclose(row.damping_ratio, 0.03, rtol=1e-8)
     assert_allclose(row.frequency, light.tower.frequencies_hz[0], rtol=1e-8)
     # On the whole crane the two ratios bracket what the structure's modes have.
-    whole = linearise(model(2, 3, tower_damping_ratio=0.02, jib_damping_ratio=0.01), standing(20.0, 18.0))
+    whole = linearise(model(2, 3, tower_damping_ratio=0.02, jib_vertical_damping_ratio=0.01), standing(20.0, 18.0))
     structure = [e.damping_ratio for e in whole.eigenvalues()[5:]]
     assert len(structure) == 5
     assert 0.005 < min(structure) < max(structure) < 0.03
@@ -188,7 +188,7 @@ def test_dominant_states_do_not_depend_on_units():
 
 # --- against the simulator -----------------------------------------------------------------------------
 
-SHOWN = ("swing_angle", "tower_tip_displacement", "jib_tip_deflection", "rope_tension")
+SHOWN = ("sway_radial", "tower_tip_displacement", "jib_tip_deflection", "rope_tension")
 
 
 def response(linear, start, accelerations, step):

@@ -137,7 +137,7 @@ def hang(state, ends, elements, rail, inputs, forces):
     return 0.5 * STIFF * (dot(gap, gap) + (length - inputs[ROPE]) ** 2)
 
 
-@kernel(door=True)
+@kernel(python_entry=True)
 def rates(state, ends, elements, nodes, rail, inputs, forces, out):
     """Write the state's time derivative; returns the potential energy."""
     forces[:] = 0.0
@@ -177,7 +177,7 @@ def rates(state, ends, elements, nodes, rail, inputs, forces, out):
     return energy
 
 
-@kernel(door=True, allocates=True)
+@kernel(python_entry=True, allocates=True)
 def march(state, ends, elements, nodes, rail, inputs, step):
     """Steps of the classical Runge-Kutta method, in place; ``inputs`` (2 steps + 1, 5) at steps and half-way."""
     forces = np.zeros((len(nodes), 6))

@@ -40,9 +40,9 @@ def assert_draws(figure, result, panels):
 
 OVER_TIME = [
     (radial, RADIAL, {
-        "overview.png": [["trolley_position"], ["rope_length"], ["swing_angle"], ["tower_tip_displacement"],
+        "overview.png": [["trolley_position"], ["rope_length"], ["sway_radial"], ["tower_tip_displacement"],
                          ["jib_tip_deflection"], ["rope_tension"]],
-        "swing.png": [["swing_angle"]],
+        "swing.png": [["sway_radial"]],
         "tower.png": [["tower_tip_displacement"]],
         "jib.png": [["jib_tip_deflection"]],
     }),
@@ -140,7 +140,7 @@ def test_ends_of_the_ramps_are_marked_in_their_rows(sign):
     assert radial._ramp_ends(result.isel(time=slice(0, 11))) == []
     (axes,) = radial.phase([result]).axes
     path, *marks = axes.get_lines()
-    angle, rate = DEGREE * result["swing_angle"].values, DEGREE * result["swing_rate"].values
+    angle, rate = DEGREE * result["sway_radial"].values, DEGREE * result["swing_rate"].values
     assert_allclose(path.get_xdata(), angle)
     assert_allclose(path.get_ydata(), rate)
     for row, mark, text in zip((10, 30, 61, 80), marks, axes.texts, strict=True):
@@ -198,13 +198,13 @@ def test_figures_of_the_source_compare_its_conditions():
         "trolley_position",
         "trolley_speed",
         "rope_length",
-        "swing_angle",
+        "sway_radial",
         "swing_rate",
         "tower_tip_displacement",
     ]
     made_up = {n: made(names, seed=n, case=f"condition-{n}") for n in (1, 2, 3, 4)}
     pairs = dict.fromkeys(("04", "05", "06", "07", "08"), (1, 2)) | {"09": (3, 4), "10": (3, 4), "11": (2, 3)}
-    shown = {"05": "swing_angle", "07": "tower_tip_displacement", "09": "swing_angle"}
+    shown = {"05": "sway_radial", "07": "tower_tip_displacement", "09": "sway_radial"}
     shown |= dict.fromkeys(("10", "11"), "tower_tip_displacement")
     for name, figure in radial.source_figures(made_up).items():
         number = name.split("-")[1]

@@ -36,13 +36,13 @@ def test_modes_in_space(capsys):
 
 def test_a_linear_model(capsys):
     row = {
-        "dominant_state": "swing_angle",
+        "dominant_state": "sway_radial",
         "frequency_hz": 0.16,
         "damping_ratio": 0.0125,
         "real": -0.25,
         "imaginary": 1.5,
     }
-    signals = [{"name": name, "value": 2.5, "units": "m"} for name in ("trolley", "swing_angle")]
+    signals = [{"name": name, "value": 2.5, "units": "m"} for name in ("trolley", "sway_radial")]
     linear_tables(
         {
             "name": "Some crane", "states": signals, "inputs": signals[:1], "outputs": [], "assumed": ASSUMED,

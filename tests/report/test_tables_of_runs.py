@@ -86,7 +86,7 @@ def test_a_run_without_a_swing_or_a_spectrum_and_with_expectations(capsys):
 
 
 SETTING = {
-    "tower_modes": 2, "jib_modes": 7, "cap": 6.5, "weight_softening": True, "method": "dop853", "rtol": 2e-5,
+    "tower_modes": 2, "jib_vertical_modes": 7, "cap": 6.5, "weight_softening": True, "method": "dop853", "rtol": 2e-5,
     "atol": 3e-8,
 }  # fmt: skip
 WORDS = "2 tower, 7 jib modes capped at 6.5 Hz, with the weight's softening, dop853 at rtol 2.0e-05, atol 3.0e-08"
@@ -94,10 +94,11 @@ WORDS = "2 tower, 7 jib modes capped at 6.5 Hz, with the weight's softening, dop
 
 def test_an_error_that_is_asked_for(capsys):
     outputs = {
-        "swing_angle": {"allowed": 2e-4, "estimated": 5e-5, "peak": 0.02, "units": "rad"},
+        "sway_radial": {"allowed": 2e-4, "estimated": 5e-5, "peak": 0.02, "units": "rad"},
         "rope_tension": {"allowed": 12.0, "estimated": None, "peak": 7858.3, "units": "N"},
     }
-    promised = {"outcome": "out of reach", "outputs": outputs, "setting": SETTING, "stated": ["jib_modes", "rtol"],
+    promised = {"outcome": "out of reach", "outputs": outputs, "setting": SETTING,
+                "stated": ["jib_vertical_modes", "rtol"],
                 "left_out": ["this"], "tried": 19, "choice_cpu_seconds": 0.0137}  # fmt: skip
     run_tables(run_summary(accuracy=promised))
     rows, lines = said(capsys)
@@ -115,7 +116,7 @@ def test_an_error_that_is_asked_for(capsys):
 
 def test_a_verification(capsys):
     outputs = {
-        "swing_angle": {"estimated": 5e-5, "actual": 6e-5, "peak": 0.02, "units": "rad"},
+        "sway_radial": {"estimated": 5e-5, "actual": 6e-5, "peak": 0.02, "units": "rad"},
         "rope_tension": {"estimated": 9.0, "actual": 4.0, "peak": 8000.0, "units": "N"},
         "other_output": {"estimated": None, "actual": 3.0, "peak": 0.0, "units": "m"},
     }

@@ -80,14 +80,14 @@ def test_the_recommended_motion_alone_is_bold(capsys, monkeypatch):
 
 def sweep_report(**changes):
     found = {
-        "largest": {"value": 0.123456, "at": {"payload.mass": 700.0, "model.jib_modes": 3}},
-        "smallest": {"value": -2.5, "at": {"payload.mass": 150.25, "model.jib_modes": 1}},
+        "largest": {"value": 0.123456, "at": {"payload.mass": 700.0, "model.jib_vertical_modes": 3}},
+        "smallest": {"value": -2.5, "at": {"payload.mass": 150.25, "model.jib_vertical_modes": 1}},
         "units": "rad",
     }
     report = {
         "crane": "Some crane", "title": "Some title", "runs": 12, "outcomes": {"finished": 11, "slack rope": 1},
-        "varied": [{"key": "payload.mass", "units": "kg"}, {"key": "model.jib_modes", "units": "1"}],
-        "extremes": {"swing_angle": found}, "seconds": 2.5, "runs_per_second": 4.8, "notices": ["look"],
+        "varied": [{"key": "payload.mass", "units": "kg"}, {"key": "model.jib_vertical_modes", "units": "1"}],
+        "extremes": {"sway_radial": found}, "seconds": 2.5, "runs_per_second": 4.8, "notices": ["look"],
         "faults": [{"at": {"payload.mass": 2.5}, "fault": "some fault"}],
         "assumed": ASSUMED,
     }  # fmt: skip
@@ -98,7 +98,7 @@ def test_a_sweep(capsys):
     sweep_tables(sweep_report())
     rows, lines = said(capsys)
     assert rows == [
-        ["output", "", "value", "unit", "payload.mass [kg]", "model.jib_modes [1]"],
+        ["output", "", "value", "unit", "payload.mass [kg]", "model.jib_vertical_modes [1]"],
         ["swing angle", "largest", "0.12346", "rad", "700", "3"],
         ["swing angle", "smallest", "-2.5", "rad", "150.25", "1"],
     ]
@@ -109,17 +109,19 @@ def test_a_sweep(capsys):
 
 @pytest.mark.parametrize(("bad", "more"), [(3, []), (5, ["bad input in 2 more runs: see the files"])])
 def test_three_faults_of_a_sweep_are_told_and_the_others_counted(bad, more, capsys):
-    faults = [{"at": {"payload.mass": -k, "model.jib_modes": k}, "fault": f"fault {k}"} for k in range(1, bad + 1)]
+    faults = [
+        {"at": {"payload.mass": -k, "model.jib_vertical_modes": k}, "fault": f"fault {k}"} for k in range(1, bad + 1)
+    ]
     sweep_tables(sweep_report(faults=faults))
     _, lines = said(capsys)
-    told = [f"bad input at payload.mass = -{k}, model.jib_modes = {k}: fault {k}" for k in (1, 2, 3)]
+    told = [f"bad input at payload.mass = -{k}, model.jib_vertical_modes = {k}: fault {k}" for k in (1, 2, 3)]
     assert [line for line in lines if line.startswith("bad input")] == [*told, *more]
 
 
 def test_models_beside_each_other(capsys):
     row = {
-        "name": "rigid", "modes": {"tower_modes": 0, "jib_modes": 3}, "outcome": "finished",
-        "sway": {"swing_angle": {"peak_deg": 1.234, "residual_deg": None}}, "slewing_torque_nm": None,
+        "name": "rigid", "modes": {"tower_modes": 0, "jib_vertical_modes": 3}, "outcome": "finished",
+        "sway": {"sway_radial": {"peak_deg": 1.234, "residual_deg": None}}, "slewing_torque_nm": None,
         "tower_tip_m": 0.0391, "horizontal_error_m": 0.021, "vertical_error_m": 0.77, "relative_error": 0.0456,
         "evaluations": 987, "cpu_seconds": 0.126,
     }  # fmt: skip

@@ -58,7 +58,7 @@ def test_data_that_lie_elsewhere_are_refused(kind, path):
     secret.write_bytes(np.arange(5.0).tobytes())
     with h5py.File(path, "a") as file:
         if kind == "soft":
-            file["other"] = h5py.SoftLink("/swing_angle")
+            file["other"] = h5py.SoftLink("/sway_radial")
         elif kind == "external":
             file["other"] = h5py.ExternalLink(str(secret), "/x")
         elif kind == "group":
@@ -144,7 +144,9 @@ def test_case_whose_tower_does_not_fit_itself_is_refused(path):
 ROWS = 5
 
 
-@pytest.mark.parametrize("name", ["time", "rope_length", "trolley_position", "payload_position", "tower_coordinate"])
+@pytest.mark.parametrize(
+    "name", ["time", "rope_length", "trolley_position", "payload_position", "tower_x_coordinate"]
+)
 @pytest.mark.parametrize(
     "value",
     [
@@ -154,7 +156,7 @@ ROWS = 5
     ids=["short", "rows of three", "matrices", "nan", "huge", "text", "complex", "booleans", "backwards"],
 )  # fmt: skip
 def test_variables_are_judged_before_use(name, value, path):
-    fits = {"payload_position": (ROWS, 3), "tower_coordinate": (ROWS, 3)}
+    fits = {"payload_position": (ROWS, 3), "tower_x_coordinate": (ROWS, 3)}
     backwards = value.dtype == float and value[0].ndim == 0 and len(value) == ROWS and value[0] == ROWS
     if fits.get(name) == value.shape or (backwards and name in ("rope_length", "trolley_position")):
         pytest.skip("values that a run may have")

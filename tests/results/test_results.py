@@ -83,7 +83,7 @@ def test_every_crane_that_turns_tells_its_load_in_both_axes(name, angle):
 
 def test_recording_reads_like_its_data_set(recording, result):
     assert "time" in recording
-    assert "swing_angle" in recording
+    assert "sway_radial" in recording
     assert "outward" not in recording
     for name in ("time", *recording.data_vars):
         assert recording[name].dims == result[name].dims
@@ -97,8 +97,8 @@ def test_every_variable_has_a_unit_and_a_name(result):
 
     registry = pint.UnitRegistry()
     wanted = {
-        "trolley_position", "tower_tip_displacement", "tower_tip_tilt", "jib_tip_deflection", "swing_angle",
-        "rope_tension", "tower_coordinate", "jib_coordinate", "total_energy",
+        "trolley_position", "tower_tip_displacement", "tower_tip_tilt", "jib_tip_deflection", "sway_radial",
+        "rope_tension", "tower_x_coordinate", "jib_vertical_coordinate", "total_energy",
     }  # fmt: skip
     assert wanted <= set(result.data_vars)
     for variable in result.data_vars.values():
@@ -132,7 +132,7 @@ def test_csv_has_units_in_its_header_and_the_same_numbers(recording, tmp_path):
     table = np.loadtxt(path, delimiter=",", skiprows=sum(line.startswith("#") for line in lines) + 1)
     assert table.shape == (len(recording.times), len(header))
     assert_allclose(
-        table[:, header.index("swing_angle [rad]")], recording["swing_angle"].values, rtol=1e-11, atol=1e-15
+        table[:, header.index("sway_radial [rad]")], recording["sway_radial"].values, rtol=1e-11, atol=1e-15
     )
 
 

@@ -1,6 +1,7 @@
 """What a run builds it hands on: its summary, its pictures and its film build no crane, model or mode again."""
 
 import pytest
+from towercrane.cranes.tower.planar import RadialModel
 from typer.testing import CliRunner
 
 from modal import Beam, Modes
@@ -15,7 +16,6 @@ from towercrane.cranes.slewing.model import LumpedModel
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
 from towercrane.cranes.tower.modes.parameters import TowerCrane
-from towercrane.cranes.tower.planar import RadialModel
 
 SINGLE = (
     RadialModel, TowerCrane, FlexibleCrane, LumpedModel, LumpedCrane, PlannedJibCrane, JibCrane,

@@ -13,7 +13,13 @@ from towercrane.results import files as results
 from towercrane.runs.summary import peaks
 from towercrane.runs.sweep import grid
 
-SHORT = ["run.duration=8 s", "solver.rtol=1e-5", "solver.atol=1e-7", "model.jib_modes=1", "model.tower_modes=1"]
+SHORT = [
+    "run.duration=8 s",
+    "solver.rtol=1e-5",
+    "solver.atol=1e-7",
+    "model.jib_vertical_modes=1",
+    "model.tower_modes=1",
+]
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +55,7 @@ def test_any_key_may_vary_also_one_that_changes_modes_motion_or_rows(case):
     data = sweep(
         case,
         {
-            "model.jib_modes": [0, 1, 2, 1],
+            "model.jib_vertical_modes": [0, 1, 2, 1],
             "motion.trolley.speed": ["0.4 m/s", 0.6, 0.8, 0.8],
             "crane.jib.length": ["50 m", "55.6 m", "55.6 m", "50 m"],
             "run.duration": [5, 5, 6, 7],
@@ -58,7 +64,7 @@ def test_any_key_may_vary_also_one_that_changes_modes_motion_or_rows(case):
     rows = [(0, 0.4, 50, 5), (1, 0.6, 55.6, 5), (2, 0.8, 55.6, 6), (1, 0.8, 50, 7)]
     for run, (modes, speed, length, duration) in enumerate(rows):
         assert_run(
-            data, run, case, f"model.jib_modes={modes}", f"motion.trolley.speed={speed}",
+            data, run, case, f"model.jib_vertical_modes={modes}", f"motion.trolley.speed={speed}",
             f"crane.jib.length={length}", f"run.duration={duration}",
         )  # fmt: skip
 
@@ -82,18 +88,18 @@ def test_other_cranes_and_methods_run_in_the_loop_with_the_same_answer(case):
     scipy = sweep(case, {"payload.mass": [500.0], "solver.method": ["scipy-dop853"]})
     lanes = sweep(case, {"payload.mass": [500.0]})
     assert set(lanes.data_vars) == set(scipy.data_vars)
-    assert_allclose(scipy["swing_angle_min"], lanes["swing_angle_min"], rtol=1e-3)
+    assert_allclose(scipy["sway_radial_min"], lanes["sway_radial_min"], rtol=1e-3)
 
 
 def test_series_on_demand(case):
     data = sweep(case, {"payload.mass": [500.0, 700.0]}, series=True)
-    assert data["swing_angle"].dims == ("run", "time")
+    assert data["sway_radial"].dims == ("run", "time")
     single = run_case(load_case(case.path, [*case.changes, "payload.mass=700.0"]))
-    assert_allclose(data["swing_angle"][1], single["swing_angle"], rtol=0, atol=1e-14)
+    assert_allclose(data["sway_radial"][1], single["sway_radial"], rtol=0, atol=1e-14)
     # Methods and tolerances may differ.
     methods = sweep(case, {"solver.method": ["dop853", "dopri5"], "solver.rtol": [1e-5, 1e-6]}, series=True)
     single = run_case(load_case(case.path, [*case.changes, "solver.method=dopri5", "solver.rtol=1e-6"]))
-    assert_allclose(methods["swing_angle"][1], single["swing_angle"], rtol=0, atol=1e-14)
+    assert_allclose(methods["sway_radial"][1], single["sway_radial"], rtol=0, atol=1e-14)
     with pytest.raises(ValueError, match="series: wanted the same duration"):
         sweep(case, {"run.duration": [5, 6]}, series=True)
     with pytest.raises(ValueError, match="series: wanted the same duration"):
@@ -148,21 +154,21 @@ def test_command_writes_data_table_and_picture(written):
     folder, report = written
     assert {path.name for path in folder.iterdir()} == {"sweep.nc", "sweep.csv", "sweep.png"}
     data = results.load(folder / "sweep.nc")
-    assert_allclose(float(data["swing_angle_max"].max()), report["extremes"]["swing_angle"]["largest"]["value"])
+    assert_allclose(float(data["sway_radial_max"].max()), report["extremes"]["sway_radial"]["largest"]["value"])
     with open(folder / "sweep.csv", encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [float(row["rope_length [m]"]) for row in rows[:4]] == [5.0, 10.0, 20.0, 5.0]
-    assert_allclose([float(row["swing_angle_max [rad]"]) for row in rows], data["swing_angle_max"], rtol=1e-11)
+    assert_allclose([float(row["sway_radial_max [rad]"]) for row in rows], data["sway_radial_max"], rtol=1e-11)
     assert {row["outcome"] for row in rows} == {"finished"}
 
 
 def test_command_shows_a_table_and_the_next_command(tmp_path):
     settings = [part for change in SHORT for part in ("--set", change)]
     done = towercrane(
-        "sweep", "qtz5613/condition-3", "--vary", "model.jib_modes=1:2:2", "--out", str(tmp_path), *settings
+        "sweep", "qtz5613/condition-3", "--vary", "model.jib_vertical_modes=1:2:2", "--out", str(tmp_path), *settings
     )
     assert done.returncode == 0, done.stderr
-    assert "model.jib_modes" in done.stdout
+    assert "model.jib_vertical_modes" in done.stdout
     assert "assumed  crane.jib.second_moment_of_area" in done.stdout
     assert "next: towercrane run qtz5613/condition-3" in done.stdout
 
@@ -176,7 +182,7 @@ def test_command_shows_a_table_and_the_next_command(tmp_path):
         ("payload.mass=1m:2kg:3", "which is a length"),
         ("payload.mass=0kg:0kg:3", "above 0"),
         ("payload.mas=1kg:2kg:3", 'closest known key: "mass"'),
-        ("model.jib_modes=1:4:3", "steps that are whole numbers"),
+        ("model.jib_vertical_modes=1:4:3", "steps that are whole numbers"),
         ("payload.mass=1kg:2kg:2000000", "at most 1000000"),
     ],
 )

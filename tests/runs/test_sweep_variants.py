@@ -14,7 +14,7 @@ from towercrane import load_case, run_case, sweep
 from towercrane.cases.kinds import unit_of
 from towercrane.cases.plausibility import ranges_in
 from towercrane.cranes.registry import KINDS
-from towercrane.cranes.tower.file.build import radial_model
+from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.kernels.layout import STIFFNESS
 from towercrane.results import files as results
 from towercrane.runs.summary import accuracy, peaks
@@ -61,7 +61,7 @@ def assert_single_runs(case, vary):
         promised = accuracy(single)
         assert "accuracy" not in data or row["accuracy"].item() == (promised["outcome"] if promised else "")
         found_alone = peaks(single)
-        for name in RADIAL_OUTPUTS if "swing_angle" in single else found_alone:
+        for name in RADIAL_OUTPUTS if "sway_radial" in single else found_alone:
             found = found_alone[name]
             size = max(abs(found["maximum"]), abs(found["minimum"]), 1e-300)
             assert_allclose(row[f"{name}_max"], found["maximum"], rtol=0, atol=1e-12 * size)
@@ -70,13 +70,13 @@ def assert_single_runs(case, vary):
 
 
 def largest_swings(data):
-    return np.maximum(data["swing_angle_max"], -data["swing_angle_min"]).values
+    return np.maximum(data["sway_radial_max"], -data["sway_radial_min"]).values
 
 
 def test_ramps_are_shaped_for_the_load_and_rope_of_each_run():
     case = load_case("qtz5613/condition-3", ["motion.trolley.shape=zv", "solver.rtol=1e-5", "solver.atol=1e-7"])
     data = assert_single_runs(case, {"rope.length": [10.0, 18.0, 12.0]})
-    assert_allclose(data["swing_angle_max"].values[0], 0.01020, atol=1e-5)
+    assert_allclose(data["sway_radial_max"].values[0], 0.01020, atol=1e-5)
     case = load_case("qtz5613/condition-3", ["motion.trolley.shape=ei", *SHORT])
     assert_single_runs(case, {"payload.mass": [200.0, 900.0, 1500.0, 400.0]})
 
@@ -93,7 +93,7 @@ def test_what_a_tolerance_of_frequencies_leaves_out_hangs_on_each_run():
     case = load_case("qtz5613/condition-3", ["accuracy.frequency=3e-2", FOUNDATION, *SHORT])
     loads = [100.0, 40e3, 900.0]
     softened = [
-        radial_model(load_case(case.path, [*case.changes, f"payload.mass={m}"]).checked).weight_softening
+        tower_model(load_case(case.path, [*case.changes, f"payload.mass={m}"]).checked).weight_softening
         for m in loads
     ]
     assert softened == [False, True, False]
@@ -107,7 +107,7 @@ def test_a_combination_that_a_single_run_refuses_is_a_row_with_its_fault():
     data = assert_single_runs(case, grid({"crane.tower.height": heights, "rope.length": ropes}))
     bad = [rope > height for height in heights for rope in ropes]
     assert [fault != "" for fault in data["fault"].values] == bad
-    assert np.array_equal(np.isnan(data["swing_angle_max"]), bad)
+    assert np.array_equal(np.isnan(data["sway_radial_max"]), bad)
     assert "rope.length: wanted rope lengths above 0 and up to 23.8 m" in data["fault"].values[9]
     data = assert_single_runs(case, {"payload.mass": [500.0, 0.0, 2e7, 700.0, float("nan"), 800.0]})
     assert data["outcome"].values.tolist() == ["finished", BAD_INPUT, BAD_INPUT, "finished", BAD_INPUT, "finished"]
@@ -135,7 +135,7 @@ def test_kinds_methods_and_tolerances_may_vary_from_run_to_run(tmp_path):
     case = load_case("qtz5613/slewing", ["run.duration=1 s", "model.tower_modes=1", "model.torsion_modes=0"])
     assert_single_runs(case, {"solver.method": ["dop853", "scipy-rk45"], "solver.rtol": [1e-4, 1e-5]})
     case = load_case(
-        copy_case(tmp_path, "qtz5613/condition-3", ("jib_modes = 3\n", "")), ["crane=crane-space.toml", *SHORT]
+        copy_case(tmp_path, "qtz5613/condition-3", ("jib_vertical_modes = 3\n", "")), ["crane=crane.toml", *SHORT]
     )
     vary = {"kind": ["radial", "space"], "run.duration": [1.0, 1.0]}
     assert "slewing_torque" in json.loads(assert_single_runs(case, vary).attrs["outputs"])
@@ -147,9 +147,9 @@ def test_kinds_methods_and_tolerances_may_vary_from_run_to_run(tmp_path):
 
 def test_another_load_shares_all_that_does_not_hang_on_it():
     for softening in (False, True):
-        options = [f"model.weight_softening={json.dumps(softening)}", "model.jib_damping_ratio=0.01"]
+        options = [f"model.weight_softening={json.dumps(softening)}", "model.jib_vertical_damping_ratio=0.01"]
         light, heavy = (
-            radial_model(load_case("qtz5613/condition-3", [*options, m]).checked)
+            tower_model(load_case("qtz5613/condition-3", [*options, m]).checked)
             for m in ("payload.mass=100", "payload.mass=9e4")
         )
         shared, own = light.with_load(heavy.load).system, heavy.system

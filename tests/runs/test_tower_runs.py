@@ -11,9 +11,10 @@ from numpy.testing import assert_allclose
 from samples.tower_files import ONE_SEGMENT, SEGMENTS, UNIFORM, write_case
 
 from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Segment, crane_structure
-from towercrane import Load, RadialModel, TowerCrane, load_case, run_case
+from tests.samples.qtz5613 import in_plane
+from towercrane import Load, TowerCrane, load_case, run_case
 from towercrane.cases.models import motions_of
-from towercrane.cranes.tower.file.build import crane_frame, radial_crane, radial_model
+from towercrane.cranes.tower.file.build import crane_frame, crane_of, tower_model
 from towercrane.cranes.tower.file.effects import kept_tower
 from towercrane.cranes.tower.file.requests import modes_of
 from towercrane.linear.linearise import linearise
@@ -27,7 +28,7 @@ from towercrane.studies.natural import natural_frequencies
 
 TOWERS = ("towers/laced", "towers/stepped", "towers/tapered")
 JIB = Segment(40.0, 100.0, 210e9 * 0.003)
-OUTPUTS = ("tower_tip_displacement", "tower_tip_tilt", "jib_tip_deflection", "swing_angle")
+OUTPUTS = ("tower_tip_displacement", "tower_tip_tilt", "jib_tip_deflection", "sway_radial")
 
 COLUMN = LacedColumn(50e-4, 1.7, 1.4, 8e-4, 210e9, "X", 6e-4)
 MAST = Segment(18.0, 350.0, COLUMN.bending_stiffness.value, COLUMN.shear_stiffness.value, 350.0 * 0.85**2)
@@ -55,7 +56,7 @@ def test_one_segment_is_the_uniform_tower(tmp_path):
     segment = load_case(write_case(tmp_path / "segment", ONE_SEGMENT))
     assert isinstance(kept_tower(uniform.checked), Beam)
     assert isinstance(kept_tower(segment.checked), Chain)
-    modes = [radial_crane(case.checked).tower_modes(6).angular_frequencies for case in (uniform, segment)]
+    modes = [crane_of(case.checked).tower_modes(6).angular_frequencies for case in (uniform, segment)]
     assert_allclose(modes[1], modes[0], rtol=1e-12)
     assert_allclose(hertz(crane_frame(segment.checked), 30.0), hertz(crane_frame(uniform.checked), 30.0), rtol=1e-14)
     assert largest_difference(run_case(uniform), run_case(segment)) < 1e-9
@@ -65,7 +66,7 @@ def test_one_segment_is_the_uniform_tower(tmp_path):
 def test_run_of_a_segmented_tower_is_that_of_the_model_built_by_hand(tmp_path, softening):
     case = load_case(write_case(tmp_path, SEGMENTS), [f"model.weight_softening={json.dumps(softening)}"])
     crane = TowerCrane("by hand", BY_HAND, Beam(40.0, 100.0, 210e9, 0.003), 10.0, 150.0, 10e3, 300.0)
-    model = RadialModel(crane, Load(800.0), weight_softening=softening)
+    model = in_plane(crane, Load(800.0), weight_softening=softening)
     way = {"trolley": trapezoid(5.0, 30.0, 0.8, 0.1), "rope": rest(12.0)}
     found, wanted = run_case(case), simulate(model, way, 20.0)
     assert largest_difference(found, wanted) < 1e-9
@@ -98,7 +99,7 @@ def test_a_counter_jib_that_bends(tmp_path):
     # The equations of motion keep it rigid; ever stiffer it comes to that, as one over its stiffness.
     (tmp_path / "rigid").mkdir()
     plain = load_case(write_case(tmp_path / "rigid", UNIFORM))
-    assert radial_crane(case.checked) == radial_crane(plain.checked)
+    assert crane_of(case.checked) == crane_of(plain.checked)
     gaps = []
     for inertia in (1e-3, 1, 10):
         stiff = load_case(path, [f"crane.counter_jib.second_moment_of_area={inertia}"])
@@ -111,11 +112,11 @@ def test_a_counter_jib_that_bends(tmp_path):
 def test_the_shipped_laced_tower_is_the_published_crane_on_its_lattice():
     laced = load_case("towers/laced")
     published = load_case("qtz5613/condition-3", ["crane.tower.beam=shear-flexible"])
-    assert replace(radial_crane(laced.checked), name="QTZ5613") == radial_crane(published.checked)
+    assert replace(crane_of(laced.checked), name="QTZ5613") == crane_of(published.checked)
     assert motions_of(laced)["trolley"].switch_times == pytest.approx(motions_of(published)["trolley"].switch_times)
     # Lacing as soft as this costs the first mode, which the slewing part's inertia governs, next to nothing.
-    stated = radial_crane(load_case("qtz5613/condition-3").checked).tower_modes(4).frequencies_hz
-    loss = radial_crane(laced.checked).tower_modes(4).frequencies_hz / stated - 1.0
+    stated = crane_of(load_case("qtz5613/condition-3").checked).tower_modes(4).frequencies_hz
+    loss = crane_of(laced.checked).tower_modes(4).frequencies_hz / stated - 1.0
     assert_allclose(loss, [-0.0065, -0.1728, -0.4261, -0.5699], atol=1e-4)
 
 
@@ -127,8 +128,8 @@ def test_many_modes_of_a_shipped_tower_reach_the_exact_crane(name, rigid):
     case = load_case(name, rigid)
     position = modes_of(case.checked, motions_of(case)["trolley"]).trolley_positions[-1]
     exact = hertz(crane_frame(case.checked, weight=case.checked.model.weight_softening), position, 5)
-    found = [radial_model(case.checked, **modes).natural_modes(position, case.rope.length)[0][:5] / (2 * np.pi)
-             for modes in ({}, {"tower_modes": 10, "jib_modes": 12})]  # fmt: skip
+    found = [tower_model(case.checked, **modes).natural_modes(position, case.rope.length)[0][:5] / (2 * np.pi)
+             for modes in ({}, {"tower_modes": 10, "jib_vertical_modes": 12})]  # fmt: skip
     # Modes that are left out make a crane too stiff, never too soft.
     assert np.all(found[1] / exact > 1.0 - 1e-9)
     assert np.all(found[0] / found[1] > 1.0 - 1e-9)
@@ -149,7 +150,7 @@ def test_shipped_towers_answer_every_question(name, capsys):
     result = record_case(case)
     summary = summarise(case, result)
     assert (summary["outcome"], summary["energy_balance"]["relative_gap"] < 1e-8) == ("finished", True)
-    linear = linearise(radial_model(case.checked), motions_of(case))
+    linear = linearise(tower_model(case.checked), motions_of(case))
     swing = min(value.frequency for value in linear.eigenvalues() if value.value.imag > 0)
     assert_allclose(swing, report["crane"][0]["frequencies_hz"][0], rtol=3e-6)
     assert len(summary["assumed"]) >= 6

@@ -93,7 +93,7 @@ def test_what_follows_the_last_row_is_seen():
 def test_extremes_of_a_sweep_are_those_of_the_looks(runs):
     found = sweep(runs[8][0], {"payload.mass": [800.0, 1200.0]}, series=True)
     expected = peaks(runs[8][1])
-    for name in ("tower_tip_displacement", "swing_angle", "rope_tension", "jib_tip_deflection"):
+    for name in ("tower_tip_displacement", "sway_radial", "rope_tension", "jib_tip_deflection"):
         assert float(found[f"{name}_max"][0]) == pytest.approx(expected[name]["maximum"], rel=1e-12)
         assert float(found[f"{name}_min"][0]) == pytest.approx(expected[name]["minimum"], rel=1e-12)
         assert float(found[f"{name}_max_time"][0]) == expected[name]["maximum_time_s"]
@@ -163,7 +163,7 @@ def made(times, tower, swing, **attrs):
         times,
         {
             "tower_tip_displacement": of(tower, "m"),
-            "swing_angle": of(swing, "rad"),
+            "sway_radial": of(swing, "rad"),
             "rope_length": of(np.full(len(times), 10.0), "m"),
         },
         {"gravity": 9.81, "output_step": times[1], **attrs},

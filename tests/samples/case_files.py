@@ -71,7 +71,7 @@ def copy_case(folder: Path, name: str, *changes: tuple[str, str]) -> Path:
     """Copy a shipped case with its cranes and tables, with replacements in any of them; return the case's path."""
     source = case_folder() / f"{name}.toml"
     crane = source.with_name(tomllib.loads(source.read_text("utf-8"))["crane"])
-    files = {source, crane, *source.parent.glob("crane-space.toml"), *source.parent.glob("*.csv")}
+    files = {source, crane, *source.parent.glob("crane.toml"), *source.parent.glob("*.csv")}
     texts = {path.name: path.read_text("utf-8") for path in files}
     for old, new in changes:
         assert any(old in text for text in texts.values()), old

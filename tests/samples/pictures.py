@@ -25,7 +25,7 @@ def made(names, seed=1, **attrs):
 
 
 RADIAL = made(
-    ["trolley_position", "trolley_speed", "rope_length", "swing_angle", "swing_rate", "tower_tip_displacement",
+    ["trolley_position", "trolley_speed", "rope_length", "sway_radial", "swing_rate", "tower_tip_displacement",
      "jib_tip_deflection", "rope_tension"]
 )  # fmt: skip
 SLEWING = made(

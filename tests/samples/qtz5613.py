@@ -1,8 +1,13 @@
 """The crane of the tests, without a case file: QTZ5613 of Gao et al. (2023), Table 2."""
 
+from dataclasses import replace
+
 from modal.beams.beam import Beam
+from towercrane.cranes.tower.crane_model import tower_crane_model
+from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.modal_crane import ModeCounts
 from towercrane.cranes.tower.modes.parameters import TowerCrane
-from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid
@@ -21,8 +26,27 @@ CONDITIONS = {1: (0.4, 400.0, 18.0), 2: (0.8, 400.0, 18.0), 3: (0.8, 800.0, 18.0
 """Trolley speed [m/s], load [kg], rope [m]; loads of 1 and 2 are assumed."""
 
 
-def model(tower_modes: int = 2, jib_modes: int = 3, load: float = 800.0, **options) -> RadialModel:
-    return RadialModel(CRANE, Load(load), tower_modes, jib_modes, **options)
+def in_plane(
+    crane: TowerCrane,
+    load: Load,
+    tower: int = 2,
+    jib: int = 3,
+    *,
+    damping: tuple[float, float] = (0.0, 0.0),
+    axes: int = 2,
+    **options,
+) -> FlexibleModel:
+    """A crane in the plane of its jib, with so many modes of tower and jib and damping of them.
+
+    With three axes its load may leave the plane.
+    """
+    modes = ModeCounts(tower=tower, torsion=0, lateral=0, vertical=jib)
+    ratios = ModalDamping(tower=damping[0], vertical=damping[1])
+    return replace(tower_crane_model(crane, load, modes, planar=True, damping=ratios, **options), axes=axes)
+
+
+def model(tower: int = 2, jib: int = 3, load: float = 800.0, **options) -> FlexibleModel:
+    return in_plane(CRANE, Load(load), tower, jib, **options)
 
 
 def motions(speed: float = 0.8, rope: float = 18.0) -> dict:

@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 from samples.qtz5613 import CRANE, model, motions
 
 from modal import Chain, Foundation, Segment
+from tests.samples.qtz5613 import in_plane
 from towercrane.cranes.tower.lanes import OUTPUTS, RADIAL
-from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases, rest, sequence
@@ -73,7 +73,7 @@ def test_lanes_give_the_bits_of_single_runs(modes):
 @pytest.mark.parametrize(
     "options",
     [
-        {"tower_damping_ratio": 0.01, "jib_damping_ratio": 0.02},
+        {"tower_damping_ratio": 0.01, "jib_vertical_damping_ratio": 0.02},
         {"weight_softening": True},
         {"self_weight": False},
         {"rope_as_rod": True},
@@ -93,7 +93,7 @@ def test_more_runs_than_lanes_refill_them():
 def test_runs_of_different_motions_losses_and_starts_share_lanes():
     hauled = sequence(rest(12, 2), trapezoid(12, 7, 0.6, 0.2))
     waits = sequence(rest(20, 3), s_curve(20, 30, 1.0, 0.3, 0.2))
-    lossy = RadialModel(CRANE, Load(600.0, rope_damping=400.0, drag_area=3.0), 2, 3)
+    lossy = in_plane(CRANE, Load(600.0, rope_damping=400.0, drag_area=3.0), 2, 3)
     scenes = [
         (lossy, {"trolley": waits, "rope": hauled}),
         (model(load=500.0), {"trolley": waits, "rope": rest(9)}),
@@ -128,7 +128,7 @@ def test_towers_of_all_kinds_share_lanes_and_lean_as_far_as_they_like():
     segments = Segment(10.0, 350.0, 3e9), Segment(13.8, 300.0, 2e9)
     stepped = replace(CRANE, tower=Chain(segments, foundation=Foundation(rotation_stiffness=5e9)))
     scenes = [
-        (RadialModel(crane, Load(3000.0), 2, 3, rope_as_rod=True), motions(rope=9.0), "zero")
+        (in_plane(crane, Load(3000.0), 2, 3, rope_as_rod=True), motions(rope=9.0), "zero")
         for crane in (weak, CRANE, weaker, stepped)
     ]
     found = in_lanes(scenes)

@@ -9,9 +9,9 @@ from samples import lab_crane, qtz5613, space_crane
 from scipy.linalg import eigh
 
 from modal import Chain, EndBody, Foundation, Segment
+from tests.samples.qtz5613 import in_plane
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.small_motions import linear_matrices
-from towercrane.cranes.tower.planar import RadialModel
 from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
@@ -118,7 +118,7 @@ def test_a_foundation_is_among_what_vibrates():
     # A light block on a stiff spring shakes faster than the tower on it.
     block = {0: EndBody(mass=200.0, rotary_inertia=500.0)}
     tower = Chain((Segment(23.8, 350.0, 206e9 * 0.014),), block, foundation=Foundation(5e9, 4e9))
-    model = RadialModel(dataclasses.replace(qtz5613.CRANE, tower=tower), Load(800.0), 6, 3)
+    model = in_plane(dataclasses.replace(qtz5613.CRANE, tower=tower), Load(800.0), 6, 3)
     found = fastest_of(model, qtz5613.standing(3.0, 18.0))
     assert found < 1.02 * model.scene.fastest < 1.1 * found
 

@@ -46,7 +46,7 @@ def test_variants_leave_out_what_the_case_does():
     assert not any("torsion" in name for name in names)
     assert variants(load_case(NAME, ["model.tower_modes=14"]))[-1].counts["tower_modes"] == 14
     assert [v.name for v in variants(load_case(RADIAL))] == ["rigid", "tower", "jib", ONE_OF_EACH, OWN, RICHEST]
-    one = ["model.tower_modes=1", "model.jib_modes=1"]
+    one = ["model.tower_modes=1", "model.jib_vertical_modes=1"]
     assert [v.name for v in variants(load_case(RADIAL, one))] == ["rigid", "tower", "jib", OWN, RICHEST]
 
 
@@ -71,9 +71,9 @@ def test_departure_counts_from_where_the_load_would_hang_on_a_rigid_crane():
         "qtz5613/slewing", ["motion.slewing.end=0.001 deg", "run.duration=5 s", "motion.slewing.delay=4 s"]
     )
     counts = dict.fromkeys(("tower_modes", "torsion_modes", "jib_lateral_modes", "jib_vertical_modes"), 0)
-    from towercrane.cranes.tower.file.build import space_model
+    from towercrane.cranes.tower.file.build import tower_model
 
-    rigid = run_case(still, model=space_model(still.checked, **counts))
+    rigid = run_case(still, model=tower_model(still.checked, **counts))
     assert np.linalg.norm(departures(rigid)[:70], axis=1).max() < 1e-9
     # The elastic crane has sunk by the tilt of its tower and its jib's sag.
     assert departures(run_case(still))[0, 2] == pytest.approx(-1.2, abs=0.3)
@@ -125,7 +125,7 @@ def test_what_cannot_be_compared_is_refused():
     with pytest.raises(ValueError, match="wanted a case of kind radial or space, got 'jib'"):
         compare(load_case("jib-crane/plan"), 0.01)
     with pytest.raises(ValueError, match="wanted one mode or more"):
-        compare(load_case(RADIAL, ["model.tower_modes=0", "model.jib_modes=0"]), 0.01)
+        compare(load_case(RADIAL, ["model.tower_modes=0", "model.jib_vertical_modes=0"]), 0.01)
 
 
 def test_picture_shows_paths_and_distances_with_units(compared):
@@ -156,7 +156,10 @@ def test_command_answers_for_space_and_for_the_plane(tmp_path):
     for wrong, words in (
         (["compare", "jib-crane/plan"], "wanted a case of kind 'radial' or 'space'"),
         (["compare", NAME, "--target", "3"], "wanted a fraction between 0 and 1"),
-        (["compare", RADIAL, "--set", "model.tower_modes=0", "--set", "model.jib_modes=0"], "one mode or more"),
+        (
+            ["compare", RADIAL, "--set", "model.tower_modes=0", "--set", "model.jib_vertical_modes=0"],
+            "one mode or more",
+        ),
     ):
         refused = runner.invoke(app, [*wrong, "--out", str(tmp_path)])
         assert refused.exit_code == 2

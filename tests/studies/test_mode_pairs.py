@@ -56,7 +56,7 @@ def test_the_stiffer_the_counter_jib_the_nearer_is_every_mode_of_the_model():
     [(1, 5, 3, [(2.134, "tower")]), (5, 1, 4, [(2.941, "jib"), (7.614, "jib")])],
 )
 def test_modes_beyond_one_that_the_model_lacks_keep_their_partners(tower, jib, without, missing):
-    counts = (f"model.tower_modes={tower}", f"model.jib_modes={jib}", "modes.trolley_positions=[5]")
+    counts = (f"model.tower_modes={tower}", f"model.jib_vertical_modes={jib}", "modes.trolley_positions=[5]")
     case = load_case("towers/laced", counts)
     (row,) = natural_frequencies(case)["crane"]
     found = [(mode["frequency_hz"], mode["member"]) for mode in row["missing_from_the_model"]]

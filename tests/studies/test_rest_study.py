@@ -39,7 +39,7 @@ def test_study_of_a_trolley_recommends_by_rule():
     assert list(found) == ["commanded", "zv-pendulum", "zv", "zvd", "ei", "boxes", "minimum-jerk"]
     assert_allclose([found["zv"].candidate.duration, found["zvd"].candidate.duration], [57.257, 61.514], atol=2e-3)
     assert found["commanded"].nominal.residual > 0.1
-    damped = qtz5613.model(1, 1, tower_damping_ratio=0.01, jib_damping_ratio=0.01).scene
+    damped = qtz5613.model(1, 1, tower_damping_ratio=0.01, jib_vertical_damping_ratio=0.01).scene
     motions = found["commanded"].candidate.motions
     assert_allclose(found["commanded"].nominal.residual, attempt(damped, motions).residual, rtol=1e-12)
     assert abs(attempt(qtz5613.model(1, 1).scene, motions).residual / found["commanded"].nominal.residual - 1) > 1e-6
@@ -119,7 +119,7 @@ def test_cases_shaped_for_the_model_are_calm():
         case = load_case(CASE, [f"motion.trolley.shape={shape}", "run.duration=100 s"])
         result = run_case(case)
         after = result["time"].values > motions_of(case)["trolley"].duration
-        left[shape] = float(abs(result["swing_angle"].values[after]).max())
+        left[shape] = float(abs(result["sway_radial"].values[after]).max())
     assert left["trapezoid"] > 5e-3
     assert left["zvd"] < 1e-5
 
@@ -167,7 +167,7 @@ def test_pictures_have_units_names_and_what_was_assumed(monkeypatch):
 
 
 def test_command_writes_a_report_tables_for_drives_and_pictures(tmp_path):
-    setting = ["--set", "model.tower_modes=1", "--set", "model.jib_modes=1"]
+    setting = ["--set", "model.tower_modes=1", "--set", "model.jib_vertical_modes=1"]
     done = CliRunner().invoke(app, ["shape", CASE, "--out", str(tmp_path), "--step", "0.1", *setting])
     assert done.exit_code == 0, done.output
     assert {path.name for path in tmp_path.iterdir()} == {

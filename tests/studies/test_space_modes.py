@@ -9,8 +9,8 @@ from typer.testing import CliRunner
 
 from towercrane.cases.case import load_case
 from towercrane.cli import app
-from towercrane.cranes.tower.file.build import space_model
-from towercrane.cranes.tower.file.case_tables import SpaceCase
+from towercrane.cranes.tower.file.build import tower_model
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import rest
 from towercrane.report.plots.studies import space_modes as pictured
@@ -53,7 +53,7 @@ def in_plane(shares):
 
 @pytest.mark.parametrize(("place", "expected"), LATERAL.items())
 def test_lateral_pair_is_that_of_another_program(case, place, expected):
-    modes = modes_at(space_model(case.checked), Place(*place), 6)
+    modes = modes_at(tower_model(case.checked), Place(*place), 6)
     lateral = [mode.frequency_hz for mode in modes if in_plane(mode.shares) < 0.5]
     assert_allclose(lateral[:2], expected, atol=1e-4)
     radial = next(mode.frequency_hz for mode in modes if in_plane(mode.shares) > 0.5)
@@ -113,7 +113,7 @@ def test_a_rigid_crane_is_told_what_its_flexibility_would_change():
 def test_a_richer_model_has_more_modes_of_every_kind_than_the_case():
     own = {"tower": 3, "torsion": 1, "jib_lateral": 0, "jib_vertical": 4}
     case = load_case(NAME, [f"model.{kind}_modes={count}" for kind, count in own.items()])
-    found = richer_model(case.tables(SpaceCase)).counts
+    found = richer_model(case.tables(TowerCase)).counts
     # The tower bends in two directions.
     of_kinds = {kind: found[{"tower": "tower_x"}.get(kind, kind)] for kind in own}
     assert of_kinds == {kind: count + RICHER for kind, count in own.items()}
@@ -135,7 +135,7 @@ def test_a_tower_that_buckles_is_an_outcome(case):
 
 
 def test_lines_of_the_undeformed_crane(case):
-    model, place = space_model(case.checked), Place(30.0, 15.0, 1.0)
+    model, place = tower_model(case.checked), Place(30.0, 15.0, 1.0)
     mode = modes_at(model, place, 1)[0]
     lines = crane_lines(model, mode, place, 12.3)
     assert_allclose(lines["tower"][[0, -1]], [[0, 0, 0], [0, 0, 23.8]], atol=1e-12)
@@ -147,7 +147,7 @@ def test_lines_of_the_undeformed_crane(case):
 @pytest.mark.parametrize("driven", [False, True])
 @pytest.mark.parametrize("heading", [0.0, 2.1])
 def test_lines_join_and_do_not_depend_on_the_heading(driven, heading):
-    model = space_model(load_case("qtz5613/soft-drive" if driven else NAME).checked)
+    model = tower_model(load_case("qtz5613/soft-drive" if driven else NAME).checked)
     moved, straight = [], []
     for angle, found in ((heading, moved), (0.0, straight)):
         place = Place(30.0, 15.0, angle)
@@ -170,7 +170,7 @@ def test_lines_join_and_do_not_depend_on_the_heading(driven, heading):
 
 def test_jib_leaves_the_head_along_its_slope(case):
     # A clamped jib: next to the head it goes on where the rigid counter-jib points.
-    model, place = space_model(case.checked), Place(30.0, 15.0, 0.7)
+    model, place = tower_model(case.checked), Place(30.0, 15.0, 0.7)
     for mode in modes_at(model, place, 8):
         lines = crane_lines(model, mode, place, 12.3, 1.0)
         jib, counter = lines["jib"], lines["counter-jib"]
@@ -183,7 +183,7 @@ def test_jib_leaves_the_head_along_its_slope(case):
 
 
 def test_pictures_show_units_kinds_and_assumptions(case):
-    model, place = space_model(case.checked), place_at(case)
+    model, place = tower_model(case.checked), place_at(case)
     notes = [(a.key, str(a.value), a.why) for a in modes_rest_on(case)]
     figure = pictured.shapes(model, modes_at(model, place, 3), place, 12.3, "title", notes)
     figure.canvas.draw()
@@ -226,7 +226,7 @@ def test_command_prints_tables_or_json_and_draws(tmp_path):
 @pytest.mark.parametrize("heading", [0.0, 0.9])
 def test_lines_move_as_the_model_does(case, heading):
     # Trolley and load of the model itself, moved a little along the mode from the undeformed crane.
-    model, place = space_model(case.checked), Place(30.0, 15.0, heading)
+    model, place = tower_model(case.checked), Place(30.0, 15.0, heading)
     motions = {"trolley": rest(30.0), "rope": rest(15.0), "slewing": rest(heading)}
     turn = np.array([[np.cos(heading), np.sin(heading)], [-np.sin(heading), np.cos(heading)]])
     n = model.coordinates

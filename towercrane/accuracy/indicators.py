@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.accuracy.instants import Nodes
-    from towercrane.accuracy.scene import Setting
+    from towercrane.accuracy.setting import Setting
 
     Floats = NDArray[np.float64]
     Complex = NDArray[np.complex128]
@@ -114,12 +114,12 @@ class Vibration:
 
     @cached_property
     def left(self) -> Complex:
-        """`ringing` at the telling nodes."""
-        return self.ringing(self.nodes.telling)
+        """`ringing` at the decisive nodes."""
+        return self.ringing(self.nodes.decisive)
 
     @cached_property
     def squares(self) -> Floats:
-        """Squared amplitudes of `left`, each mode's events combined; shape (telling nodes, outputs, k)."""
+        """Squared amplitudes of `left`, each mode's events combined; shape (decisive nodes, outputs, k)."""
         return _combined(self.left, self.phase[self.nodes.events])
 
     @cached_property
@@ -162,7 +162,7 @@ def vibration(nodes: Nodes, setting: Setting) -> Vibration:
         If the weight leaves the tower no stiffness.
     """
     scene, (places, n) = nodes.scene, nodes.rise.shape
-    jib = nodes.richest.tower_modes + np.arange(setting.jib_modes)
+    jib = nodes.richest.tower_modes + np.arange(setting.jib_vertical_modes)
     kept = np.concatenate([np.arange(setting.tower_modes), jib, [n - 1]])
     stiffness = (nodes.stiffness - nodes.softening * setting.weight_softening)[np.ix_(kept[:-1], kept[:-1])]
     mass = nodes.mass[:, kept[:, None], kept] + np.diag(_added(nodes, setting)[kept])
@@ -212,7 +212,7 @@ def drift(rich: Vibration, poor: Vibration) -> tuple[Floats, Floats]:
     partner = overlap.argmax(axis=0)
     mutual = overlap.argmax(axis=1)[partner] == np.arange(len(partner))
     mine, other = partner[mutual], np.flatnonzero(mutual)
-    at = nodes.telling
+    at = nodes.decisive
     slip = poor.phase[:, other] - rich.phase[:, mine] + _slip_by_swing(rich, poor)[:, None] * (mine == rich.pendulum)
     turned = np.clip(slip[at, None] - slip[nodes.events], -np.pi, np.pi).transpose(0, 2, 1)[:, None]
     gap = rich.left[:, :, mine] - poor.left[:, :, other] * np.exp(1j * turned)
@@ -252,7 +252,7 @@ def _combined(parts: Complex, phase: Floats) -> Floats:
 
 def _added(nodes: Nodes, setting: Setting) -> Floats:
     """Mass that the setting's cap adds to each coordinate."""
-    order = np.concatenate([np.arange(nodes.richest.tower_modes), np.arange(nodes.richest.jib_modes), [0]])
+    order = np.concatenate([np.arange(nodes.richest.tower_modes), np.arange(nodes.richest.jib_vertical_modes), [0]])
     return added_mass(nodes.frequencies, order, setting.cap)
 
 

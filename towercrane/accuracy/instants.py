@@ -8,27 +8,27 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
-from towercrane.accuracy.scene import Setting
+from towercrane.accuracy.setting import Setting
 from towercrane.cranes.tower.equations.constants import geometric_stiffness
-from towercrane.cranes.tower.targets import RADIAL
+from towercrane.cranes.tower.targets import IN_PLANE
 from towercrane.motions.motion import phases
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.accuracy.scene import RadialScene
+    from towercrane.accuracy.scene import Scene
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.motions.motion import Phases
 
     Floats = NDArray[np.float64]
 
-RICHEST = Setting(10, 14)
+RICHEST = Setting(tower_modes=10, jib_vertical_modes=14, planar=True)
 """What coarser models are compared with: a short tower that is soft in shear on soft ground wants many modes."""
 
-BEYOND = (2, 4)
-"""Tower and jib modes that the richest model has more than a model whose numbers of modes are stated."""
+BEYOND = {"tower_modes": 2, "jib_vertical_modes": 4}
+"""Modes that the richest model has more than a model whose numbers of modes are stated."""
 
-OUTPUTS = tuple(RADIAL)
+OUTPUTS = tuple(IN_PLANE)
 """Outputs whose error is estimated, in the order of all arrays here."""
 
 SWING, TENSION = 2, 3
@@ -46,7 +46,8 @@ class Nodes:
 
     Parameters
     ----------
-    scene : RadialScene
+    scene : Scene
+        In the jib's plane.
     richest : Setting
         Its numbers of modes.
     motions : Phases
@@ -79,7 +80,7 @@ class Nodes:
         Of each coordinate by itself [rad/s]; viscous damping.
     """
 
-    scene: RadialScene
+    scene: Scene
     richest: Setting
     motions: Phases
     times: Floats
@@ -100,7 +101,7 @@ class Nodes:
     damping: Floats
 
     @property
-    def telling(self) -> NDArray[np.int64]:
+    def decisive(self) -> NDArray[np.int64]:
         """Nodes at which two models can be farthest apart: switches and the end, or any where vibration decays."""
         if self.damping.any():
             return np.arange(len(self.times))
@@ -113,12 +114,12 @@ class Nodes:
         return _derivatives(cut.inputs[phase], (times - cut.times[phase])[:, None])[:, 0]
 
 
-def nodes_of(scene: RadialScene, richest: Setting = RICHEST) -> Nodes:
+def nodes_of(scene: Scene, richest: Setting = RICHEST) -> Nodes:
     """Nodes at the switch points of a scene's motions and between them.
 
     Parameters
     ----------
-    scene : RadialScene
+    scene : Scene
     richest : Setting, optional
         With the numbers of modes that coarser models are compared with.
     """
@@ -126,7 +127,7 @@ def nodes_of(scene: RadialScene, richest: Setting = RICHEST) -> Nodes:
     times, states, events, changes = _instants(scene, cut)
     visited, place = np.unique(states[:, :, 0].round(12), axis=0, return_inverse=True)
     trolley, rope, place = *visited.T, place.ravel()
-    model = scene.model(richest).scene
+    model = scene.model(richest)
     crane, load = model.crane, scene.load.mass
     a, n = crane.tower.count, model.coordinates + 1
     tip, slope, hung = crane.tower(crane.tower_height), crane.top_slope, load + crane.trolley_mass
@@ -161,7 +162,7 @@ def nodes_of(scene: RadialScene, richest: Setting = RICHEST) -> Nodes:
     jumps[:, 2:] += np.einsum("eo,en->eon", changes[:, 0, 2:-2], moved[place[events]])
     # A load that is let go from a swing pulls less than its weight.
     jumps[0, 0] += load * crane.gravity * np.sin(scene.swing_angle) ** 2 * rise[place[0]]
-    ratios = np.repeat([scene.tower_damping_ratio, scene.jib_damping_ratio], [a, n - 1 - a])
+    ratios = np.repeat([scene.damping.tower, scene.damping.vertical], [a, n - 1 - a])
     frequencies = np.append(model.angular_frequencies, 0.0)
     return Nodes(
         scene,
@@ -186,11 +187,11 @@ def nodes_of(scene: RadialScene, richest: Setting = RICHEST) -> Nodes:
     )
 
 
-def _instants(scene: RadialScene, cut: Phases) -> tuple[Floats, Floats, NDArray[np.int64], Floats]:
+def _instants(scene: Scene, cut: Phases) -> tuple[Floats, Floats, NDArray[np.int64], Floats]:
     """Times of the nodes, derivatives of the drives there, which nodes are switch points, jumps at these."""
     since = np.diff(cut.times)[:, None] * (0.0, *INSIDE, 1.0)
     states = _derivatives(cut.inputs, since)
-    damped = scene.tower_damping_ratio > 0.0 or scene.jib_damping_ratio > 0.0
+    damped = scene.damping.tower > 0.0 or scene.damping.vertical > 0.0
     known = np.ones(since.shape, dtype=bool)
     moving = np.any(cut.inputs[:, :, 1:], axis=(1, 2))
     known[:, 1:-1] = damped | moving[:, None]

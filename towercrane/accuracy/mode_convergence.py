@@ -1,4 +1,4 @@
-"""What a coarser model of a scene in space gets wrong, measured, with ladders of models in one kind of modes each.
+"""What a coarser model of a scene gets wrong, measured, with ladders of models in one kind of modes each.
 
 Slewing couples what the small motions of a crane at rest keep apart, and wind and a drive may do anything. So here
 the crane is run in one mode of each kind, and again with one mode more or none of a single kind. The errors of the
@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy.choice import SMALLEST_PEAK, Choice, Estimate, limits
-from towercrane.accuracy.space_scene import SpaceSetting
-from towercrane.cranes.tower.space import IN_PLANE, KINDS
+from towercrane.accuracy.estimate import SMALLEST_PEAK, Choice, Estimate, limits
+from towercrane.accuracy.setting import Setting
+from towercrane.cranes.tower.crane_model import IN_PLANE, MODES
 from towercrane.cranes.tower.targets import MOTIONS
 from towercrane.results.measures import gap, peak
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.accuracy.space_scene import SpaceScene
+    from towercrane.accuracy.scene import Scene
     from towercrane.schema.targets import Tolerance
     from towercrane.simulation.run import Run
     from towercrane.simulation.trajectory import Progress
@@ -66,17 +66,17 @@ class Ladders:
 
     Parameters
     ----------
-    scene : SpaceScene
-    base : SpaceSetting
+    scene : Scene
+    base : Setting
         Of the run from which all ladders lead.
     """
 
-    scene: SpaceScene
-    base: SpaceSetting
-    runs: dict[SpaceSetting, Run] = field(default_factory=dict)
-    differences: dict[tuple[SpaceSetting, SpaceSetting], Floats] = field(default_factory=dict)
+    scene: Scene
+    base: Setting
+    runs: dict[Setting, Run] = field(default_factory=dict)
+    differences: dict[tuple[Setting, Setting], Floats] = field(default_factory=dict)
 
-    def run(self, setting: SpaceSetting, progress: Progress | None = None) -> Run:
+    def run(self, setting: Setting, progress: Progress | None = None) -> Run:
         """The scene in a setting, from an earlier run if there was one.
 
         Raises
@@ -94,7 +94,7 @@ class Ladders:
                 raise NoEquilibrium(found.attrs["outcome"], found.attrs["message"])
         return self.runs[setting]
 
-    def apart(self, one: SpaceSetting, other: SpaceSetting) -> Floats:
+    def apart(self, one: Setting, other: Setting) -> Floats:
         """Largest differences between two settings, shape (outputs,)."""
         if (one, other) not in self.differences:
             pair = self.run(one), self.run(other)
@@ -111,7 +111,7 @@ class Ladders:
         first = self.step(kind, count)
         return first + self.left(kind, 1) if count == 0 else REST * first
 
-    def peaks(self, setting: SpaceSetting) -> Floats:
+    def peaks(self, setting: Setting) -> Floats:
         """Largest magnitudes of the outputs in a run, shape (outputs,)."""
         found = self.run(setting)
         return np.maximum([peak(found, name) for name in self.scene.outputs], SMALLEST_PEAK)
@@ -122,20 +122,20 @@ class Ladders:
 
 
 def measured_choice(
-    scene: SpaceScene,
+    scene: Scene,
     targets: Mapping[str, Tolerance],
     stated: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
-) -> tuple[Choice[SpaceSetting], Run]:
+) -> tuple[Choice, Run]:
     """The setting with the fewest modes that is expected to keep all targets, and the run in it.
 
     Parameters
     ----------
-    scene : SpaceScene
+    scene : Scene
     targets : dict of str to Tolerance
         By output, some of the scene's.
     stated : dict, optional
-        Fields of :class:`towercrane.accuracy.space_scene.SpaceSetting` that are not to be chosen.
+        Fields of :class:`towercrane.accuracy.setting.Setting` that are not to be chosen.
     progress : callable, optional
         As in :func:`towercrane.simulation.integrate.integrate`, for the run in the setting.
 
@@ -172,7 +172,8 @@ def measured_choice(
         higher = {k: _lost(ladders, setting, allowed, k) for k in free if getattr(setting, k) < MOST[k]}
         if not higher:
             break
-        setting = _raised(setting, [kind for kind, lost in higher.items() if lost >= 0.5 * max(higher.values())])
+        raised = [kind for kind, lost in higher.items() if lost >= 0.5 * max(higher.values())]
+        setting = setting.with_more(dict.fromkeys(raised, 1))
         together = _together(ladders, setting, kinds)
     setting, result, stepping = _solved(ladders, setting, allowed, stated, progress)
     truncation = np.maximum(truncation, together)
@@ -190,14 +191,13 @@ def measured_choice(
     return choice, result
 
 
-def _base(scene: SpaceScene, targets: Mapping[str, Tolerance], stated: dict[str, Any]) -> SpaceSetting:
+def _base(scene: Scene, targets: Mapping[str, Tolerance], stated: dict[str, Any]) -> Setting:
     """One mode of each kind that is described and moves, unless something else is stated."""
-    planar = scene.planar and not any(stated.get(kind) for kind in KINDS if kind not in IN_PLANE)
-    counts = {kind: int(kind in scene.described and (kind in IN_PLANE or not planar)) for kind in KINDS}
+    counts = {kind: int(kind in scene.described and (kind in IN_PLANE or not scene.planar)) for kind in MODES}
     relative = min((value for value, relative in targets.values() if relative), default=1e-3)
     share = PROBING["motions" if set(targets) <= set(MOTIONS) else "forces"]
     rtol = float(np.clip(share * relative, 10.0 * TIGHTEST, LOOSEST))
-    plain = SpaceSetting(planar=planar, rtol=rtol, atol=1e-2 * rtol)
+    plain = Setting(planar=scene.planar, rtol=rtol, atol=1e-2 * rtol)
     return replace(plain.with_counts(counts), **stated)
 
 
@@ -235,24 +235,19 @@ def _counts(
     return counts, np.asarray(sum(lost().values()))
 
 
-def _raised(setting: SpaceSetting, kinds: list[str]) -> SpaceSetting:
-    """The setting with one mode more of some kinds."""
-    return setting.with_counts({kind: getattr(setting, kind) + 1 for kind in kinds})
-
-
-def _together(ladders: Ladders, setting: SpaceSetting, kinds: list[str]) -> Floats:
+def _together(ladders: Ladders, setting: Setting, kinds: list[str]) -> Floats:
     """What all modes beyond a setting would change: more together than kind by kind, maybe; shape (outputs,)."""
-    return REST * ladders.apart(setting, _raised(setting, kinds))
+    return REST * ladders.apart(setting, setting.with_more(dict.fromkeys(kinds, 1)))
 
 
-def _lost(ladders: Ladders, setting: SpaceSetting, allowed: Floats, kind: str) -> float:
+def _lost(ladders: Ladders, setting: Setting, allowed: Floats, kind: str) -> float:
     """What one mode more of a kind changes beside all others, over what is allowed."""
-    return _excess(ladders.apart(setting, _raised(setting, [kind])), allowed)
+    return _excess(ladders.apart(setting, setting.with_more({kind: 1})), allowed)
 
 
 def _solved(
-    ladders: Ladders, setting: SpaceSetting, allowed: Floats, stated: dict[str, Any], progress: Progress | None
-) -> tuple[SpaceSetting, Run, Floats]:
+    ladders: Ladders, setting: Setting, allowed: Floats, stated: dict[str, Any], progress: Progress | None
+) -> tuple[Setting, Run, Floats]:
     """A setting with tolerances for the solver's part, the run, and what its steps cost; shape (outputs,)."""
     if "rtol" in stated or "atol" in stated:
         tighter = setting.tightened(TIGHTER)
@@ -279,7 +274,8 @@ def _left_out(
     found = []
     if ladders.base.planar:
         found.append("motion out of the jib's plane: nothing drives the crane or its load out of it")
-    for kind, what in KINDS.items():
+    moving = {kind: what for kind, what in MODES.items() if kind in IN_PLANE or not ladders.base.planar}
+    for kind, what in moving.items():
         if kind not in ladders.scene.described:
             found.append(f"{what}: the crane file does not describe it")
         elif kind in counts:

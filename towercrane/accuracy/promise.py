@@ -8,14 +8,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy.choice import Choice, Estimate, Indicators, choose, limits
+from towercrane.accuracy.choice import choose
+from towercrane.accuracy.estimate import Choice, Estimate, limits
+from towercrane.accuracy.foretold import Indicators
 from towercrane.accuracy.instants import BEYOND
 from towercrane.accuracy.mode_convergence import measured_choice
-from towercrane.accuracy.scene import Setting, provenance, scene_of, setting_of
-from towercrane.accuracy.space_scene import SpaceSetting, space_scene_of, space_setting_of
+from towercrane.accuracy.scene import Scene, scene_of, setting_of
+from towercrane.accuracy.setting import Setting, setting_from
 from towercrane.cranes.registry import KINDS
-from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+from towercrane.cranes.tower.crane_model import IN_PLANE, MODES
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import softened
+from towercrane.cranes.tower.targets import IN_PLANE as FORETOLD
 from towercrane.results.measures import gap, peak, picked_in
 from towercrane.schema.targets import Targets, Tolerance
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
@@ -41,32 +45,29 @@ FINER, FINE = 1e-2, 1e-8
 """Rtol of the run that verifies: over that of the run, and at most; fast modes that only it has need the latter."""
 
 MORE = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2}
-"""Modes that the model of such a run in space has more."""
+"""Modes that the model of such a run has more where nothing is foretold."""
 
 
 def targets_of(case: Case) -> Targets:
     """Errors that a case asks for, by output; none for kinds of crane whose errors cannot be asked for."""
-    asked = getattr(case.checked, "accuracy", None)
-    return asked.targets if asked else {}
+    targets = KINDS[case.kind].targets
+    return targets(case.checked) if targets else {}
 
 
-def outputs_of(case: Case) -> dict[str, str]:
-    """Outputs of a case whose error can be asked for, and their units."""
-    return dict(KINDS[case.kind].targets)
+def stated(case: Case, scene: Scene) -> dict[str, Any]:
+    """Fields of the setting that the case's author wrote: they are not chosen, only checked.
 
-
-def stated(case: Case) -> dict[str, Any]:
-    """Fields of the setting that the case's author wrote: they are not chosen, only checked."""
-    tables = case.checked
-    assert isinstance(tables, RadialCase | SpaceCase), "only these ask for errors"
+    Modes that leave the plane are nothing to a scene that does not.
+    """
+    tables = case.tables(TowerCase)
     written = {key: getattr(table, key) for table in (tables.model, tables.solver) for key in table.model_fields_set}
-    if isinstance(tables, RadialCase) and tables.accuracy.frequency is not None:
+    if tables.accuracy.frequency is not None:
         written["weight_softening"] = softened(tables)
-    fields = (Setting if isinstance(tables, RadialCase) else SpaceSetting).__dataclass_fields__
-    return {key: value for key, value in written.items() if key in fields}
+    still = set(MODES) - set(IN_PLANE) if scene.planar else set()
+    return {key: value for key, value in written.items() if key in Setting.__dataclass_fields__ and key not in still}
 
 
-def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice[Any], Run]:
+def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice, Run]:
     """Setting for the error that a case asks for, and the run in it.
 
     Raises
@@ -74,17 +75,16 @@ def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice[Any], R
     NoEquilibrium
         If the tower buckles.
     KeyboardInterrupt
-        If one of the runs that a choice in space needs was interrupted.
+        If one of the runs that a choice may need was interrupted.
     """
-    targets = targets_of(case)
-    if isinstance(case.checked, SpaceCase):
-        return measured_choice(space_scene_of(case), targets, stated(case), progress)
-    scene = scene_of(case)
-    choice = choose(scene, targets, stated(case))
+    scene, targets = scene_of(case), targets_of(case)
+    if not scene.foretells(targets):
+        return measured_choice(scene, targets, stated(case, scene), progress)
+    choice = choose(scene, targets, stated(case, scene))
     return choice, scene.run(choice.setting, progress=progress)
 
 
-def promise(case: Case, choice: Choice[Any], result: Recording) -> dict[str, Any]:
+def promise(case: Case, choice: Choice, result: Run) -> dict[str, Any]:
     """What was asked for, chosen and is expected, ready for JSON.
 
     Returns
@@ -94,14 +94,14 @@ def promise(case: Case, choice: Choice[Any], result: Recording) -> dict[str, Any
         it, ``outputs`` (by output: ``allowed``, ``estimated``, ``peak`` in ``units``), ``setting``, ``stated``,
         ``left_out`` in sentences, ``tried``, ``choice_cpu_seconds``.
     """
-    targets = targets_of(case)
-    estimated, allowed, peaks = _figures(outputs_of(case), choice.estimate, targets, result)
+    scene, targets = scene_of(case, result), targets_of(case)
+    estimated, allowed, peaks = _figures(_outputs(scene, targets), choice.estimate, targets, result)
     over = [name for name in targets if not estimated[name] <= allowed[name]]
     reasons = list(choice.doubts)
     if result.attrs["outcome"] != FINISHED:
         reasons.append(f"the run ended early: {result.attrs['outcome']}")
     outcome = CANNOT_BE_PROMISED if reasons else OUT_OF_REACH if over else KEPT
-    given = stated(case)
+    given = stated(case, scene)
     for name in over:
         whose = " with what the case states" if given else ""
         reasons.append(
@@ -120,7 +120,7 @@ def promise(case: Case, choice: Choice[Any], result: Recording) -> dict[str, Any
             }
             for name in targets
         },
-        "setting": provenance(choice.setting),
+        "setting": choice.setting.provenance(),
         "stated": sorted(given),
         "left_out": list(choice.left_out),
         "tried": choice.tried,
@@ -128,27 +128,19 @@ def promise(case: Case, choice: Choice[Any], result: Recording) -> dict[str, Any
     }
 
 
-def finer(setting: Setting) -> Setting:
-    """The next richer model with a tighter tolerance."""
-    return replace(
-        setting,
-        tower_modes=setting.tower_modes + BEYOND[0],
-        jib_modes=setting.jib_modes + BEYOND[1],
-        cap=np.inf,
-        rtol=max(_fine(setting.rtol) * setting.rtol, 1e-12),
-        atol=max(_fine(setting.rtol) * setting.atol, 1e-14),
-    )
+def finer(setting: Setting, scene: Scene, *, foretold: bool) -> Setting:
+    """The next richer model with a tighter tolerance.
+
+    It leaves the plane where the scene does. Small motions foretell what the modes beyond `BEYOND` matter.
+    """
+    more = BEYOND if foretold else {kind: MORE[kind] for kind in scene.described if _moves(kind, scene)}
+    # Fast modes that only it has need a tolerance of their own.
+    tighter = min(FINER, FINE / setting.rtol)
+    return replace(setting.with_more(more).tightened(tighter), planar=scene.planar, cap=np.inf)
 
 
-def _fine(rtol: float) -> float:
-    """Tolerances of a run that verifies, over those of the run."""
-    return min(FINER, FINE / rtol)
-
-
-def finer_in_space(setting: SpaceSetting, described: tuple[str, ...]) -> SpaceSetting:
-    """The next richer model of a crane with data for these kinds of modes, with a tighter tolerance."""
-    counts = {kind: getattr(setting, kind) + MORE[kind] for kind in described}
-    return replace(setting.with_counts(counts).tightened(_fine(setting.rtol)), planar=False)
+def _moves(kind: str, scene: Scene) -> bool:
+    return kind in IN_PLANE or not scene.planar
 
 
 def verification(case: Case, result: Run) -> dict[str, Any]:
@@ -165,16 +157,25 @@ def verification(case: Case, result: Run) -> dict[str, Any]:
     KeyboardInterrupt
         If one of its runs was interrupted.
     """
-    units = outputs_of(case)
-    setting, better, estimate, doubts, richer = (_in_space if isinstance(case.checked, SpaceCase) else _in_plane)(
-        case, result
-    )
+    scene, picked = scene_of(case, result), picked_in(result)
+    setting = setting_from(picked) if picked else setting_of(case)
+    foretold = scene.foretells(targets_of(case))
+    units = _outputs(scene, targets_of(case))
+    if foretold:
+        indicators = Indicators(scene, setting.tower_modes, setting.jib_vertical_modes)
+        estimate, doubts = indicators.estimate(setting), indicators.doubts(setting.weight_softening)
+    else:
+        anything = dict.fromkeys(scene.outputs, Tolerance(1e-3, relative=True))
+        checked, _ = measured_choice(scene, anything, vars(setting))
+        estimate, doubts = checked.estimate, checked.doubts
+    better = finer(setting, scene, foretold=foretold)
+    richer = scene.run(better)
     if richer.attrs["outcome"] == INTERRUPTED:
         raise KeyboardInterrupt
     estimated, _, peaks = _figures(units, estimate, {}, result)
     return {
-        "setting": provenance(setting),
-        "finer": provenance(better),
+        "setting": setting.provenance(),
+        "finer": better.provenance(),
         "outcome": richer.attrs["outcome"],
         "doubts": list(doubts),
         "outputs": {
@@ -222,30 +223,9 @@ def settle(result: Recording, report: dict[str, Any]) -> None:
     result.attrs["accuracy"] = json.dumps({**promised, "outcome": outcome, "reasons": reasons})
 
 
-Verified = tuple[Any, Any, Estimate, tuple[str, ...], "Recording"]
-"""Setting of a run and a finer one, estimate of the first and doubts of it, run of the second."""
-
-
-def _in_plane(case: Case, result: Run) -> Verified:
-    scene, picked = scene_of(case, result), picked_in(result)
-    setting = Setting(**{**picked, "cap": picked["cap"] or np.inf}) if picked else setting_of(case)
-    indicators, better = Indicators(scene, setting.tower_modes, setting.jib_modes), finer(setting)
-    return (
-        setting,
-        better,
-        indicators.estimate(setting),
-        indicators.doubts(setting.weight_softening),
-        scene.run(better),
-    )
-
-
-def _in_space(case: Case, result: Run) -> Verified:
-    scene, picked = space_scene_of(case, result), picked_in(result)
-    setting = SpaceSetting(**picked) if picked else space_setting_of(case)
-    anything = dict.fromkeys(scene.outputs, Tolerance(1e-3, relative=True))
-    checked, _ = measured_choice(scene, anything, vars(setting))
-    better = finer_in_space(setting, scene.described)
-    return setting, better, checked.estimate, checked.doubts, scene.run(better)
+def _outputs(scene: Scene, targets: Targets) -> dict[str, str]:
+    """Outputs whose error is estimated, in the estimate's order, and their units."""
+    return FORETOLD if scene.foretells(targets) else scene.outputs
 
 
 def _figures(

@@ -38,6 +38,12 @@ def idle_in_file(case: Case) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
+def left_out(case: Case) -> list[str]:
+    """What a case's scene leaves out because nothing excites it, in sentences."""
+    said = KINDS[case.kind].left_out
+    return said(case.checked) if said else []
+
+
 def _idle_keys(case: Case, *, exact_crane: bool = False, all_modes: bool = False) -> tuple[str, ...]:
     """Beginnings of keys that do not enter the equations of motion."""
     idle = KINDS[case.kind].idle

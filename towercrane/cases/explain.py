@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import UnionType
 from typing import TYPE_CHECKING, Any, Literal, Union, get_args, get_origin
 
-from towercrane.cases.kinds import known_to, of_kinds, plain_key, relatives
+from towercrane.cases.kinds import known_to, of_kinds, plain_key
 from towercrane.cranes.registry import KINDS
 from towercrane.schema.faults import Fault, closest, shown
 from towercrane.schema.fields import Quantity, Table, known_keys, tables
@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from pydantic import ValidationError
     from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
+
+FORMER = {"model.jib_modes": "jib_vertical_modes", "model.jib_damping_ratio": "jib_vertical_damping_ratio"}
+"""Keys that had other names, and what they are called."""
 
 SHOWS_KEYS = 12
 """At most so many known keys are listed in one message."""
@@ -64,12 +67,13 @@ def _unknown(key: str, detail: ErrorDetails, kind: str) -> tuple[Fault, str]:
     names = list(dict.fromkeys(n for t in _resolve(detail["loc"], kind)[1] for n in t.model_fields))
     elsewhere = known_to(plain_key(key))
     meant = closest(name, names) if kind in elsewhere or not elsewhere else None
-    if meant:
+    if plain_key(key) in FORMER:
+        meant = FORMER[plain_key(key)]
+        hint = f'now called "{meant}"'
+    elif meant:
         hint = f'closest known key: "{meant}"'
     elif elsewhere and kind not in elsewhere:
         hint = f'a key of {of_kinds(elsewhere)}; this crane is of kind "{kind}"'
-        if other := next((k for k in relatives(kind) if k in elsewhere), None):
-            hint += f', and kind = "{other}" at the top of the case makes it the other'
     else:
         places = sorted({k for k in known_keys(KINDS[kind].tables) if k.rpartition(".")[2] == name})
         hint = f'"{name}" is known as {" or ".join(places)}' if places else ""

@@ -14,55 +14,45 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
-def relatives(kind: str) -> tuple[str, ...]:
-    """Kinds of case that the same crane file serves, itself among them."""
-    return tuple(other.name for other in KINDS.values() if other.family == KINDS[kind].family)
+STATES_NONE = next(iter(KINDS))
+"""Kind of a crane whose file states none."""
 
-
-STATED = tuple(kind for kind in KINDS if len(relatives(kind)) > 1)
-"""Kinds that a case states, for its crane's file serves more than one."""
+FORMER = ("radial", "space")
+"""What tower cranes used to state: whether they move in a plane or in space."""
 
 
 def kind_of(tree: dict[str, Any]) -> tuple[str, list[Fault]]:
     """Kind of a case's crane and what is wrong with its statement.
 
-    The crane states it, and a case may where the same crane file serves several. Where the statement is missing,
-    unknown or in a file that cannot be read, the kind that knows most of the written keys is taken, so that the rest
-    of the case is still judged by rules that fit it.
+    The crane states it. Where the statement is missing, unknown or in a file that cannot be read, the kind that knows
+    most of the written keys is taken, so that the rest of the case is still judged by rules that fit it.
     """
     crane = tree.get("crane")
     stated = crane.get("kind") if isinstance(crane, dict) else None
+    faults = []
     if "kind" in tree:
-        return _of_case(tree["kind"], stated, tree)
+        hint = "the crane's file states the kind" if tree["kind"] not in FORMER else _FOLLOWS
+        faults.append(Fault("", "kind", "no such key in a case", shown(tree["kind"]), hint))
     if isinstance(stated, str) and stated in KINDS:
-        return stated, []
+        return stated, faults
     likely = _likely(tree)
-    key, wanted = "crane.kind", _one_of(KINDS)
+    wanted = _one_of(KINDS)
+    if stated in FORMER:
+        return STATES_NONE, [*faults, Fault("", "crane.kind", wanted, shown(stated), _FOLLOWS)]
     if stated is not None:
         near = closest(stated, KINDS) if isinstance(stated, str) else None
         hint = f'did you mean "{near}"?' if near else f'the keys are those of kind "{likely}"'
-        return near or likely, [Fault("", key, wanted, shown(stated), hint)]
-    if not isinstance(crane, dict) or likely == next(iter(KINDS)):
-        return likely, []
-    if likely in STATED:
-        hint = f'put kind = "{likely}" at the top of the case: it has keys of that kind'
-        return likely, [Fault("", "kind", _one_of(STATED), "nothing: the key is missing", hint)]
-    hint = f'the keys are those of kind "{likely}"; a crane that states no kind is "{next(iter(KINDS))}"'
-    return likely, [Fault("", key, wanted, "nothing: the key is missing", hint)]
+        return near or likely, [*faults, Fault("", "crane.kind", wanted, shown(stated), hint)]
+    if not isinstance(crane, dict) or likely == STATES_NONE:
+        return likely, faults
+    hint = f'the keys are those of kind "{likely}"; a crane that states no kind is a "{STATES_NONE}" crane'
+    return likely, [*faults, Fault("", "crane.kind", wanted, "nothing: the key is missing", hint)]
 
 
-def _of_case(stated: object, crane: object, tree: dict[str, Any]) -> tuple[str, list[Fault]]:
-    """Kind of a case that states one itself beside what its crane states."""
-    if stated not in STATED:
-        near = closest(stated, STATED) if isinstance(stated, str) else None
-        near = next((kind.name for kind in KINDS.values() if stated in kind.words), near)
-        hint = f'did you mean "{near}"?' if near else "cranes of other kinds state theirs in the crane file"
-        return near or _likely(tree), [Fault("", "kind", _one_of(STATED), shown(stated), hint)]
-    kind = str(stated)
-    if crane is None or crane in relatives(kind):
-        return kind, []
-    got = f"{shown(crane)} beside a case of kind {shown(kind)}"
-    return kind, [Fault("", "crane.kind", _one_of(relatives(kind)), got)]
+_FOLLOWS = (
+    "leave it out: whether a tower crane moves in the plane of its jib or in space follows from what the case drives "
+    "and from its wind"
+)
 
 
 def _one_of(kinds: Iterable[str]) -> str:

@@ -29,7 +29,7 @@ def figures(
     """
     folder_for_results(out)
     compile_for(load("qtz5613/condition-1", changes))
-    from towercrane.report.plots.runs import radial
+    from towercrane.report.plots.runs import plane
     from towercrane.runs.run import run_case
 
     conditions = {}
@@ -37,7 +37,7 @@ def figures(
         conditions[number] = with_progress(load(f"qtz5613/condition-{number}", changes), run_case)
         if conditions[number].attrs["outcome"] == outcomes.INTERRUPTED:
             raise KeyboardInterrupt
-    drawn = radial.source_figures(conditions)
+    drawn = plane.source_figures(conditions)
     write(out, drawn)
     tell(f"written to {out}: {', '.join(drawn)}")
     suggest("run", "qtz5613/condition-4-zero")

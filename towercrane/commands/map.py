@@ -65,14 +65,14 @@ def frequency_map(
     task.need("map", "beams")
     task.into(out, "map")
     loaded = task.case
-    from towercrane.cranes.tower.file.case_tables import MOST_POSITIONS, RadialCase
+    from towercrane.cranes.tower.file.case_tables import MOST_POSITIONS, TowerCase
     from towercrane.cranes.tower.file.requests import map_of
 
     if positions is not None and not 1 <= positions <= MOST_POSITIONS:
         fail(f"--positions {positions}: wanted 1 to {MOST_POSITIONS}")
     if not 1 <= modes <= MOST_MODES:
         fail(f"--modes {modes}: wanted 1 to {MOST_MODES}")
-    tables = loaded.tables(RadialCase)
+    tables = loaded.tables(TowerCase)
     asked = map_of(tables)
     masses = _masses(asked, payload)
     reach = tables.crane.jib.length

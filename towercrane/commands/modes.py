@@ -32,7 +32,10 @@ def modes(
     task.need("modes", "beams")
     if out is not None:
         task.into(out)
-    if task.serves("map"):
+    from towercrane.cranes.tower.file.case_tables import TowerCase
+    from towercrane.cranes.tower.file.plane import stays_in_plane
+
+    if stays_in_plane(task.case.tables(TowerCase)):
         _in_plane(task, actual)
     else:
         _in_space(task)
@@ -67,21 +70,21 @@ def _in_space(task: Task) -> None:
 def _pictures(case: Case) -> dict[str, Any]:
     """Modes where the drives stand at the start, none for a tower that buckles, and frequencies over the drives."""
     from towercrane.cases.assumptions import as_notes
-    from towercrane.cranes.tower.file.build import space_model
-    from towercrane.cranes.tower.file.case_tables import SpaceCase
+    from towercrane.cranes.tower.file.build import tower_model
+    from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.report.plots.studies import space_modes as pictured
     from towercrane.simulation.system import NoEquilibrium
     from towercrane.studies.space_modes import drawn_sweeps, modes_at, modes_rest_on, place_at
 
-    tables = case.tables(SpaceCase)
-    model, place = space_model(tables), place_at(case)
+    tables = case.tables(TowerCase)
+    model, place = tower_model(tables), place_at(case)
     notes = as_notes(modes_rest_on(case))
     title = f"{case.crane.name}, load {case.payload.mass:g} kg: "
     where = f"trolley {place.trolley_position:g} m, rope {place.rope_length:g} m"
     swept = pictured.frequencies(drawn_sweeps(case), f"{title}natural frequencies about {where}", notes)
     files: dict[str, Any] = {"frequencies.png": swept}
     try:
-        modes = modes_at(model, place, tables.modes.count)
+        modes = modes_at(model, place, tables.modes.crane_count)
     except NoEquilibrium:
         return files
     counter_jib = tables.crane.counter_jib.length

@@ -106,7 +106,9 @@ def _removed(stale: list[str]) -> list[str]:
 
 def _following(task: Task) -> tuple[str, ...]:
     """What to look at next: what a change did to the frequencies, or more modes."""
-    if task.serves("map") and not task.changes:
+    from towercrane.cases.assumptions import left_out
+
+    if left_out(task.case) and not task.changes:
         richer = f"results/{task.case.name}-5-jib-modes"
-        return task.command("run", "--set", "model.jib_modes=5", "--out", richer)
+        return task.command("run", "--set", "model.jib_vertical_modes=5", "--out", richer)
     return task.command("modes" if task.serves("modes") else "linearise")

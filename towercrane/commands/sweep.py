@@ -40,8 +40,8 @@ def sweep(
         typer.Option(
             "--vary",
             metavar="KEY=FROM:TO:COUNT",
-            help="Values of a key, e.g. --vary payload.mass=100kg:2000kg:20 or --vary model.jib_modes=1,2,3; "
-            "with several keys all combinations.",
+            help="Values of a key, e.g. --vary payload.mass=100kg:2000kg:20 or "
+            "--vary model.jib_vertical_modes=1,2,3; with several keys all combinations.",
         ),
     ],
     out: Out = None,
@@ -58,8 +58,9 @@ def sweep(
     task.into(out, "sweep")
     values = _values(task.case, vary)
     from towercrane.runs.sweep import grid
+    from towercrane.runs.variants import lane_of
 
-    task.compile("lanes" if task.serves("lanes") else "run")
+    task.compile("lanes" if lane_of(task.case) else "run")
     from towercrane.report.tables.studies import sweep_tables
     from towercrane.runs.sweep_report import report, runs_csv, worst
 

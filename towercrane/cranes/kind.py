@@ -12,16 +12,18 @@ if TYPE_CHECKING:
     from towercrane.cranes.parts.poses import Poses
     from towercrane.schema.faults import Fault
     from towercrane.schema.ranges import Range
+    from towercrane.schema.targets import Targets
+    from towercrane.simulation.lanes.crane import LaneCrane
     from towercrane.simulation.system import Model
 
     Tree = dict[str, Any]
 
 
 class Signals(NamedTuple):
-    """Output that shows the structure's vibration, and the one that shows the load's swing."""
+    """Output that shows the structure's vibration, and those that show the load's swing: the first that a run has."""
 
     vibration: str
-    swing: str
+    swings: tuple[str, ...]
 
 
 class Panel(NamedTuple):
@@ -48,6 +50,16 @@ class Natural(NamedTuple):
     def swing_mode(self) -> int | None:
         """Which of them is the load's swing, of several the one along the jib, counted from 1."""
         return next(iter(self.swings.values())) + 1 if self.swings else None
+
+
+class Lane(NamedTuple):
+    """What a run needs to share vector lanes with others."""
+
+    crane: LaneCrane
+    alike: str
+    """Equal for runs whose models differ in their load alone."""
+    plain: bool
+    """Whether another load, and another rope that rests, change nothing else of it."""
 
 
 class Track(NamedTuple):
@@ -93,8 +105,6 @@ class Kind:
     Parameters
     ----------
     name : str
-    family : str
-        Kinds of one family read the same crane file; a case says which of them it is.
     tables : type of Table
         All tables of a case, one of :data:`towercrane.cranes.registry.AnyCase`.
     drives : Drives
@@ -111,27 +121,30 @@ class Kind:
         Faults of a case as written that no single value shows.
     ranges : tuple of Range
         Plausible values that are not those of other kinds.
-    words : tuple of str
-        Other words for it.
     idle : callable, optional
         Beginnings of keys of its tables that do not enter the equations of motion.
     natural : callable, optional
         `Natural` of its model and the values of its drives; without it the linear model is asked.
     lengths : callable, optional
         Length of the member that each deflection in a result is of [m], of its model.
-    targets : dict of str to str
-        Outputs whose error can be asked for, and their units.
-    modes : dict of str to str
-        Kinds of modes by the key of the table "model" that counts them.
+    outputs : callable, optional
+        Outputs whose error can be asked for, and their units, of its tables.
+    targets : callable, optional
+        Errors that its tables ask for, by output.
+    lane : callable, optional
+        `Lane` of its tables; None for runs that cannot share lanes.
+    modes : callable, optional
+        Kinds of modes that move, of its tables, by the key of the table "model" that counts them.
+    left_out : callable, optional
+        What a scene leaves out because nothing excites it, of its tables, in sentences.
     sways : dict of str to str
         Outputs that show the load's swing, and which way each is: shown in films, and where models are compared.
     serves : frozenset of str
         What it can be used for besides what every kind can: the studies "modes", "map", "lattice", "compare",
-        "verify" and "shape"; "lanes" for sweeps, "members" for pictures of its members' modes beside those of a run.
+        "verify" and "shape"; "members" for pictures of its members' modes beside those of a run.
     """
 
     name: str
-    family: str
     tables: type[Any]
     drives: Drives
     signals: Signals
@@ -141,12 +154,14 @@ class Kind:
     kernels: Callable[[Any, str], tuple[str, ...]]
     checks: tuple[Callable[[Tree], Iterator[Fault]], ...] = ()
     ranges: tuple[Range, ...] = ()
-    words: tuple[str, ...] = ()
     idle: Callable[..., Iterator[str]] | None = None
     natural: Callable[..., Natural] | None = None
     lengths: Callable[[Any], dict[str, float]] | None = None
-    targets: Mapping[str, str] = field(default_factory=dict)
-    modes: Mapping[str, str] = field(default_factory=dict)
+    outputs: Callable[[Any], dict[str, str]] | None = None
+    targets: Callable[[Any], Targets] | None = None
+    lane: Callable[[Any], Lane | None] | None = None
+    modes: Callable[[Any], dict[str, str]] | None = None
+    left_out: Callable[[Any], list[str]] | None = None
     sways: Mapping[str, str] = field(default_factory=dict)
     serves: frozenset[str] = frozenset()
 

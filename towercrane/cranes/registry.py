@@ -7,25 +7,24 @@ from typing import TYPE_CHECKING
 from towercrane.cranes.jib.kind import JIB
 from towercrane.cranes.overhead.kind import OVERHEAD
 from towercrane.cranes.slewing.kind import BASIC, ENHANCED, MULTI_MASS
-from towercrane.cranes.tower.kind import RADIAL, SPACE
+from towercrane.cranes.tower.kind import TOWER
 
 if TYPE_CHECKING:
     from towercrane.cranes.jib.tables import JibCase
     from towercrane.cranes.overhead.tables import OverheadCase
     from towercrane.cranes.slewing.tables import SlewingCase
-    from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+    from towercrane.cranes.tower.file.case_tables import TowerCase
 
-    AnyCase = RadialCase | SpaceCase | SlewingCase | JibCase | OverheadCase
+    AnyCase = TowerCase | SlewingCase | JibCase | OverheadCase
 
 KINDS = {
     kind.name: kind
     for kind in (
-        RADIAL,
+        TOWER,
         MULTI_MASS,
         BASIC,
         ENHANCED,
         JIB,
-        SPACE,
         OVERHEAD,
     )
 }

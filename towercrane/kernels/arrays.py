@@ -68,7 +68,7 @@ def in_lanes(_context: Any, array: Any) -> Any:
 
 
 @_intrinsic
-def lent(_context: Any, array: Any) -> Any:
+def borrowed(_context: Any, array: Any) -> Any:
     """The same array for functions that are called often; the caller keeps it."""
 
     def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.accuracy.promise import AS_ASKED
-from towercrane.cases.assumptions import idle_in_file
+from towercrane.cases.assumptions import idle_in_file, left_out
 from towercrane.cases.table_notices import table_notices
 from towercrane.cranes.kind import Natural
 from towercrane.cranes.registry import KINDS
@@ -80,6 +80,7 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
         "expected": expected(case, run),
         "notices": [*notices(case, run, natural, free), *shown.unseen],
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(run)],
+        "left_out": left_out(case),
         "idle": list(idle_in_file(case)),
         "solver": {
             key: attributes[key]

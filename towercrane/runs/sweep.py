@@ -1,6 +1,7 @@
 """Many runs of one case in which some of its values vary: extremes of the outputs, run by run.
 
-Cranes in radial motion run side by side in vector lanes, all others one after the other; the answer is the same.
+Tower cranes in the plane of their jib run side by side in vector lanes, all others one after the other; the answer is
+the same.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from towercrane.cases.kinds import knows, unit_of
 from towercrane.cranes.registry import KINDS
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import accuracy, peaks
-from towercrane.runs.sweep_data import RADIAL_OUTPUTS, Found, dataset
+from towercrane.runs.sweep_data import Found, dataset
 from towercrane.runs.variants import Variants, change
 from towercrane.schema.faults import CaseError
 from towercrane.schema.units import UnitError, to_si
@@ -61,9 +62,9 @@ def sweep(
         For each key of the case file as many values as there are runs: numbers in SI, or text with units. For all
         combinations of a few values see :func:`grid`.
     threads : int, optional
-        Threads for cranes in radial motion; all cores by default.
+        Threads for runs in lanes; all cores by default.
     series : bool
-        Keep the outputs over time as well; for cranes in radial motion.
+        Keep the outputs over time as well; of runs in lanes.
     progress : callable, optional
         Called with the number of runs that have ended.
 
@@ -138,7 +139,7 @@ def _one_by_one(
                 continue
             if series:
                 raise ValueError(
-                    "series: wanted a crane in radial motion and a compiled method, got another; see run_case"
+                    "series: wanted a tower crane in its jib's plane and a compiled method, got another; see run_case"
                 )
             result = record_case(variant.case)
             if result.attrs["outcome"] == INTERRUPTED:
@@ -156,7 +157,10 @@ def _one_by_one(
 def _note(found: Found, run: int, case: Case, result: Recording) -> None:
     """Keep the extremes of a run that was recorded."""
     extremes = peaks(result)
-    names = RADIAL_OUTPUTS if "lanes" in KINDS[case.kind].serves else extremes
+    # The same as of the runs beside it that share lanes.
+    lane = KINDS[case.kind].lane
+    shared = lane(case.checked) if lane else None
+    names = list(shared.crane.outputs if shared else extremes)
     found.outputs |= {name: (result[name].attrs["units"], result[name].attrs["long_name"]) for name in names}
     ways = ("maximum", "maximum_time_s", "minimum", "minimum_time_s")
     kept = {name: [extremes[name][way] for way in ways] for name in names}
@@ -176,25 +180,24 @@ def _side_by_side(
     """Run in vector lanes, those together that can share them."""
     if not waiting:
         return
-    from towercrane.cranes.tower.lanes import RADIAL
     from towercrane.simulation.lanes.many import integrate_many
 
-    if series and len({company[:2] for company in waiting}) > 1:
+    if series and len({company[1:3] for company in waiting}) > 1:
         raise ValueError("series: wanted the same duration and output step in all runs, got different ones")
-    found.outputs |= RADIAL_OUTPUTS
-    for (duration, output_step, method, rtol, atol, *_), members in waiting.items():
+    for (crane, duration, output_step, method, rtol, atol, *_), members in waiting.items():
+        found.outputs |= crane.outputs
         looks = looks_per_row(duration, output_step)
         times = rows_of(duration, output_step, looks)
         found.times = times[::looks]
         answers = integrate_many(
-            RADIAL, [variant.lane for variant in members.values() if variant.lane is not None],
+            crane, [variant.lane for variant in members.values() if variant.lane is not None],
             times, method=method, rtol=rtol, atol=atol, threads=threads, series=series,
             progress=_counted(progress, len(found.rows) + len(found.faults)),
         )  # fmt: skip
         for place, run in enumerate(members):
             if answers.outcomes[place] == INTERRUPTED:
                 continue
-            extremes = dict(zip(RADIAL_OUTPUTS, answers.extremes[place], strict=True))
+            extremes = dict(zip(crane.outputs, answers.extremes[place], strict=True))
             ended = float(answers.end_times[place]), int(answers.evaluations[place])
             found.rows[run] = answers.outcomes[place], *ended, extremes
             if series:

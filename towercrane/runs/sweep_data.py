@@ -33,14 +33,6 @@ BAD_INPUT = "bad input"
 EXTREMES = ("max", "max_time", "min", "min_time")
 """What is kept of every output, as endings of names."""
 
-RADIAL_OUTPUTS = {
-    "tower_tip_displacement": ("m", "horizontal displacement of the tower top, positive outward"),
-    "jib_tip_deflection": ("m", "deflection of the jib tip from the tilted straight jib, positive up"),
-    "swing_angle": ("rad", "swing of the rope from the vertical in the jib's plane, positive outward"),
-    "rope_tension": ("N", "rope tension"),
-}
-"""Outputs of a crane in radial motion: units and long names."""
-
 
 @dataclass(eq=False)
 class Found:

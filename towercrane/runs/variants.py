@@ -12,10 +12,8 @@ import numpy as np
 
 from towercrane.accuracy.promise import targets_of
 from towercrane.cases.case import load_case
-from towercrane.cases.models import motions_of
+from towercrane.cases.models import model_of, motions_of
 from towercrane.cranes.registry import KINDS
-from towercrane.cranes.tower.file.build import radial_model
-from towercrane.cranes.tower.file.case_tables import RadialCase
 from towercrane.motions.motion import phases
 from towercrane.schema.faults import CaseError
 from towercrane.simulation.methods.registry import METHODS
@@ -24,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from towercrane.cases.case import Case
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.kind import Lane
     from towercrane.simulation.lanes.crane import LaneRun
 
     Value = float | int | str
@@ -43,18 +41,22 @@ class Variant:
         Its case; of runs that differ in load and rope alone the same one may stand for all.
     lane : LaneRun, optional
         Its model and motions, where it can run in vector lanes.
+    shared : Lane, optional
+        What it shares with others there.
     """
 
     case: Case
-    lane: LaneRun | None
+    lane: LaneRun | None = None
+    shared: Lane | None = None
 
     @property
     def company(self) -> tuple[Any, ...]:
         """What runs that share lanes have in common."""
         assert self.lane is not None, "only runs in lanes have company"
+        assert self.shared is not None
         run, solver, system = self.case.run, self.case.solver, self.lane.model.system
         steps = run.duration, run.output_step, solver.method, solver.rtol, solver.atol
-        return (*steps, system.size, system.tables.shape, system.tables.tobytes())
+        return (self.shared.crane, *steps, system.size, system.tables.shape, system.tables.tobytes())
 
 
 class Variants:
@@ -78,7 +80,7 @@ class Variants:
         for run in range(len(self)):
             self._members.setdefault(self._combination(run), []).append(run)
         self._plain: dict[tuple[Value, ...], Variant | None] = {}
-        self._models: dict[str, RadialModel] = {}
+        self._models: dict[str, Any] = {}
 
     def __len__(self) -> int:
         return len(next(iter(self._values.values())))
@@ -105,17 +107,16 @@ class Variants:
 
     def _read(self, changes: list[str]) -> Variant:
         case = load_case(self._case.path, [*self._case.changes, *changes])
-        return Variant(case, self._lane(case) if _fits_lanes(case) else None)
+        shared = lane_of(case)
+        return Variant(case, self._lane(case, shared.alike), shared) if shared else Variant(case)
 
-    def _lane(self, case: Case) -> LaneRun:
+    def _lane(self, case: Case, alike: str) -> LaneRun:
         from towercrane.simulation.lanes.crane import LaneRun
 
-        model = radial_model(case.tables(RadialCase))
+        model: Any = model_of(case)
         motions = motions_of(case, model)
-        # Written out, floats to the last digit: equal text is equal data.
-        crane = repr([getattr(model, f.name) for f in dataclasses.fields(model) if f.name != "load"])
-        model = self._models.setdefault(crane, model).with_load(model.load)
-        cut = phases((motions["trolley"], motions["rope"]), case.run.duration)
+        model = self._models.setdefault(alike, model).with_load(model.load)
+        cut = phases(tuple(motions[channel] for channel in model.channels), case.run.duration)
         state = "equilibrium" if case.start.state == "equilibrium" else "zero"
         return LaneRun(model, cut, state, case.start.swing_angle)
 
@@ -136,7 +137,8 @@ class Variants:
                 found = self._read([*fixed, *settings])
             except CaseError:
                 return None
-            if found.lane is None or not _is_plain(found.case):
+            shaped = any(plan.needs_model for plan in found.case.plans.values())
+            if found.shared is None or not found.shared.plain or shaped:
                 return None
         return found
 
@@ -149,7 +151,7 @@ class Variants:
             model = model.with_load(dataclasses.replace(model.load, mass=float(self._values[LOAD][run])))
         if ROPE in self._quick:
             cut = cut.moved(model.channels.index("rope"), float(self._values[ROPE][run]))
-        return Variant(plain.case, dataclasses.replace(lane, model=model, phases=cut))
+        return dataclasses.replace(plain, lane=dataclasses.replace(lane, model=model, phases=cut))
 
 
 def change(key: str, value: Value) -> str:
@@ -157,17 +159,9 @@ def change(key: str, value: Value) -> str:
     return f"{key}={value if isinstance(value, str) else json.dumps(value)}"
 
 
-def _fits_lanes(case: Case) -> bool:
-    """Whether a run can share lanes; one that chooses its own model and tolerance for an error cannot."""
-    fits = "lanes" in KINDS[case.kind].serves and METHODS[case.solver.method].compiled
-    return fits and not targets_of(case)
-
-
-def _is_plain(case: Case) -> bool:
-    """Whether another load, and another rope that rests, change nothing else of a run.
-
-    A hauled rope begins its motion at its length; a ramp may be shaped for the model's frequencies; and what a
-    tolerance of frequencies leaves out hangs on the load.
-    """
-    shaped, tables = any(plan.needs_model for plan in case.plans.values()), case.tables(RadialCase)
-    return tables.motion.hoist is None and not shaped and tables.accuracy.frequency is None
+def lane_of(case: Case) -> Lane | None:
+    """How a run can share lanes; one that chooses its own model and tolerance for an error cannot."""
+    lane = KINDS[case.kind].lane
+    if lane is None or not METHODS[case.solver.method].compiled or targets_of(case):
+        return None
+    return lane(case.checked)

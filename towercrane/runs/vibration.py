@@ -87,8 +87,9 @@ def vibration(
     # A load swings about as fast as on its rope alone.
     fastest = np.sqrt(result.attrs["gravity"] / result["rope_length"].values.min()) / (2.0 * np.pi)
     known = [*swings, float(fastest)]
+    swing = next(name for name in signals.swings if name in result)
     near = step * SAMPLES_PER_PERIOD * max(known) <= 1.0
-    period = swing_period(times[free], result[signals.swing].values[free]) if near else None
+    period = swing_period(times[free], result[swing].values[free]) if near else None
     known += [1.0 / period] if period else []
     # Free vibration shows the crane's own lines; a moving trolley drags them along and adds its own.
     calm = len(natural) > 1 and cycles(times[free], natural[0]) >= CYCLES

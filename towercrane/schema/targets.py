@@ -34,6 +34,10 @@ Targets = dict[str, Tolerance]
 """Tolerance by output."""
 
 
+class ForEvery(Targets):
+    """Tolerance of all outputs that one without a name fits."""
+
+
 class TargetField:
     """Annotation of the field that takes a target, alone or by output.
 
@@ -59,7 +63,7 @@ class TargetField:
             targets = {name: found for name, found in fitting.items() if found is not None}
             if asked and len(targets) < len(asked):
                 raise self._unfit(next(name for name in asked if name not in targets), value)
-            return targets or _nothing(value)
+            return ForEvery(targets) if targets else _nothing(value)
         targets = {}
         for name, inner in value.items():
             if name not in self.units:

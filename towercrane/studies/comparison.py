@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cases.assumptions import as_entries, rests_on
+from towercrane.cases.assumptions import as_entries, left_out, rests_on
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cranes.registry import KINDS, serving
 from towercrane.results.measures import PLACE, peak
@@ -17,7 +17,7 @@ from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     import xarray as xr
     from numpy.typing import NDArray
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 TARGET = 1e-2
 """Error that is asked for where neither the case nor the user does."""
 
-RICHER = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2, "jib_modes": 2}
+RICHER = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2}
 """More modes of each kind in the richest model."""
 
 MOST = 14
@@ -63,9 +63,15 @@ class Variant:
         return model_of(case, **self.counts)
 
 
+def modes_of(case: Case) -> Mapping[str, str]:
+    """Kinds of modes that move in a case, by the key that counts them."""
+    modes = KINDS[case.kind].modes
+    return modes(case.checked) if modes else {}
+
+
 def variants(case: Case) -> list[Variant]:
     """Models from rigid to rich: every choice of the kinds that the case includes, the richest last."""
-    names = KINDS[case.kind].modes
+    names = modes_of(case)
     own = {key: int(getattr(case.checked.model, key)) for key in names}  # type: ignore[union-attr]
     kept = [key for key, count in own.items() if count]
     rigid = dict.fromkeys(own, 0)
@@ -89,7 +95,7 @@ def compare(
     Parameters
     ----------
     case : Case
-        In space or in the plane.
+        Of a tower crane.
     target : float
         Largest error of the load's place that is accepted, relative to how far the load departs from where it would
         hang on a rigid crane at rest.
@@ -132,7 +138,8 @@ def compare(
         "kind": case.kind,
         "target": target,
         "departure_m": departure,
-        "kinds_of_modes": list(KINDS[case.kind].modes.values()),
+        "kinds_of_modes": list(modes_of(case).values()),
+        "left_out": left_out(case),
         "rows": rows,
         **_needed(case, rows, chosen, target),
         "assumed": as_entries(rests_on(case, all_modes=True)),
@@ -152,7 +159,7 @@ def _row(case: Case, variant: Variant, result: xr.Dataset, richest: xr.Dataset, 
     stop = max((m.duration for name, m in motions_of(case).items() if not name.startswith("wind")), default=0.0)
     free = result["time"].values >= stop
     sway = {}
-    for name in KINDS[case.kind].sways:
+    for name in (name for name in KINDS[case.kind].sways if name in result):
         angle = np.degrees(abs(result[name].values))
         sway[name] = {
             "peak_deg": float(angle.max()),
@@ -201,7 +208,7 @@ def slowest(case: Case, variant: Variant, result: xr.Dataset) -> dict[str, float
 
 def _needed(case: Case, rows: list[dict[str, Any]], chosen: list[Variant], target: float) -> dict[str, Any]:
     """The cheapest row within the target, the kinds that it keeps, and why each kind stays or goes."""
-    names, richest = KINDS[case.kind].modes, rows[-1]
+    names, richest = modes_of(case), rows[-1]
     within = [
         (row, variant)
         for row, variant in zip(rows[:-1], chosen, strict=False)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from modal.lattices.lattice_comparison import compare_truss
 from towercrane.cases.assumptions import as_entries
-from towercrane.cranes.tower.file.build import radial_crane
-from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.file.build import crane_of
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.members import tower_truss
 
 if TYPE_CHECKING:
@@ -30,8 +30,8 @@ def lattice_report(case: Case) -> dict[str, Any]:
         If the truss is a mechanism, or legs do not stand on those below.
     """
 
-    tables = case.tables(RadialCase)
-    truss, crane = tower_truss(tables.crane), radial_crane(tables)
+    tables = case.tables(TowerCase)
+    truss, crane = tower_truss(tables.crane), crane_of(tables)
     assert truss is not None
     models = compare_truss(truss, crane.end_body)
     return {

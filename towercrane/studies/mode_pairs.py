@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.structures.part_shapes import DEFLECTION
-from towercrane.cranes.tower.equations.small_motions import reciprocal_modes
+from towercrane.cranes.tower.equations.small_motions import plane_matrices, reciprocal_modes
 from towercrane.studies.branches import CLEAR
 from towercrane.studies.plane_modes import MEMBERS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.mass_sums import Basis
-    from towercrane.cranes.tower.planar import RadialModel
     from towercrane.studies.plane_modes import PlaneCrane
 
     Floats = NDArray[np.float64]
@@ -51,12 +51,12 @@ class ModePairs:
     unlike: list[float]
 
 
-def paired_modes(model: RadialModel, crane: PlaneCrane, trolley_position: float, count: int) -> ModePairs:
+def paired_modes(model: FlexibleModel, crane: PlaneCrane, trolley_position: float, count: int) -> ModePairs:
     """Pair the lowest modes of a model with those of the exact crane by their shapes.
 
     Parameters
     ----------
-    model : RadialModel
+    model : FlexibleModel
     crane : PlaneCrane
         The same crane with the same load.
     trolley_position : float
@@ -101,18 +101,18 @@ def paired_modes(model: RadialModel, crane: PlaneCrane, trolley_position: float,
     return ModePairs(frequencies[:count].tolist(), exact, missing, unlike)
 
 
-def _model_modes(model: RadialModel, crane: PlaneCrane, trolley_position: float) -> tuple[Floats, Floats]:
+def _model_modes(model: FlexibleModel, crane: PlaneCrane, trolley_position: float) -> tuple[Floats, Floats]:
     """Frequencies of all modes of the model [Hz], and its shapes as those of the crane, its counter-jib straight."""
-    matrices = model.linear_matrices(trolley_position, crane.frame.rope_length)
-    frequencies, columns = reciprocal_modes(model.scene, *matrices)
-    vectors, tower, height = columns.T.copy(), model.tower_modes, crane.frame.tower.length
+    matrices = plane_matrices(model, trolley_position, crane.frame.rope_length)
+    frequencies, columns = reciprocal_modes(model, *matrices)
+    vectors, tower, bases = columns.T.copy(), model.counts["tower_x"], model.crane
     of_tower = vectors[:, :tower]
-    turn, still = of_tower @ model.tower.rotation(height), np.zeros(len(vectors))
+    turn, still = of_tower @ bases.top_slope, np.zeros(len(vectors))
     # The load's motion is relative to where it hangs.
-    vectors[:, -1] += of_tower @ model.tower(height)
+    vectors[:, -1] += of_tower @ bases.tower(bases.tower_height)
     parts = {
-        "tower": _Shapes(still, of_tower, model.tower),
-        "jib": _Shapes(-turn, vectors[:, tower:-1], model.jib),
+        "tower": _Shapes(still, of_tower, bases.tower),
+        "jib": _Shapes(-turn, vectors[:, tower:-1], bases.vertical),
         "counter-jib": _Shapes(turn, vectors[:, :0], None),
     }
     return frequencies / (2.0 * np.pi), crane.motion(trolley_position, parts, vectors[:, -1])

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from modal.clock import timed
-from towercrane.cases.assumptions import as_entries
+from towercrane.cases.assumptions import as_entries, left_out
 from towercrane.cases.models import motions_of
-from towercrane.cranes.tower.file.build import crane_frame, radial_model
-from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.crane_model import IN_PLANE
+from towercrane.cranes.tower.equations.small_motions import plane_modes
+from towercrane.cranes.tower.file.build import crane_frame, tower_model
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import effects_in, effects_report
 from towercrane.cranes.tower.file.members import lattice_of
 from towercrane.cranes.tower.file.requests import modes_of
@@ -23,13 +25,14 @@ if TYPE_CHECKING:
 
     from modal import Beam, Chain, EndBody, LacedColumn
     from towercrane.cases.case import Case
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
 
 FRAME_MODES = 5
 """Frequencies of the coupled crane that are shown, commonly the pendulum's and four of the structure."""
 
 
-def natural_frequencies(case: Case, *, model: RadialModel | None = None, actual: bool = False) -> dict[str, Any]:
+def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actual: bool = False) -> dict[str, Any]:
     """Roots and frequencies of a case, ready for JSON.
 
     Parameters
@@ -55,10 +58,11 @@ def natural_frequencies(case: Case, *, model: RadialModel | None = None, actual:
     """
     from modal import Beam
 
-    tables = case.tables(RadialCase)
-    model = model or radial_model(tables)
+    tables = case.tables(TowerCase)
+    model = model or tower_model(tables, planar=True)
     asked = modes_of(tables, motions_of(case, model)["trolley"])
-    crane, count, elements = model.crane, asked.count, asked.elements
+    crane, count, elements = model.crane.written, asked.count, asked.elements
+    assert crane is not None, "it is made of the case's"
     jib, effects = crane.jib_modes(count), effects_in(tables)
     if isinstance(crane.tower, Beam) and not effects.kept:
         tower, check = _uniform_tower(crane.tower, crane.end_body, count, elements)
@@ -71,11 +75,12 @@ def natural_frequencies(case: Case, *, model: RadialModel | None = None, actual:
         "jib": {"roots": jib.roots.tolist(), "frequencies_hz": jib.frequencies_hz.tolist()},
         "finite_elements": check,
         "effects": effects_report(effects, actual=actual),
-        "crane_model": {"tower_modes": tables.model.tower_modes, "jib_modes": tables.model.jib_modes},
+        "crane_model": {key: getattr(tables.model, key) for key in IN_PLANE},
+        "left_out": left_out(case),
         "rope_length_m": case.rope.length,
         "payload_mass_kg": case.payload.mass,
     }
-    report["crane"] = [_coupled(tables, model, position) for position in asked.trolley_positions]
+    report["crane"] = [_coupled(tables, model, crane, position) for position in asked.trolley_positions]
     report["buckling_factor"] = _buckling_factor(tables, asked.trolley_positions[0])
     if tables.crane.tower.published_roots and "roots" in tower:
         report["tower"]["published_roots"] = list(tables.crane.tower.published_roots)
@@ -126,7 +131,7 @@ def _checked(solve: Callable[[], Any], exact: Any, elements: int) -> dict[str, A
     }
 
 
-def _coupled(tables: RadialCase, model: RadialModel, position: float) -> dict[str, Any]:
+def _coupled(tables: TowerCase, model: FlexibleModel, crane: TowerCrane, position: float) -> dict[str, Any]:
     """Frequencies of the coupled crane with the trolley at a position [m], beside the exact ones of the frame."""
     from towercrane.cranes.tower.truncation import truncation_error
     from towercrane.studies.mode_pairs import paired_modes
@@ -134,12 +139,12 @@ def _coupled(tables: RadialCase, model: RadialModel, position: float) -> dict[st
 
     row: dict[str, Any] = {"trolley_position_m": position, "frequencies_hz": []}
     try:
-        found, swing = model.natural_modes(position, tables.rope.length)
+        found, swing = plane_modes(model, position, tables.rope.length)
     except NoEquilibrium as failure:
         return row | {"outcome": failure.outcome, "message": str(failure)}
     found = found[:FRAME_MODES]
     row |= {"frequencies_hz": (found / (2 * np.pi)).tolist(), "swing_mode": swing + 1}
-    if model.tower_modes and model.jib_modes:
+    if model.counts["tower_x"] and model.counts["jib_vertical"]:
         exact = PlaneCrane(crane_frame(tables, weight=model.weight_softening))
         pairs = paired_modes(model, exact, position, len(found))
         row["exact_hz"] = pairs.exact_hz
@@ -147,13 +152,15 @@ def _coupled(tables: RadialCase, model: RadialModel, position: float) -> dict[st
             None if other is None else own / other - 1.0
             for own, other in zip(pairs.frequencies_hz, pairs.exact_hz, strict=True)
         ]
-        row["predicted_difference"] = truncation_error(model, position, tables.rope.length)[: len(found)].tolist()
+        row["predicted_difference"] = truncation_error(model, crane, position, tables.rope.length)[
+            : len(found)
+        ].tolist()
         row["missing_from_the_model"] = [{"frequency_hz": f, "member": member} for f, member in pairs.missing]
         row["exact_unlike_the_model_hz"] = pairs.unlike
     return row
 
 
-def _buckling_factor(tables: RadialCase, position: float) -> float | None:
+def _buckling_factor(tables: TowerCase, position: float) -> float | None:
     """Factor on all weights, trolley and load included, at which the tower buckles; None: it never does."""
     from modal import crane_structure
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.scaled_torsion import ScaledTorsion
 from towercrane.cranes.tower.sway_frequencies import SwayFrequencies
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.motions.plans import Plan
 
     Floats = NDArray[np.float64]
@@ -138,7 +137,7 @@ class RestStudy:
 
 
 def study(
-    model: FlexibleModel | RadialModel,
+    model: FlexibleModel,
     plans: Mapping[str, Plan],
     *,
     allowed: float = ALLOWED,
@@ -150,7 +149,7 @@ def study(
 
     Parameters
     ----------
-    model : FlexibleModel or RadialModel
+    model : FlexibleModel
     plans : dict of str to Plan
         By channel; the wind is left out.
     allowed : float
@@ -258,10 +257,9 @@ def _row(row: Row) -> dict[str, Any]:
     }
 
 
-def _studied(model: FlexibleModel | RadialModel) -> FlexibleModel:
+def _studied(model: FlexibleModel) -> FlexibleModel:
     """The crane in still air, every mode of its structure damped."""
-    scene = model if isinstance(model, FlexibleModel) else model.scene
-    return replace(scene, damping=ModalDamping(DAMPING, DAMPING, DAMPING, DAMPING), wind=False)
+    return replace(model, damping=ModalDamping(DAMPING, DAMPING, DAMPING, DAMPING), wind=False)
 
 
 def _peak(values: xr.DataArray) -> float:

@@ -9,10 +9,10 @@ import numpy as np
 
 from towercrane.cases.assumptions import as_entries, rests_on
 from towercrane.cases.models import motions_of
+from towercrane.cranes.tower.crane_model import described
 from towercrane.cranes.tower.equations.small_motions import natural_modes
-from towercrane.cranes.tower.file.build import space_crane, space_model
-from towercrane.cranes.tower.file.case_tables import SpaceCase
-from towercrane.cranes.tower.space import described
+from towercrane.cranes.tower.file.build import crane_of, tower_model
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.simulation.system import NoEquilibrium
 from towercrane.studies.branches import CLEAR
 from towercrane.studies.mode_pairs import BELONGING
@@ -70,7 +70,7 @@ def modes_at(model: FlexibleModel, place: Place, count: int) -> list[NaturalMode
 
 def asked_places(case: Case) -> dict[str, tuple[float, ...]]:
     """Values of each drive at which the case wants its modes; without any, those at both ends of its way."""
-    asked, motions = case.tables(SpaceCase).modes, motions_of(case)
+    asked, motions = case.tables(TowerCase).modes, motions_of(case)
     turning = motions["shaft" if "shaft" in motions else "slewing"]
     ways = zip(
         SWEPT,
@@ -95,8 +95,8 @@ def space_frequencies(case: Case) -> dict[str, Any]:
         ``at``; outcome and message
         where the tower buckles; ``assumed``.
     """
-    tables = case.tables(SpaceCase)
-    model, count, start = space_model(tables), tables.modes.count, place_at(case)
+    tables = case.tables(TowerCase)
+    model, count, start = tower_model(tables), tables.modes.crane_count, place_at(case)
     report: dict[str, Any] = {
         "case": case.name,
         "name": case.crane.name,
@@ -120,10 +120,10 @@ def space_frequencies(case: Case) -> dict[str, Any]:
     return report
 
 
-def richer_model(tables: SpaceCase) -> FlexibleModel:
+def richer_model(tables: TowerCase) -> FlexibleModel:
     """The case's crane with more modes of every kind that it has, those that the case leaves out too."""
-    kinds = described(space_crane(tables.crane))
-    return space_model(tables, **{kind: getattr(tables.model, kind) + RICHER for kind in kinds})
+    kinds = described(crane_of(tables))
+    return tower_model(tables, **{kind: getattr(tables.model, kind) + RICHER for kind in kinds})
 
 
 def beside_a_richer(
@@ -176,8 +176,8 @@ def modes_rest_on(case: Case) -> list[Assumption]:
 
 def drawn_sweeps(case: Case) -> dict[str, list[dict[str, Any]]]:
     """The sweeps of :func:`space_frequencies` at evenly spaced values between their ends, for pictures."""
-    tables = case.tables(SpaceCase)
-    model, count, start = space_model(tables), tables.modes.count, place_at(case)
+    tables = case.tables(TowerCase)
+    model, count, start = tower_model(tables), tables.modes.crane_count, place_at(case)
     sweeps = {}
     for name, values in asked_places(case).items():
         low, high = min(values), max(values)

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 from samples.qtz5613 import model, motions
 
+from tests.samples.qtz5613 import in_plane
 from towercrane import load_case
-from towercrane.cranes.tower.file.build import radial_crane
+from towercrane.cranes.tower.equations.small_motions import plane_modes
+from towercrane.cranes.tower.file.build import crane_of
 from towercrane.cranes.tower.file.members import as_chain
 from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.modes.frequency_cap import added_mass
-from towercrane.cranes.tower.planar import RadialModel
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.simulation.simulate import simulate
@@ -36,7 +37,7 @@ def test_static_flexibility_is_that_of_all_modes():
 
 
 def test_frequencies_below_the_cap_stay():
-    plain, capped = (model(4, 8, cap=cap).natural_frequencies(41.0, 18.0) / (2.0 * np.pi) for cap in (np.inf, CAP))
+    plain, capped = (plane_modes(model(4, 8, cap=cap), 41.0, 18.0)[0] / (2.0 * np.pi) for cap in (np.inf, CAP))
     slow = plain < CAP / 2.5
     change = abs(capped[slow] / plain[slow] - 1.0)
     assert slow.sum() == 5
@@ -56,10 +57,10 @@ def test_a_capped_run_follows_the_uncapped_one():
 
 @pytest.mark.parametrize("tower", ["beam", "chain"])
 def test_a_capped_crane_keeps_its_energy(tower):
-    crane = radial_crane(load_case("qtz5613/condition-3").checked)
+    crane = crane_of(load_case("qtz5613/condition-3").checked)
     if tower == "chain":
         crane = replace(crane, tower=as_chain(crane.tower))
-    capped = RadialModel(crane, model().load, 4, 6, cap=CAP, rope_as_rod=True)
+    capped = in_plane(crane, model().load, 4, 6, cap=CAP, rope_as_rod=True)
     run = simulate(capped, motions(), 60.0, state="zero", rtol=1e-10, atol=1e-12)
     energy, work = run["total_energy"].values, run["input_work"].values
     assert run.attrs["outcome"] == "finished"
@@ -70,7 +71,7 @@ def test_a_capped_crane_keeps_its_energy(tower):
 def test_every_mode_is_damped_as_stated_whether_a_cap_slows_it_or_not(cap):
     # Little on the jib and rope: the modes are those of the members.
     tower, jib = 0.02, 0.03
-    crane = model(4, 6, load=1e-6, cap=cap, tower_damping_ratio=tower, jib_damping_ratio=jib).scene
+    crane = model(4, 6, load=1e-6, cap=cap, damping=(tower, jib))
     mass = 1.0 + crane.added_mass
     ratios = crane.system.vectors[layout.DAMPING] / (2.0 * np.sqrt(mass) * crane.angular_frequencies)
     np.testing.assert_allclose(ratios, np.repeat([tower, jib], [4, 6]), rtol=1e-14)
@@ -82,4 +83,4 @@ def test_every_mode_is_damped_as_stated_whether_a_cap_slows_it_or_not(cap):
 
 def test_bad_cap():
     with pytest.raises(ValueError, match=r"cap: wanted a positive frequency \[Hz\], got -1"):
-        _ = model(cap=-1.0).scene
+        model(cap=-1.0)

@@ -11,7 +11,7 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 from samples.qtz5613 import CRANE
 
-from towercrane.cranes.tower.planar import RadialModel
+from tests.samples.qtz5613 import in_plane
 from towercrane.kernels.payload import Load
 
 GAUSS = leggauss(32)
@@ -34,12 +34,13 @@ def clamped_free(mode, x):
 class VirtualWork:
     """Positions of all masses for given coordinates, and what is left of the virtual work."""
 
-    def __init__(self, model: RadialModel, trolley, rope):
+    def __init__(self, model, trolley, rope):
         self.model, self.trolley, self.rope = model, trolley, rope
-        nt, nb = model.tower_modes, model.jib_modes
+        nt, nb = model.counts["tower_x"], model.counts["jib_vertical"]
         z, self.tower_weights = on(CRANE.tower.length)
-        self.tower_shapes, self.tower_slopes = model.tower(z).T, model.tower(z, 1).T
-        self.tip, self.slope = model.tower(CRANE.tower.length), model.tower(CRANE.tower.length, 1)
+        tower = model.crane.tower
+        self.tower_shapes, self.tower_slopes = tower(z).T, tower(z, 1).T
+        self.tip, self.slope = tower(CRANE.tower.length), tower(CRANE.tower.length, 1)
         self.jib_points, self.jib_weights = on(CRANE.jib.length)
         with mp.workdps(40):
             self.jib_shapes = [[clamped_free(b + 1, mp.mpf(x)) for b in range(nb)] for x in self.jib_points]
@@ -115,8 +116,8 @@ class VirtualWork:
                 )
                 terms.append(load.rope_damping * swing[k] * (n_plus[k] - n_minus[k]) / (2 * h))
             if i < self.nt:
-                omega = model.tower.angular_frequencies[i]
-                terms += [omega**2 * q[i], 2 * model.tower_damping_ratio * omega * rate[i]]
+                omega = model.crane.tower.angular_frequencies[i]
+                terms += [omega**2 * q[i], 2 * model.damping.tower * omega * rate[i]]
                 if model.weight_softening:
                     # The weight above each section works on the shortening 1/2 V'^2.
                     height = CRANE.tower.length
@@ -128,33 +129,32 @@ class VirtualWork:
             elif i < self.nt + self.nb:
                 beam, root = CRANE.jib, self.roots[i - self.nt]
                 omega = root**2 * mp.sqrt(mp.mpf(beam.bending_stiffness) / beam.mass_per_length) / beam.length**2
-                terms += [omega**2 * q[i], 2 * model.jib_damping_ratio * omega * rate[i]]
+                terms += [omega**2 * q[i], 2 * model.damping.vertical * omega * rate[i]]
             sums.append(float(sum(terms)))
             sizes.append(float(sum(abs(t) for t in terms)))
         return np.array(sums), np.array(sizes)
 
 
 CASES = {
-    "rigid": {"tower_modes": 0, "jib_modes": 0},
-    "rigid tower": {"tower_modes": 0, "jib_modes": 2},
-    "rigid jib": {"tower_modes": 2, "jib_modes": 0},
-    "planar": {"tower_modes": 2, "jib_modes": 3},
+    "rigid": {"tower": 0, "jib": 0},
+    "rigid tower": {"tower": 0, "jib": 2},
+    "rigid jib": {"tower": 2, "jib": 0},
+    "planar": {"tower": 2, "jib": 3},
     "damped": {
-        "tower_modes": 2,
-        "jib_modes": 2,
-        "tower_damping_ratio": 0.02,
-        "jib_damping_ratio": 0.05,
+        "tower": 2,
+        "jib": 2,
+        "damping": (0.02, 0.05),
         "weight_softening": True,
     },
-    "weightless": {"tower_modes": 1, "jib_modes": 2, "self_weight": False},
-    "spatial": {"tower_modes": 2, "jib_modes": 2, "axes": 3},
+    "weightless": {"tower": 1, "jib": 2, "self_weight": False},
+    "spatial": {"tower": 2, "jib": 2, "axes": 3},
 }
 
 
 @pytest.mark.parametrize("options", CASES.values(), ids=CASES)
 def test_accelerations_fulfil_the_virtual_work_of_positions(options):
     rng = np.random.default_rng(20)
-    model = RadialModel(CRANE, Load(800.0, rope_damping=300.0, drag_area=4.0), **options)
+    model = in_plane(CRANE, Load(800.0, rope_damping=300.0, drag_area=4.0), **options)
     n, axes = model.coordinates, model.axes
     for _ in range(10):
         trolley = np.array([rng.uniform(2, 50), rng.normal(), rng.normal()])
@@ -194,11 +194,11 @@ def test_mass_matrix_is_symmetric_positive_definite_anywhere():
     from towercrane.kernels.payload import JACOBIAN, MASS
 
     rng = np.random.default_rng(0)
-    model = RadialModel(CRANE, Load(800.0), 3, 4)
+    model = in_plane(CRANE, Load(800.0), 3, 4)
     n = model.coordinates
     for _ in range(1000):
         q = 2.0 * model.system.scale[:n] * rng.normal(size=n)
-        work = model.scene.at_rest(q, np.array([[rng.uniform(0, 55.6), 0, 0], [10.0, 0, 0]]))
+        work = model.at_rest(q, np.array([[rng.uniform(0, 55.6), 0, 0], [10.0, 0, 0]]))
         theta = rng.uniform(-np.pi, np.pi)
         along = work[JACOBIAN : JACOBIAN + 2, :n].T @ [np.sin(theta), -np.cos(theta)]
         lower = np.tril(work[MASS : MASS + n, :n])

@@ -46,17 +46,17 @@ def places(i, n, numbers, table, out):
 traced_arithmetic, traced_places = traced(arithmetic), traced(places)
 
 
-@kernel(door=True)
+@kernel(python_entry=True)
 def compute(a, b, c, fixed):
     return traced_arithmetic(a, (b, c), fixed)
 
 
-@kernel(door=True)
+@kernel(python_entry=True)
 def place(i, n, numbers, table, out):
     traced_places(i, n, numbers, table, out)
 
 
-@kernel(door=True)
+@kernel(python_entry=True)
 def in_every_lane(numbers, found):
     lanes, results = in_lanes(numbers), in_lanes(found)
     total, (first, others), constant = traced_arithmetic(lanes[0], (lanes[1], 0.3), lanes)

@@ -12,7 +12,7 @@ from modal import Chain, EndBody, Foundation, Segment, chain_frequencies, chain_
 from modal.structures.influence import EFFECTS, Influence, effects_of, influence, keeping
 from modal.structures.structure_modes import structure_modes
 from towercrane import load_case
-from towercrane.cranes.tower.file.build import crane_frame, radial_model
+from towercrane.cranes.tower.file.build import crane_frame, tower_model
 from towercrane.cranes.tower.truncation import TRUSTED, truncation_error
 
 TOWER, END_BODY = CRANE.tower, CRANE.end_body
@@ -85,11 +85,11 @@ def test_a_tower_that_would_buckle_is_predicted_to_lose_all():
 
 
 @pytest.mark.parametrize("position", [5.0, 41.0, 55.0])
-@pytest.mark.parametrize("jib_modes", [2, 3, 6])
-def test_the_cost_of_missing_jib_modes_is_estimated(position, jib_modes):
+@pytest.mark.parametrize("jib_vertical_modes", [2, 3, 6])
+def test_the_cost_of_missing_jib_modes_is_estimated(position, jib_vertical_modes):
     """Against the exact frame; so many tower modes that only the jib's truncation is left."""
     case = load_case("qtz5613/condition-3")
-    model = radial_model(case.checked, tower_modes=12, jib_modes=jib_modes)
+    model = tower_model(case.checked, tower_modes=12, jib_vertical_modes=jib_vertical_modes)
     exact = crane_structure(crane_frame(case.checked), position).angular_frequencies(4)
     actual = model.natural_frequencies(position, 18.0)[:4] / exact - 1.0
     estimate = truncation_error(model, position, 18.0)[:4]
@@ -102,5 +102,5 @@ def test_the_cost_of_missing_jib_modes_is_estimated(position, jib_modes):
 
 def test_a_mode_that_cannot_be_represented_is_not_trusted():
     case = load_case("qtz5613/condition-3")
-    model = radial_model(case.checked, tower_modes=12, jib_modes=1)
+    model = tower_model(case.checked, tower_modes=12, jib_vertical_modes=1)
     assert truncation_error(model, 41.0, 18.0)[3] > TRUSTED

@@ -22,8 +22,8 @@ INF = float("inf")
 WHOLE = 1.0, 1.0, 1.0, 1.0
 """Breadths at the ends of a uniform segment, its length, and what is left of it from its near end."""
 
-transfer_of = kernel(door=True)(piece_transfer.py_func)
-stiffness_of = kernel(door=True)(relative_stiffness.py_func)
+transfer_of = kernel(python_entry=True)(piece_transfer.py_func)
+stiffness_of = kernel(python_entry=True)(relative_stiffness.py_func)
 
 
 def exact_stiffness(segment, length, compression, omega2, theory):

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.bench.scenes.prepared import Scene
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.model import FlexibleModel
 
     Floats = NDArray[np.float64]
 
@@ -48,16 +48,16 @@ def _used(scene: Scene) -> tuple[int, int]:
     return trolley, rope
 
 
-def expressions(model: RadialModel, y: Any, channels: list[Any]) -> list[Any]:
+def expressions(model: FlexibleModel, y: Any, channels: list[Any]) -> list[Any]:
     """Slopes of (q, theta, q', theta') as heyoka's expressions of these and of time."""
     import heyoka
 
     balance, n = Balance(model), model.coordinates
     trolley, hoist = ([_horner(c) for c in derivatives(channel)] for channel in channels)
     shapes = np.zeros((3, n), dtype=object)
-    jib = model.jib
+    jib = model.crane.vertical
     assert isinstance(jib, Modes), "the benchmark's jib is uniform"
-    shapes[:, model.tower_modes :] = _shapes(jib, trolley[0])
+    shapes[:, model.counts["tower_x"] :] = _shapes(jib, trolley[0])
     gamma, theta = balance.slope @ y[:n], y[n]
     tilt, swing = ((heyoka.sin(angle), heyoka.cos(angle)) for angle in (gamma, theta))
     return [*y[n + 1 :], *_solution(*balance(y, tilt, swing, trolley, hoist, shapes))]

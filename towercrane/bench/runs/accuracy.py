@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy.choice import SMALLEST_PEAK, Choice, Indicators, candidates, choose, free_frequency
+from towercrane.accuracy.choice import candidates, choose, free_frequency
+from towercrane.accuracy.estimate import SMALLEST_PEAK, Choice
+from towercrane.accuracy.foretold import Indicators
 from towercrane.accuracy.instants import OUTPUTS, TENSION
 from towercrane.accuracy.promise import KEPT, OUT_OF_REACH
-from towercrane.accuracy.scene import Setting
+from towercrane.accuracy.setting import Setting
 from towercrane.bench.clock import short
 from towercrane.bench.scenes.drawn import scenes
 from towercrane.results.measures import gap, peak
@@ -22,12 +24,12 @@ from towercrane.simulation.system import NoEquilibrium
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.accuracy.scene import RadialScene
+    from towercrane.accuracy.scene import Scene
     from towercrane.results.recording import Recording
 
     Floats = NDArray[np.float64]
 
-REFERENCE = Setting(10, 14, rtol=1e-8, atol=1e-11)
+REFERENCE = Setting(tower_modes=10, jib_vertical_modes=14, planar=True, rtol=1e-8, atol=1e-11)
 """For the rope tension, which sees accelerations."""
 
 CAPPED_REFERENCE = replace(REFERENCE, rtol=1e-6, atol=1e-9)
@@ -60,8 +62,8 @@ def error_controlled(repeats: int) -> dict[str, Any]:
     notes = [
         f"scenes: cranes, loads, ropes, drives and starts drawn with seed {SEED}; outputs: positions, in some "
         "of the scenes the rope tension as well",
-        f"reference: {REFERENCE.tower_modes}+{REFERENCE.jib_modes} modes, rtol {CAPPED_REFERENCE.rtol:g} and a cap "
-        f"for positions, rtol {REFERENCE.rtol:g} without cap for the tension",
+        f"reference: {REFERENCE.tower_modes}+{REFERENCE.jib_vertical_modes} modes, rtol {CAPPED_REFERENCE.rtol:g} "
+        f"and a cap for positions, rtol {REFERENCE.rtol:g} without cap for the tension",
         "cost: CPU time of choosing, building and solving, over that of building and solving the cheapest of the "
         f"program's settings that keeps the target, in one of {COSTED} scenes",
     ]
@@ -116,7 +118,7 @@ def measured(count: int, seed: int, first: int = 0) -> list[dict[str, Any]]:
     return found
 
 
-def reference_of(scene: RadialScene, *, tension: bool) -> Setting:
+def reference_of(scene: Scene, *, tension: bool) -> Setting:
     """The setting whose run counts as exact."""
     if tension:
         return REFERENCE
@@ -125,12 +127,12 @@ def reference_of(scene: RadialScene, *, tension: bool) -> Setting:
     return replace(CAPPED_REFERENCE, cap=max(least, factor * free))
 
 
-def measured_scene(scene: RadialScene, target: float, *, tension: bool, costed: bool) -> dict[str, Any]:
+def measured_scene(scene: Scene, target: float, *, tension: bool, costed: bool) -> dict[str, Any]:
     """Choose, run, compare with the reference and with cheaper settings.
 
     Parameters
     ----------
-    scene : RadialScene
+    scene : Scene
     target : float
         Error over the peak.
     tension : bool
@@ -181,7 +183,7 @@ def measured_scene(scene: RadialScene, target: float, *, tension: bool, costed: 
 
 
 def _cheapest(
-    scene: RadialScene, choice: Choice[Setting], target: float, reference: Recording, outputs: tuple[str, ...]
+    scene: Scene, choice: Choice, target: float, reference: Recording, outputs: tuple[str, ...]
 ) -> float | None:
     """CPU time of the cheapest run that keeps the target, among all settings that are predicted to be cheaper."""
     chosen, best, least = choice.setting, None, np.inf
@@ -198,7 +200,7 @@ def _cheapest(
     return None if best is None else _timed(scene, best)[1]
 
 
-def _timed(scene: RadialScene, setting: Setting) -> tuple[Recording, float]:
+def _timed(scene: Scene, setting: Setting) -> tuple[Recording, float]:
     """A run, and the CPU time of building and solving [s]."""
     began = time.process_time()
     run = scene.run(setting)
@@ -228,4 +230,4 @@ def _row(records: list[dict[str, Any]]) -> list[str]:
 
 def _name(setting: Setting) -> str:
     cap = f", cap {setting.cap:.3g} Hz" if np.isfinite(setting.cap) else ""
-    return f"{setting.tower_modes}+{setting.jib_modes} modes{cap}, rtol {setting.rtol:.0e}"
+    return f"{setting.tower_modes}+{setting.jib_vertical_modes} modes{cap}, rtol {setting.rtol:.0e}"

@@ -10,15 +10,16 @@ import numpy as np
 from towercrane.bench.clock import interleaved, whole
 from towercrane.bench.scenes.prepared import unwatched
 from towercrane.cases.case import load_case
-from towercrane.cranes.tower.file.build import radial_model
-from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.equations.small_motions import plane_modes
+from towercrane.cranes.tower.file.build import tower_model
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.integrate import evaluate, integrate
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.model import FlexibleModel
 
 SPANS = (15.0, 30.0, 60.0, 120.0, 240.0, 480.0)
 """Simulated times [s]."""
@@ -72,15 +73,15 @@ def exponent(x: Sequence[float], y: Sequence[float]) -> float:
     return float(np.polyfit(np.log(x), np.log(y), 1)[0])
 
 
-def _model(modes: tuple[int, int]) -> RadialModel:
+def _model(modes: tuple[int, int]) -> FlexibleModel:
     """The crane in so many tower and jib modes."""
-    tables = load_case("qtz5613/condition-3").tables(RadialCase)
-    return radial_model(tables, tower_modes=modes[0], jib_modes=modes[1])
+    tables = load_case("qtz5613/condition-3").tables(TowerCase)
+    return tower_model(tables, tower_modes=modes[0], jib_vertical_modes=modes[1])
 
 
 def _run(modes: tuple[int, int], span: float) -> Callable[[], Any]:
-    model = radial_model(
-        load_case("qtz5613/condition-3").tables(RadialCase), tower_modes=modes[0], jib_modes=modes[1]
+    model = tower_model(
+        load_case("qtz5613/condition-3").tables(TowerCase), tower_modes=modes[0], jib_vertical_modes=modes[1]
     )
     cut = phases((rest(23.0), rest(18.0)), span)
     start, grid = model.start(cut.inputs[0], "zero", 0.1), np.linspace(0.0, span, round(20 * span) + 1)
@@ -100,8 +101,8 @@ def _against_modes(repeats: int) -> list[dict[str, Any]]:
     names = {f"{tower}+{jib}": (tower, jib) for tower, jib in MODES}
     found, timings = interleaved({name: _run(modes, 30.0) for name, modes in names.items()}, repeats)
     models = {
-        name: radial_model(
-            load_case("qtz5613/condition-3").tables(RadialCase), tower_modes=modes[0], jib_modes=modes[1]
+        name: tower_model(
+            load_case("qtz5613/condition-3").tables(TowerCase), tower_modes=modes[0], jib_vertical_modes=modes[1]
         )
         for name, modes in names.items()
     }
@@ -110,7 +111,7 @@ def _against_modes(repeats: int) -> list[dict[str, Any]]:
         {
             "modes": name,
             "states": model.size,
-            "frequency_hz": float(model.natural_frequencies(23.0, 18.0)[-1] / (2.0 * np.pi)),
+            "frequency_hz": float(plane_modes(model, 23.0, 18.0)[0][-1] / (2.0 * np.pi)),
             "cpu_seconds": timings[name].cpu,
             "evaluations": found[name].evaluations,
             "nanoseconds": 1e9 * single[name].cpu / EVALUATIONS,
@@ -119,7 +120,7 @@ def _against_modes(repeats: int) -> list[dict[str, Any]]:
     ]
 
 
-def _right_hand_side(model: RadialModel) -> Callable[[], Any]:
+def _right_hand_side(model: FlexibleModel) -> Callable[[], Any]:
     """Many right-hand sides in one compiled loop."""
     cut = phases((rest(23.0), rest(18.0)), 30.0)
     states = np.repeat(model.start(cut.inputs[0])[None], EVALUATIONS, axis=0)

@@ -11,9 +11,9 @@ import numpy as np
 from towercrane.bench.clock import short, whole
 from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
-from towercrane.cranes.tower.file.build import radial_model
-from towercrane.cranes.tower.file.case_tables import RadialCase
-from towercrane.cranes.tower.lanes import OUTPUTS, RADIAL
+from towercrane.cranes.tower.file.build import tower_model
+from towercrane.cranes.tower.file.case_tables import TowerCase
+from towercrane.cranes.tower.lanes import IN_PLANE, OUTPUTS
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import evaluate, integrate
@@ -93,7 +93,7 @@ def many_runs(repeats: int) -> dict[str, Any]:
 def _variations(count: int, duration: float) -> list[LaneRun]:
     """Loads from 100 to 2000 kg, ropes from 5 to 23 m, drawn without order."""
     case = load_case(CASE)
-    model = radial_model(case.tables(RadialCase), tower_modes=2, jib_modes=3)
+    model = tower_model(case.tables(TowerCase), tower_modes=2, jib_vertical_modes=3)
     motions = motions_of(case)
     cut = phases((motions["trolley"], motions["rope"]), duration)
     random = np.random.default_rng(0)
@@ -105,7 +105,7 @@ def _variations(count: int, duration: float) -> list[LaneRun]:
 
 
 def _lanes(runs: list[LaneRun], grid: Floats, rtol: float, threads: int) -> LaneAnswers:
-    found = integrate_many(RADIAL, runs, grid, rtol=rtol, atol=1e-2 * rtol, threads=threads)
+    found = integrate_many(IN_PLANE, runs, grid, rtol=rtol, atol=1e-2 * rtol, threads=threads)
     if INTERRUPTED in found.outcomes:
         raise KeyboardInterrupt
     return found

@@ -12,8 +12,8 @@ from towercrane.bench.evaluations import Instant, evaluations
 from towercrane.bench.scenes.prepared import radial_outputs
 from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
-from towercrane.cranes.tower.file.build import radial_model
-from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.file.build import tower_model
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import integrate
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.simulation.trajectory import Trajectory
 
     Floats = NDArray[np.float64]
@@ -34,7 +34,7 @@ def right_hand_side(repeats: int) -> dict[str, Any]:
     """One evaluation of the radial right-hand side."""
     models = {}
     for modes in ((0, 0), (2, 2), (2, 3), (4, 4)):
-        model = radial_model(load_case(CASE).tables(RadialCase), tower_modes=modes[0], jib_modes=modes[1])
+        model = tower_model(load_case(CASE).tables(TowerCase), tower_modes=modes[0], jib_vertical_modes=modes[1])
         cut, start = _scene(model)
         models[f"{modes[0]} tower + {modes[1]} jib modes"] = Instant(model.system, cut, start, 10.0)
     return evaluations("radial-rhs", "Right-hand side of the radial crane", models, repeats)
@@ -44,8 +44,8 @@ def modes_left_out(repeats: int) -> dict[str, Any]:
     """The same run with fewer and more modes: what leaving modes out costs."""
     grid = np.linspace(0.0, 120.0, 2401)
 
-    def scene(modes: tuple[int, int]) -> tuple[RadialModel, Callable[[float], Trajectory]]:
-        model = radial_model(load_case(CASE).tables(RadialCase), tower_modes=modes[0], jib_modes=modes[1])
+    def scene(modes: tuple[int, int]) -> tuple[FlexibleModel, Callable[[float], Trajectory]]:
+        model = tower_model(load_case(CASE).tables(TowerCase), tower_modes=modes[0], jib_vertical_modes=modes[1])
         cut, start = _scene(model)
 
         def solve(rtol: float) -> Trajectory:
@@ -60,7 +60,7 @@ def modes_left_out(repeats: int) -> dict[str, Any]:
     most, second = (8, 12), (7, 10)
     reference = outputs(most)
     floor = differences(outputs(second), reference)
-    models: dict[str, RadialModel] = {}
+    models: dict[str, FlexibleModel] = {}
     contestants: dict[str, Callable[[], Trajectory]] = {}
     for modes in ((1, 1), (2, 2), (2, 3), (4, 4), (4, 6)):
         name = f"{modes[0]} tower + {modes[1]} jib modes"
@@ -85,7 +85,7 @@ def modes_left_out(repeats: int) -> dict[str, Any]:
     }
 
 
-def _scene(model: RadialModel) -> tuple[Any, Floats]:
+def _scene(model: FlexibleModel) -> tuple[Any, Floats]:
     case = load_case(CASE)
     motions = motions_of(case)
     cut = phases((motions["trolley"], motions["rope"]), case.run.duration)

@@ -9,7 +9,8 @@ from towercrane.bench.scenes.prepared import SPACE
 from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.parts.load import load_of
-from towercrane.cranes.tower.file.build import space_crane
+from towercrane.cranes.tower.file.build import crane_of
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 from towercrane.motions.motion import phases
@@ -32,9 +33,10 @@ MODELS = (
 def space_right_hand_sides(repeats: int) -> dict[str, Any]:
     """One evaluation of the right-hand side in space."""
     case = load_case(SPACE)
+    written = crane_of(case.tables(TowerCase))
     models = {}
     for name, counts, planes in MODELS:
-        crane = flexible_crane(space_crane(case.crane), counts, planes=planes)
+        crane = flexible_crane(written, counts, planes=planes)
         model = FlexibleModel(crane, load_of(case.payload), slewing="prescribed" if planes == 2 else "fixed")
         cut = phases(tuple(motions_of(case)[channel] for channel in model.channels), case.run.duration)
         models[name] = Instant(model.system, cut, model.start(cut.inputs[0]), AT)

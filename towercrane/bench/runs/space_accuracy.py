@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy.choice import SMALLEST_PEAK
+from towercrane.accuracy.estimate import SMALLEST_PEAK
 from towercrane.accuracy.mode_convergence import measured_choice
-from towercrane.accuracy.promise import KEPT, OUT_OF_REACH, finer_in_space
+from towercrane.accuracy.promise import KEPT, OUT_OF_REACH, finer
 from towercrane.bench.runs.accuracy import promises
 from towercrane.bench.scenes.drawn import space_scenes
 from towercrane.cranes.tower.targets import MOTIONS
@@ -20,7 +19,7 @@ from towercrane.simulation.outcomes import FINISHED
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
-    from towercrane.accuracy.space_scene import SpaceScene
+    from towercrane.accuracy.scene import Scene
 
 TARGETS = (1e-1, 3e-2, 1e-2, 3e-3)
 """Errors over peaks that are asked for."""
@@ -57,7 +56,7 @@ def measured(count: int, seed: int, first: int = 0) -> list[dict[str, Any]]:
     return found
 
 
-def measured_scene(scene: SpaceScene, target: float, outputs: tuple[str, ...]) -> dict[str, Any]:
+def measured_scene(scene: Scene, target: float, outputs: tuple[str, ...]) -> dict[str, Any]:
     """Choose, run, and compare with a richer model.
 
     Returns
@@ -83,7 +82,7 @@ def measured_scene(scene: SpaceScene, target: float, outputs: tuple[str, ...]) -
         "cost": choice.cpu_seconds / seconds,
         "choice_seconds": choice.cpu_seconds,
     }
-    reference = scene.run(finer_in_space(replace(setting, planar=False), scene.described))
+    reference = scene.run(finer(setting, scene, foretold=False))
     if result.attrs["outcome"] != FINISHED or reference.attrs["outcome"] != FINISHED:
         return {**record, "outcome": f"ended early: {result.attrs['outcome']}"}
     peaks = {name: max(peak(reference, name), SMALLEST_PEAK) for name in outputs}

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.accuracy.scene import RadialScene
-from towercrane.accuracy.space_scene import SpaceScene
+from towercrane.accuracy.scene import Scene
 from towercrane.bench.scenes.drawn_cranes import any_crane, familiar_crane, in_space, spread
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
@@ -43,21 +42,21 @@ class Begin:
 BEGINS = (Begin(0.5), Begin(0.3, swings=True), Begin(0.2, let_go=True))
 
 
-def scenes(count: int, seed: int) -> Iterator[RadialScene]:
+def scenes(count: int, seed: int) -> Iterator[Scene]:
     """As many scenes as wanted; the same seed gives the same."""
     rng = np.random.default_rng(seed)
     for _ in range(count):
         yield _scene(rng)
 
 
-def space_scenes(count: int, seed: int) -> Iterator[SpaceScene]:
+def space_scenes(count: int, seed: int) -> Iterator[Scene]:
     """As many scenes in space as wanted; the same seed gives the same."""
     rng = np.random.default_rng(seed)
     for _ in range(count):
         yield _space_scene(rng)
 
 
-def _scene(rng: Generator) -> RadialScene:
+def _scene(rng: Generator) -> Scene:
     crane = _crane(rng)
     begin = BEGINS[rng.choice(len(BEGINS), p=[one.share for one in BEGINS])]
     rope = spread(rng, 3.0, 55.0)
@@ -65,22 +64,22 @@ def _scene(rng: Generator) -> RadialScene:
     if rng.random() < 0.4:
         hoist = _motion(rng, rope, float(np.clip(rope * spread(rng, 0.4, 2.5), 2.5, 60.0)), 1.0)
     ratio = spread(rng, 0.003, 0.05) if rng.random() < 0.35 else 0.0
-    return RadialScene(
+    return Scene(
         crane=crane,
         load=_load(rng, crane),
         motions={"trolley": _travel(rng, crane.jib.length, 1.5), "rope": hoist},
         duration=float(np.round(rng.uniform(20.0, 150.0))),
         state="zero" if begin.let_go else "equilibrium",
         swing_angle=float(rng.uniform(0.01, 0.35) * rng.choice([-1.0, 1.0])) if begin.swings else 0.0,
-        tower_damping_ratio=ratio,
-        jib_damping_ratio=ratio,
+        planar=True,
+        damping=ModalDamping(tower=ratio, vertical=ratio),
         # A whole crane let fall would leave its rope slack at once.
         self_weight=bool(not begin.let_go or rng.random() < 0.5),
         rope_as_rod=bool(begin.let_go or rng.random() < 0.3),
     )
 
 
-def _space_scene(rng: Generator) -> SpaceScene:
+def _space_scene(rng: Generator) -> Scene:
     crane = in_space(rng, _crane(rng))
     load = _load(rng, crane)
     rope, turned = spread(rng, 4.0, 35.0), float(rng.uniform(-np.pi, np.pi))
@@ -102,7 +101,7 @@ def _space_scene(rng: Generator) -> SpaceScene:
         motions |= steady(speeds[0]) if rng.random() < 0.5 else gusts(float(rng.uniform(2.0, 4.0)), speeds)
     swinging = rng.random() < 0.35
     ratios = [spread(rng, 0.003, 0.03) if rng.random() < 0.5 else 0.0 for _ in range(4)]
-    return SpaceScene(
+    return Scene(
         crane=crane,
         load=load,
         motions=motions,

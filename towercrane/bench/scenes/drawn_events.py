@@ -21,8 +21,8 @@ from towercrane.cranes.slewing import build as slewing
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.slewing.kind import SLEWING
 from towercrane.cranes.slewing.tables import SlewingCase
-from towercrane.cranes.tower.file.build import radial_model, space_model
-from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+from towercrane.cranes.tower.file.build import tower_model
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import speed_trapezoid
@@ -127,7 +127,7 @@ def _wind(rng: np.random.Generator) -> dict[str, Motion]:
 
 def _flexible(rng: np.random.Generator, *, driven: bool) -> tuple[Model, dict[str, Motion]]:
     """QTZ5613 in space with few modes, with or without its drive, in gusts."""
-    model = _space_model()
+    model = _tower_model()
     motions = {
         "trolley": _moved(rng, float(rng.uniform(5.0, 40.0)), 1.0),
         "rope": _hoisted(rng, _spread(rng, 3.0, 20.0)),
@@ -151,17 +151,17 @@ def _flexible(rng: np.random.Generator, *, driven: bool) -> tuple[Model, dict[st
 
 
 @cache
-def _space_model() -> Any:
+def _tower_model() -> Any:
     case = _loaded("qtz5613/soft-drive")
     modes = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 1, "jib_vertical_modes": 1}
-    return replace(space_model(case.tables(SpaceCase), **modes), slewing="prescribed", drive_inertia=0.0)
+    return replace(tower_model(case.tables(TowerCase), **modes), slewing="prescribed", drive_inertia=0.0)
 
 
 def _radial(rng: np.random.Generator) -> tuple[Model, dict[str, Motion]]:
     """QTZ5613 in the plane."""
-    model = radial_model(_loaded("qtz5613/condition-3").tables(RadialCase), tower_modes=2, jib_modes=2).with_load(
-        _load(rng, 200.0, 5000.0)
-    )
+    model = tower_model(
+        _loaded("qtz5613/condition-3").tables(TowerCase), tower_modes=2, jib_vertical_modes=2
+    ).with_load(_load(rng, 200.0, 5000.0))
     trolley = _moved(rng, float(rng.uniform(5.0, 40.0)), 1.0)
     return model, {"trolley": trolley, "rope": _hoisted(rng, _spread(rng, 3.0, 20.0))}
 

@@ -9,8 +9,9 @@ import numpy as np
 from towercrane.bench.clock import whole
 from towercrane.bench.scenes.prepared import unwatched
 from towercrane.cases.case import load_case
-from towercrane.cranes.tower.file.build import radial_model
-from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.equations.small_motions import plane_modes
+from towercrane.cranes.tower.file.build import tower_model
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.outputs.energy import total_energy
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases, rest
@@ -39,11 +40,11 @@ class FreeVibration:
     """
 
     def __init__(self, tower_modes: int, jib_modes: int) -> None:
-        self.model = radial_model(
-            load_case(CASE).tables(RadialCase), tower_modes=tower_modes, jib_modes=jib_modes, rope_as_rod=True
+        self.model = tower_model(
+            load_case(CASE).tables(TowerCase), tower_modes=tower_modes, jib_vertical_modes=jib_modes, rope_as_rod=True
         )
         self.motions = {"trolley": rest(TROLLEY), "rope": rest(ROPE)}
-        self.frequency = float(self.model.natural_frequencies(TROLLEY, ROPE)[-1] / (2.0 * np.pi))
+        self.frequency = float(plane_modes(self.model, TROLLEY, ROPE)[0][-1] / (2.0 * np.pi))
 
     def run(self, method: str, rtol: float, span: float, step: float = 1.0) -> Trajectory:
         """Run over ``span`` seconds with rows ``step`` apart."""
@@ -62,7 +63,7 @@ class FreeVibration:
         cut = phases((self.motions["trolley"], self.motions["rope"]), 1.0)
         rows = np.vstack([self.model.start(cut.inputs[0]), states])
         with np.errstate(all="ignore"):
-            least, *energy = total_energy(FlexibleMotion(self.model.scene, self.motions, np.zeros(len(rows)), rows))
+            least, *energy = total_energy(FlexibleMotion(self.model, self.motions, np.zeros(len(rows)), rows))
             return np.asarray((np.array(energy) - energy[0]) / (energy[0] - least))
 
     def energy_change(self, run: Trajectory) -> float:

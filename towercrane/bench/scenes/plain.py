@@ -1,6 +1,6 @@
-"""Radial equations as one would first write them in NumPy: matrices, a general solve, the swing as an angle.
+"""A crane in the plane as one would first write it in NumPy: matrices, a general solve, the swing as an angle.
 
-The same model as :class:`towercrane.cranes.tower.planar.RadialModel` in other coordinates and without its shortcuts.
+The same model as :class:`towercrane.cranes.tower.model.FlexibleModel` in other coordinates and without its shortcuts.
 It shows what the compiled right-hand side saves, and checks it.
 """
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.model import FlexibleModel
 
     Floats = NDArray[np.float64]
     Rhs = Callable[[float, Floats, Floats], Floats]
@@ -28,24 +28,24 @@ class Balance:
 
     Parameters
     ----------
-    model : RadialModel
+    model : FlexibleModel
     """
 
-    def __init__(self, model: RadialModel) -> None:
-        crane, tower, n = model.crane, model.tower_modes, model.coordinates
+    def __init__(self, model: FlexibleModel) -> None:
+        crane, tower, n = model.crane, model.counts["tower_x"], model.coordinates
         tip, slope, jib_mass, jib_moment = np.zeros((4, n))
-        tip[:tower], slope[:tower] = model.tower(crane.tower.length), model.tower.rotation(crane.tower.length)
-        jib_mass[tower:], jib_moment[tower:] = model.jib.mass_moments()
+        tip[:tower], slope[:tower] = crane.tower(crane.tower_height), crane.top_slope
+        jib_mass[tower:], jib_moment[tower:] = crane.vertical.mass_moments()
         base = np.zeros((n, n))
-        base[:tower, :tower], base[tower:, tower:] = model.tower.mass_matrix(), model.jib.mass_matrix()
-        base += crane.slewing_mass * np.outer(tip, tip) + crane.slewing_inertia * np.outer(slope, slope)
+        base[:tower, :tower], base[tower:, tower:] = crane.tower.mass_matrix(), crane.vertical.mass_matrix()
+        base += crane.slewing.mass * np.outer(tip, tip) + crane.slewing.pitch * np.outer(slope, slope)
         base -= np.outer(slope, jib_moment) + np.outer(jib_moment, slope)
         jib = np.arange(n) >= tower
         self.tip, self.slope, self.jib_mass, self.base = tip, slope, jib_mass, base
         self.jib_inertia = base * np.outer(jib, jib)
         self.stiffness = model.system.matrices[layout.STIFFNESS]
         self.weight = crane.gravity if model.self_weight else 0.0
-        self.static, self.gravity = crane.static_moment, crane.gravity
+        self.static, self.gravity = crane.slewing.moment, crane.gravity
         self.trolley, self.load = crane.trolley_mass, model.load.mass
 
     def __call__(self, y: Any, tilt: Any, swing: Any, trolley: Any, hoist: Any, shapes: Any) -> tuple[Any, Any]:
@@ -97,16 +97,16 @@ class Balance:
         return whole, forces
 
 
-def plain_rhs(model: RadialModel) -> Rhs:
+def plain_rhs(model: FlexibleModel) -> Rhs:
     """Right-hand side f(t, y, inputs) in y = (q, theta, q', theta'); without damping, drag and work.
 
     Parameters
     ----------
-    model : RadialModel
+    model : FlexibleModel
         In the plane, undamped.
     """
-    balance, tower, n = Balance(model), model.tower_modes, model.coordinates
-    tables, width = model.system.tables, model.crane.jib.length / len(model.system.tables)
+    balance, tower, n = Balance(model), model.counts["tower_x"], model.coordinates
+    tables, width = model.system.tables, model.crane.jib_length / len(model.system.tables)
     powers = np.arange(tables.shape[2])
 
     def rhs(t: float, y: Floats, inputs: Floats) -> Floats:
@@ -126,7 +126,7 @@ def plain_rhs(model: RadialModel) -> Rhs:
     return rhs
 
 
-def plain_state(model: RadialModel, states: Floats) -> Floats:
+def plain_state(model: FlexibleModel, states: Floats) -> Floats:
     """The model's states with the rope's direction as an angle, without the work; shape (p, 2 n + 2)."""
     n = model.coordinates
     q, direction, rates, swing = (
@@ -140,7 +140,7 @@ def plain_state(model: RadialModel, states: Floats) -> Floats:
     return np.column_stack([q, theta, rates, turning])
 
 
-def model_states(model: RadialModel, plain: Floats) -> Floats:
+def model_states(model: FlexibleModel, plain: Floats) -> Floats:
     """The reverse of :func:`plain_state`, with no work done."""
     n = model.coordinates
     theta, turning = plain[:, n], plain[:, -1]

@@ -10,8 +10,8 @@ import numpy as np
 
 from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of
-from towercrane.cranes.tower.file.build import radial_model, space_model
-from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+from towercrane.cranes.tower.file.build import tower_model
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.bench.scenes.plain import Rhs
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.motions.motion import Phases
     from towercrane.simulation.system import System
 
@@ -36,7 +36,7 @@ SPACE = "qtz5613/manoeuvre"
 class Plain:
     """The scene's equations in NumPy: model, right-hand side, start, absolute tolerances, way back to its states."""
 
-    model: RadialModel
+    model: FlexibleModel
     rhs: Rhs
     start: Floats
     scale: Floats
@@ -86,7 +86,7 @@ def radial_scene(tower_modes: int = 2, jib_modes: int = 3, case: str = "qtz5613/
     from towercrane.bench.scenes.plain import model_states, plain_rhs, plain_state
 
     loaded = load_case(case)
-    model = radial_model(loaded.tables(RadialCase), tower_modes=tower_modes, jib_modes=jib_modes)
+    model = tower_model(loaded.tables(TowerCase), tower_modes=tower_modes, jib_vertical_modes=jib_modes)
     motions = motions_of(loaded)
     cut = phases((motions["trolley"], motions["rope"]), loaded.run.duration)
     start = model.start(cut.inputs[0])
@@ -106,20 +106,20 @@ def radial_scene(tower_modes: int = 2, jib_modes: int = 3, case: str = "qtz5613/
     )  # fmt: skip
 
 
-def radial_outputs(model: RadialModel, states: Floats) -> Floats:
+def radial_outputs(model: FlexibleModel, states: Floats) -> Floats:
     """Tower top, jib tip and swing over time; shape (p, 3)."""
-    n, tower = model.coordinates, model.tower_modes
+    n, tower, crane = model.coordinates, model.counts["tower_x"], model.crane
     q = states[:, :n]
-    top = q[:, :tower] @ model.tower(model.crane.tower.length)
-    tip = q[:, tower:] @ model.jib(model.crane.jib.length)
+    top = q[:, :tower] @ crane.tower(crane.tower_height)
+    tip = q[:, tower:] @ crane.vertical(crane.jib_length)
     return np.stack([top, tip, np.arctan2(states[:, n], -states[:, n + 1])], axis=1)
 
 
 def space_scene(duration: float = 30.0) -> Scene:
     """The first seconds of a crane in space that slews, travels and hoists at once, from equilibrium."""
     loaded = load_case(SPACE)
-    model = space_model(
-        loaded.tables(SpaceCase), tower_modes=2, torsion_modes=1, jib_lateral_modes=3, jib_vertical_modes=3
+    model = tower_model(
+        loaded.tables(TowerCase), tower_modes=2, torsion_modes=1, jib_lateral_modes=3, jib_vertical_modes=3
     )
     motions = motions_of(loaded)
     cut = phases(tuple(motions[channel] for channel in model.channels), duration)

@@ -13,8 +13,8 @@ from modal.lattices.lattice_comparison import LatticeAnswers, beam_answers, trus
 from towercrane.bench.clock import interleaved, short
 from towercrane.bench.structures.structure import EXACT, NO_MPMATH, transfer_matrices
 from towercrane.cases.case import load_case
-from towercrane.cranes.tower.file.build import radial_crane
-from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.file.build import crane_of
+from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.members import lattice_of
 
 if TYPE_CHECKING:
@@ -48,8 +48,8 @@ def lattice(repeats: int) -> dict[str, Any]:
         exact frequencies (None without mpmath), ``cpu_seconds``.
     """
     case = load_case(CASE)
-    tables = case.tables(RadialCase)
-    column, crane = lattice_of(tables.crane), radial_crane(tables)
+    tables = case.tables(TowerCase)
+    column, crane = lattice_of(tables.crane), crane_of(tables)
     assert column is not None, "the benchmark's crane has a lattice"
     panels, mass, body = (
         round(crane.tower.length / column.panel_height),

@@ -8,8 +8,8 @@ import numpy as np
 
 from towercrane.bench.clock import interleaved, short
 from towercrane.cases.case import load_case
-from towercrane.cranes.tower.file.build import radial_crane
-from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.file.build import crane_of
+from towercrane.cranes.tower.file.case_tables import TowerCase
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,7 +26,7 @@ def roots(repeats: int) -> dict[str, Any]:
     from modal import Beam, Chain, Segment, chain_frequencies, characteristic_roots, finite_element_frequencies
 
     case = load_case(CASE)
-    crane = radial_crane(case.tables(RadialCase))
+    crane = crane_of(case.tables(TowerCase))
     tower, body = crane.tower, crane.end_body
     assert isinstance(tower, Beam), "uniform and clamped"
     ratios = body.mass / tower.mass, body.rotary_inertia / (tower.mass * tower.length**2)

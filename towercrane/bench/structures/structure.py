@@ -12,7 +12,7 @@ from towercrane.bench.clock import interleaved, short
 from towercrane.bench.structures.roots import family
 from towercrane.cases.case import load_case
 from towercrane.cranes.tower.file.build import crane_frame
-from towercrane.cranes.tower.file.case_tables import RadialCase
+from towercrane.cranes.tower.file.case_tables import TowerCase
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -70,7 +70,7 @@ def crane_map(repeats: int) -> dict[str, Any]:
     from towercrane.studies.frequency_map import SPARE, frequency_map
 
     case = load_case(CASE)
-    frame = crane_frame(case.tables(RadialCase))
+    frame = crane_frame(case.tables(TowerCase))
     number = POSITIONS if repeats > 3 else FEW_POSITIONS
     places = np.linspace(0.0, case.crane.jib.length, number)
 

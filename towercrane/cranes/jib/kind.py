@@ -15,13 +15,12 @@ def _kernels(tables: JibCase, use: str) -> tuple[str, ...]:
 
 JIB = Kind(
     name="jib",
-    family="jib",
     tables=JibCase,
     drives=Drives(HEIGHT, "post and booms upright", joints=(("slew",), ("luff",), ("fold",))),
     build=later("towercrane.cranes.jib.build", "model_of"),
     poses=later("towercrane.cranes.jib.poses", "jib_poses"),
     kernels=_kernels,
-    signals=Signals("sway_in_plane", "sway_in_plane"),
+    signals=Signals("sway_in_plane", ("sway_in_plane",)),
     pictures="jib",
     sways={"sway_in_plane": "along the booms", "sway_lateral": "across the booms"},
 )

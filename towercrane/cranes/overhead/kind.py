@@ -42,7 +42,6 @@ def _kernels(tables: OverheadCase, use: str) -> tuple[str, ...]:
 
 OVERHEAD = Kind(
     name="overhead",
-    family="overhead",
     tables=OverheadCase,
     drives=Drives(
         summed("crane.runway.height"), "the height of the runway",
@@ -60,7 +59,7 @@ OVERHEAD = Kind(
     poses=later("towercrane.cranes.overhead.poses", "overhead_poses"),
     kernels=_kernels,
     lengths=later("towercrane.cranes.overhead.build", "lengths_of"),
-    signals=Signals("bridge_deflection", "sway_along_runway"),
+    signals=Signals("bridge_deflection", ("sway_along_runway",)),
     pictures=PICTURES,
     sways=SWAYS,
 )  # fmt: skip

@@ -23,14 +23,13 @@ def _kind(name: str, tables: type[SlewingCase], *ranges: Range) -> Kind:
     """A kind of slewing crane, which differs from the others by its parameters."""
     return Kind(
         name=name,
-        family=name,
         tables=tables,
         drives=Drives(HEIGHT, "the height of the tower with its top", joints=(("shaft",),)),
         ranges=ranges,
         build=later("towercrane.cranes.slewing.build", "model_of"),
         poses=later("towercrane.cranes.slewing.poses", "slewing_poses"),
         kernels=_kernels,
-        signals=Signals("jib_moment_vertical", "sway_radial"),
+        signals=Signals("jib_moment_vertical", ("sway_radial",)),
         pictures="slewing",
         sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},
     )

@@ -1,4 +1,4 @@
-"""Cranes in radial motion side by side: what lanes ask of them."""
+"""Tower cranes that move in the plane of their jib, side by side: what lanes ask of them."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.kind import Lane
+from towercrane.cranes.tower.file.build import described_model
+from towercrane.cranes.tower.file.plane import stays_in_plane
 from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.kernels.lane_rhs import JIB_TIP, SWING, TENSION, TOWER_TIP, observe, rhs
 from towercrane.cranes.tower.outputs.energy import total_energy
@@ -19,12 +22,18 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.file.case_tables import TowerCase
+    from towercrane.cranes.tower.model import FlexibleModel
 
     Floats = NDArray[np.float64]
 
-OUTPUTS = ("tower_tip_displacement", "jib_tip_deflection", "swing_angle", "rope_tension")
-"""Names of what is observed."""
+OUTPUTS = {
+    "tower_tip_displacement": ("m", "horizontal displacement of the tower top, positive outward"),
+    "jib_tip_deflection": ("m", "deflection of the jib tip from the tilted straight jib, positive up"),
+    "sway_radial": ("rad", "sway along the jib, positive outward"),
+    "rope_tension": ("N", "rope tension"),
+}
+"""What is observed: units and long names."""
 
 
 def observed(watched: Floats, states: Floats, guards: Floats) -> Floats:
@@ -37,29 +46,37 @@ def observed(watched: Floats, states: Floats, guards: Floats) -> Floats:
     return values
 
 
-def energy(models: Sequence[RadialModel], drives: Floats, states: Floats) -> tuple[Floats, Floats]:
+def _tips(model: FlexibleModel) -> Floats:
+    """Displacement of the tower's top and deflection of the jib's tip per coordinate; shape (2, coordinates)."""
+    shapes = np.zeros((2, model.coordinates))
+    shapes[0] = model.system.vectors[layout.SLIDE_X]
+    shapes[1, model.parts["jib_vertical"]] = model.crane.tip_shapes[:, 0]
+    return shapes
+
+
+def energy(models: Sequence[FlexibleModel], drives: Floats, states: Floats) -> tuple[Floats, Floats]:
     """Total energy, and the load's weight times the length of its rope, of models that are driven so (runs, 2, 2)."""
     energies = np.empty(len(models))
     # Energies of runs that share a crane are summed in one go.
     cranes: dict[int, list[int]] = {}
     for number, model in enumerate(models):
-        cranes.setdefault(id(model.scene.crane), []).append(number)
+        cranes.setdefault(id(model.crane), []).append(number)
     for members in cranes.values():
         energies[members] = _of_one_crane([models[number] for number in members], drives[members], states[members])
     weights = np.array([model.load.mass * model.crane.gravity for model in models])
     return energies, weights * drives[:, layout.ROPE, 0]
 
 
-def _of_one_crane(models: Sequence[RadialModel], drives: Floats, states: Floats) -> Floats:
+def _of_one_crane(models: Sequence[FlexibleModel], drives: Floats, states: Floats) -> Floats:
     """Total energy of runs of one crane, each with its own load, drives and state."""
-    scene = models[0].scene
-    motion = _DrivenMotion(scene, {}, np.zeros(len(models)), states, drives)
+    first = models[0]
+    motion = _DrivenMotion(first, {}, np.zeros(len(models)), states, drives)
     place, velocity = motion.load_in_space
-    heavier = np.array([model.load.mass for model in models]) - scene.load.mass
+    heavier = np.array([model.load.mass for model in models]) - first.load.mass
     softer = np.array([model.system.matrices[layout.STIFFNESS] for model in models])
-    softer -= scene.system.matrices[layout.STIFFNESS]
+    softer -= first.system.matrices[layout.STIFFNESS]
     found = total_energy(motion) + 0.5 * np.einsum("ri,rij,rj->r", motion.coordinates, softer, motion.coordinates)
-    specific = 0.5 * (velocity**2).sum(axis=1) + scene.crane.gravity * place[:, 2]
+    specific = 0.5 * (velocity**2).sum(axis=1) + first.crane.gravity * place[:, 2]
     return np.asarray(found + heavier * specific)
 
 
@@ -77,14 +94,25 @@ class _DrivenMotion(FlexibleMotion):
         return np.asarray(self.drives[:, channels.index(channel), derivative])
 
 
-RADIAL = LaneCrane(
+IN_PLANE = LaneCrane(
     rhs=rhs,
     observe=observe,
     outputs=OUTPUTS,
-    watched=lambda model: model.tip_shapes,
+    watched=_tips,
     observed=observed,
     energy=energy,
     # A crane without a stable equilibrium has buckled under its weights.
     unstable=TOWER_BUCKLED,
 )
-"""Cranes in radial motion, moving in the plane of their jib; :class:`towercrane.cranes.tower.planar.RadialModel`."""
+"""Tower cranes whose scenes stay in the jib's plane."""
+
+
+def lane_of(tables: TowerCase) -> Lane | None:
+    """What a case's run needs to share lanes; None where it leaves the plane or a wind blows."""
+    if tables.wind is not None or not stays_in_plane(tables):
+        return None
+    model = described_model(tables)
+    # Written out, floats to the last digit: equal text is equal data.
+    alike = repr({key: value for key, value in model.items() if key != "load"})
+    # A hauled rope begins its motion at its length, and what a tolerance of frequencies leaves out hangs on the load.
+    return Lane(IN_PLANE, alike, plain=tables.motion.hoist is None and tables.accuracy.frequency is None)

@@ -26,8 +26,8 @@ class FlexibleModel(Equations):
     def observe(
         self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
     ) -> dict[str, Quantity]:
-        """Outputs over time, see :func:`towercrane.cranes.tower.outputs.space.observe`."""
-        from towercrane.cranes.tower.outputs.space import observe
+        """Outputs over time, see :func:`towercrane.cranes.tower.outputs.observed.observe`."""
+        from towercrane.cranes.tower.outputs.observed import observe
 
         return observe(self, motions, times, states, guards)
 

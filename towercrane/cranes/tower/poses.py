@@ -12,49 +12,25 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+    from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.cranes.tower.model import FlexibleModel
-    from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
-    from towercrane.cranes.tower.planar import RadialModel
 
     Floats = NDArray[np.float64]
 
 POINTS = 40
 """Points along a member."""
 
-IN_PLANE = {"tower_x": "tower", "jib_vertical": "jib"}
-"""What a result in the plane calls coordinates."""
 
-
-def radial_poses(model: RadialModel, tables: RadialCase, result: xr.Dataset, times: Floats) -> Poses:
-    """Poses of a case in the plane; see `_poses`."""
-    back = tables.crane.counter_jib.length
-    return _poses(model.scene.crane, back, IN_PLANE, np.zeros(len(times)), result, times)
-
-
-def space_poses(model: FlexibleModel, tables: SpaceCase, result: xr.Dataset, times: Floats) -> Poses:
-    """Poses of a case in space; see `_poses`."""
-    back = tables.crane.counter_jib.length
-    return _poses(model.crane, back, {}, sampled(result, "slewing_angle", times), result, times)
-
-
-def _poses(
-    crane: FlexibleCrane, behind: float, names: dict[str, str], heading: Floats, result: xr.Dataset, times: Floats
-) -> Poses:
+def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, times: Floats) -> Poses:
     """Poses of a tower crane.
 
     The positions are those of the equations of motion, in which tilt and twist of the head are finite rotations.
 
     Parameters
     ----------
-    crane : FlexibleCrane
+    model : FlexibleModel
         In the modes that the result has.
-    behind : float
-        Length of the counter-jib [m].
-    names : dict of str to str
-        What the result calls coordinates.
-    heading : ndarray, shape (f,)
-        [rad]
+    tables : TowerCase
     result : xarray.Dataset
     times : ndarray, shape (f,)
         [s]
@@ -66,8 +42,11 @@ def _poses(
     """
     from scipy.spatial.transform import Rotation
 
+    crane, behind = model.crane, tables.crane.counter_jib.length
+    # In the plane the head does not turn.
+    heading = sampled(result, "slewing_angle", times) if "slewing_angle" in result else np.zeros(len(times))
     q = {
-        kind: _coordinates(result, names.get(kind, kind), times)
+        kind: _coordinates(result, kind, times)
         for kind in ("tower_x", "tower_y", "torsion", "jib_lateral", "jib_vertical")
     }
     height, lateral = crane.tower_height, q["jib_lateral"].shape[1]

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.tower.equations.small_motions import natural_modes
-from towercrane.cranes.tower.model import FlexibleModel
 
 if TYPE_CHECKING:
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.model import FlexibleModel
 
 TURNS = ("slewing", "shaft")
 """Channels that turn the jib."""
@@ -31,10 +30,10 @@ class SwayFrequencies:
 
     Parameters
     ----------
-    model : FlexibleModel or RadialModel
+    model : FlexibleModel
     """
 
-    model: FlexibleModel | RadialModel
+    model: FlexibleModel
     _known: dict[tuple[bool, float, float], tuple[float, ...]] = field(default_factory=dict, init=False, repr=False)
 
     def __call__(self, channel: str, trolley: float, rope: float) -> tuple[float, ...]:
@@ -67,8 +66,7 @@ class SwayFrequencies:
     @cached_property
     def _scene(self) -> FlexibleModel:
         """The crane with a load that may swing to all sides."""
-        model = self.model if isinstance(self.model, FlexibleModel) else self.model.scene
-        return model if model.axes == 3 else dataclasses.replace(model, axes=3)
+        return self.model if self.model.axes == 3 else dataclasses.replace(self.model, axes=3)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,7 @@
-"""Outputs of a tower crane's run whose error can be asked for."""
+"""Outputs of a tower crane's run whose error can be asked for, with their units, and those that a plane has not."""
 
-RADIAL = {"tower_tip_displacement": "m", "jib_tip_deflection": "m", "swing_angle": "rad", "rope_tension": "N"}
-"""Outputs of a run in the plane, and their units."""
-
+IN_PLANE = {"tower_tip_displacement": "m", "jib_tip_deflection": "m", "sway_radial": "rad", "rope_tension": "N"}
+"""Those whose error small motions in the jib's plane foretell, without a run."""
 
 MOTIONS = {
     "payload_position": "m",
@@ -14,10 +13,9 @@ MOTIONS = {
     "jib_tip_deflection": "m",
     "jib_tip_deflection_sideways": "m",
 }
-"""Outputs of a run in space that are motions."""
+"""Motions, wherever the crane moves."""
 
-
-SPACE = MOTIONS | {
+ALL = MOTIONS | {
     "rope_tension": "N",
     "trolley_force": "N",
     "slewing_torque": "N m",
@@ -27,4 +25,19 @@ SPACE = MOTIONS | {
     "base_moment_y": "N m",
     "base_torque": "N m",
 }
-"""Outputs of a run in space."""
+"""Motions, forces and moments."""
+
+OUT_OF_PLANE = (
+    "slewing_angle",
+    "slewing_speed",
+    "slewing_torque",
+    "sway_tangential",
+    "tower_tip_displacement_sideways",
+    "tower_tip_roll",
+    "tower_tip_twist",
+    "jib_tip_deflection_sideways",
+    "jib_root_moment_sideways",
+    "base_moment_x",
+    "base_torque",
+)
+"""Outputs that stay zero in a scene in the jib's plane, which does not have them."""

@@ -1,14 +1,17 @@
-"""What the jib modes left out of the radial model cost, estimated without computing them."""
+"""What the jib modes left out of a model in the plane cost, estimated without computing them."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from towercrane.cranes.tower.equations.small_motions import plane_matrices
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.planar import RadialModel
+    from towercrane.cranes.tower.equations.flexible import Equations
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
 
     Floats = NDArray[np.float64]
 
@@ -16,12 +19,15 @@ TRUSTED = 1e-2
 """Estimate above which a mode is not representable at all and the true error may be many times larger [1]."""
 
 
-def truncation_error(model: RadialModel, trolley_position: float, rope_length: float) -> Floats:
+def truncation_error(model: Equations, crane: TowerCrane, trolley_position: float, rope_length: float) -> Floats:
     """Estimated relative error of each natural frequency for want of further jib modes.
 
     Parameters
     ----------
-    model : RadialModel
+    model : Equations
+        Of the crane in the jib's plane.
+    crane : TowerCrane
+        That it is of.
     trolley_position, rope_length : float
         Where the trolley stands and how long the rope is [m].
 
@@ -40,15 +46,15 @@ def truncation_error(model: RadialModel, trolley_position: float, rope_length: f
     """
     from scipy.linalg import eigh
 
-    jib, kept = model.crane.jib, model.jib
-    mass, stiffness = model.linear_matrices(trolley_position, rope_length)
+    jib, kept, bent = crane.jib, model.crane.vertical, model.crane.tower
+    mass, stiffness = plane_matrices(model, trolley_position, rope_length)
     squared, vectors = eigh(stiffness, mass)
-    tower, n = model.tower_modes, model.coordinates
-    slope = model.tower.rotation(model.crane.tower.length)
+    tower, n = bent.count, model.coordinates
+    slope = model.crane.top_slope
     at_trolley, moment = kept(trolley_position), kept.mass_moments()[1]
     tilt = slope @ vectors[:tower]
     rise = at_trolley @ vectors[tower:n] - trolley_position * tilt
-    force = squared * (model.crane.trolley_mass + model.load.mass) * rise
+    force = squared * (crane.trolley_mass + model.load.mass) * rise
     turning = -squared * tilt
 
     x, L, EI, m = trolley_position, jib.length, jib.bending_stiffness, jib.mass_per_length

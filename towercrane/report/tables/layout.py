@@ -33,6 +33,12 @@ MOST_ASSUMED = 8
 """Assumed values that are explained one by one."""
 
 
+def said(console: Console, sentences: list[str]) -> None:
+    """Say what a report leaves out."""
+    for sentence in sentences:
+        console.print(sentence)
+
+
 def assumed_values(console: Console, assumed: list[dict[str, str]]) -> None:
     """Name the values that no source gives, with reasons where they are few."""
     if len(assumed) > MOST_ASSUMED:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from towercrane.report.tables.layout import assumed_values as _assumed
 from towercrane.report.tables.layout import console_of_reports as _console
 from towercrane.report.tables.layout import report_table as _table
+from towercrane.report.tables.layout import said
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -32,7 +33,7 @@ def modes_tables(report: dict[str, Any]) -> None:
 
     model = report["crane_model"]
     title = (
-        f"{report['name']}: coupled crane, {model['tower_modes']} tower and {model['jib_modes']} jib modes, "
+        f"{report['name']}: coupled crane, {model['tower_modes']} tower and {model['jib_vertical_modes']} jib modes, "
         f"load {report['payload_mass_kg']:g} kg on {report['rope_length_m']:g} m; * the load's swing"
     )
     most = max((len(row["frequencies_hz"]) for row in report["crane"]), default=0)
@@ -68,6 +69,7 @@ def modes_tables(report: dict[str, Any]) -> None:
         for name, found in report["lattice"].items():
             table.add_row(name.replace("_", " "), f"{found['value']:.5g}", found["unit"], found["use"])
         console.print(table)
+    said(console, report["left_out"])
     _assumed(console, report["assumed"])
 
 

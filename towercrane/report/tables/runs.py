@@ -63,6 +63,8 @@ def run_tables(summary: dict[str, Any]) -> None:
         _accuracy(console, summary["accuracy"])
     for notice in summary["notices"]:
         console.print(f"note     {notice}", style="bold")
+    for left_out in summary["left_out"]:
+        console.print(f"plane    {left_out}")
     if summary["idle"]:
         console.print(f"unused   {', '.join(summary['idle'])}: keys of the crane file that this run has no use for")
     _assumed(console, summary["assumed"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from towercrane.report.tables.layout import assumed_values, console_of_reports, report_table
+from towercrane.report.tables.layout import assumed_values, console_of_reports, report_table, said
 
 
 def space_modes_tables(report: dict[str, Any]) -> None:
@@ -70,6 +70,7 @@ def comparison_tables(report: dict[str, Any]) -> None:
     console.print(
         f"{report['departure_m']:.3g} m by which it leaves the place where it would hang on a rigid crane at rest"
     )
+    said(console, report["left_out"])
     for reason in report["reasons"]:
         console.print(f"  {reason}")
     if report["recommended"] is None:

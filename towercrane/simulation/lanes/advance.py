@@ -13,7 +13,7 @@ import numpy as np
 from numba import types
 
 from modal.compiler.compiled import kernel
-from towercrane.kernels.arrays import in_lanes, lane_observer_signature, lane_rhs_signature, lent
+from towercrane.kernels.arrays import borrowed, in_lanes, lane_observer_signature, lane_rhs_signature
 from towercrane.kernels.choices import choose
 from towercrane.kernels.vector import LANES
 from towercrane.simulation.directions import longest_turn, restore
@@ -109,25 +109,26 @@ def advance(
         Whether runs are left.
     """
     # What handles all lanes takes arrays: the tuples that hold them would cost time at every call.
-    places, clock, clocks = lent(lanes.places), lent(lanes.clock), in_lanes(lanes.clock)
-    lane_floors, lane_guards, guards = lent(lanes.floors), lent(lanes.guards), in_lanes(lanes.guards)
-    lane_lowest, lowest = lent(lanes.lowest), in_lanes(lanes.lowest)
-    lane_highest, highest = lent(lanes.highest), in_lanes(lanes.highest)
-    lane_norms, norms, atol = lent(lanes.norms), in_lanes(lanes.norms), in_lanes(lanes.atol)
-    lane_trial, lane_new, lane_outputs = lent(lanes.trial), lent(lanes.new), lent(lanes.outputs)
+    places, clock, clocks = borrowed(lanes.places), borrowed(lanes.clock), in_lanes(lanes.clock)
+    lane_floors, lane_guards, guards = borrowed(lanes.floors), borrowed(lanes.guards), in_lanes(lanes.guards)
+    lane_lowest, lowest = borrowed(lanes.lowest), in_lanes(lanes.lowest)
+    lane_highest, highest = borrowed(lanes.highest), in_lanes(lanes.highest)
+    lane_norms, norms, atol = borrowed(lanes.norms), in_lanes(lanes.norms), in_lanes(lanes.atol)
+    lane_trial, lane_new, lane_outputs = borrowed(lanes.trial), borrowed(lanes.new), borrowed(lanes.outputs)
     y, new, trial, slope, k = (
         in_lanes(lanes.y), in_lanes(lanes.new), in_lanes(lanes.trial), in_lanes(lanes.slope), in_lanes(lanes.k),
     )  # fmt: skip
     inputs, numbers, vectors, matrices, tables, work = (
         in_lanes(lanes.inputs), in_lanes(lanes.numbers), in_lanes(lanes.vectors), in_lanes(lanes.matrices),
-        lent(queue.tables), in_lanes(lanes.work),
+        borrowed(queue.tables), in_lanes(lanes.work),
     )  # fmt: skip
-    watched, outputs, sample_times = in_lanes(lanes.watched), in_lanes(lanes.outputs), lent(queue.sample_times)
-    directions = lent(queue.directions)
+    watched, outputs, sample_times = in_lanes(lanes.watched), in_lanes(lanes.outputs), borrowed(queue.sample_times)
+    directions = borrowed(queue.directions)
     counts, smallest_steps, extremes, series = (
-        lent(answers.counts), lent(answers.smallest_steps), lent(answers.extremes), lent(answers.series),
+        borrowed(answers.counts), borrowed(answers.smallest_steps),
+        borrowed(answers.extremes), borrowed(answers.series),
     )  # fmt: skip
-    a, c, error, dense = lent(a), lent(c), lent(error), lent(dense)
+    a, c, error, dense = borrowed(a), borrowed(c), borrowed(error), borrowed(dense)
     size, rows = y.size, error.shape[0]
     # A state without a tolerance steers no step, in every run the same.
     limits, active = queue.atol[0], 0

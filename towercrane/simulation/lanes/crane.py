@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -47,8 +47,8 @@ class LaneCrane:
     rhs, observe : compiled function
         As in :func:`towercrane.kernels.arrays.lane_rhs_signature` and
         :func:`towercrane.kernels.arrays.lane_observer_signature`.
-    outputs : tuple of str
-        Names of what is observed.
+    outputs : dict of str to (str, str)
+        Units and long names of what is observed.
     watched : callable
         Of a model, the weights of its coordinates in the outputs that are linear in them; (linear outputs, n).
     observed : callable
@@ -63,7 +63,7 @@ class LaneCrane:
 
     rhs: Any
     observe: Any
-    outputs: tuple[str, ...]
+    outputs: Mapping[str, tuple[str, str]]
     watched: Callable[[Any], Floats]
     observed: Callable[[Floats, Floats, Floats], Floats]
     energy: Callable[[Sequence[Any], Floats, Floats], tuple[Floats, Floats]]

@@ -13,8 +13,8 @@ from modal.structures.influence import effects_of, influence, keeping
 from modal.structures.structure_modes import structure_modes
 from towercrane import load_case
 from towercrane.accuracy.promise import stated
-from towercrane.accuracy.scene import setting_of
-from towercrane.cranes.tower.file.build import radial_model
+from towercrane.accuracy.scene import scene_of, setting_of
+from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.effects import effects_in, effects_report, kept_tower
 from towercrane.cranes.tower.file.members import as_chain, joined
 from towercrane.studies.natural import natural_frequencies
@@ -112,7 +112,7 @@ def test_what_is_left_out_of_drawn_towers_costs_less_than_the_tolerance(tmp_path
             report = natural_frequencies(case)
             assert_allclose(report["tower"]["frequencies_hz"], results / (2.0 * np.pi), rtol=1e-12)
             assert_allclose(report["finite_elements"]["relative_difference"], 0.0, atol=1e-5)
-        assert radial_model(case.checked).weight_softening is ("weight" in effects.kept)
+        assert tower_model(case.checked).weight_softening is ("weight" in effects.kept)
         left_out, kept = left_out + len(effects.left_out), kept + len(effects.kept)
         for effect, change in effects.influence.changes.items():
             small = np.abs(change) < 0.02
@@ -130,12 +130,12 @@ def test_weight_that_is_in_the_results_is_in_every_table():
     assert report["tower"]["frequencies_hz"][0] == pytest.approx(0.468927, abs=1e-6)
     assert report["finite_elements"]["frequencies_hz"][0] == pytest.approx(0.468927, abs=1e-6)
     assert setting_of(case).weight_softening
-    assert stated(case)["weight_softening"]
+    assert stated(case, scene_of(case))["weight_softening"]
     asked = load_case("towers/laced", ["model.weight_softening=true"])
     assert natural_frequencies(asked)["tower"]["frequencies_hz"][0] == pytest.approx(0.468927, abs=1e-6)
     without = load_case("towers/laced", ["accuracy.frequency=0.05"])
     assert natural_frequencies(without)["tower"]["frequencies_hz"][0] == pytest.approx(0.47394, abs=5e-5)
-    assert not stated(without)["weight_softening"]
+    assert not stated(without, scene_of(without))["weight_softening"]
 
 
 def test_a_tower_that_its_weight_buckles_has_no_frequencies():

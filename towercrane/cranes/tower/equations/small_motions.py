@@ -106,6 +106,46 @@ def reciprocal_modes(model: Equations, mass: Floats, stiffness: Floats) -> tuple
     return 1.0 / np.sqrt(reciprocal[::-1]), vectors[:, ::-1]
 
 
+def plane_modes(model: Equations, trolley_position: float, rope_length: float) -> tuple[Floats, int]:
+    """Small motions in the jib's plane about the undeformed crane, as a linear frame has them.
+
+    The second-order effect of the static deflection is not in them.
+
+    Parameters
+    ----------
+    model : Equations
+        That stays in the plane.
+    trolley_position, rope_length : float
+        [m]
+
+    Returns
+    -------
+    frequencies : ndarray, shape (coordinates + 1,)
+        Angular frequencies, ascending [rad/s].
+    swing : int
+        Index of the mode in which the load swings most: the one with the largest share of its elastic and potential
+        energy in the pendulum.
+
+    Raises
+    ------
+    NoEquilibrium
+        If the weight's softening leaves the tower no stiffness.
+    """
+    mass, stiffness = plane_matrices(model, trolley_position, rope_length)
+    frequencies, vectors = reciprocal_modes(model, mass, stiffness)
+    return frequencies, int(np.argmax(stiffness[-1, -1] * vectors[-1] ** 2))
+
+
+def plane_matrices(model: Equations, trolley_position: float, rope_length: float) -> tuple[Floats, Floats]:
+    """Mass and stiffness of small motions in the plane, see `plane_modes`; shapes (coordinates + 1, coordinates + 1).
+
+    The last coordinate is the load's horizontal way from the point it hangs from [m].
+    """
+    drives = np.zeros(len(model.channels))
+    drives[:2] = trolley_position, rope_length
+    return linear_matrices(model, drives)
+
+
 def natural_modes(
     model: Equations, trolley_position: float, rope_length: float, slewing_angle: float = 0.0
 ) -> list[NaturalMode]:

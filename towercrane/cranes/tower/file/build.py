@@ -8,27 +8,22 @@ from typing import TYPE_CHECKING, Any
 from modal import Beam, CraneFrame, EndBody
 from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.tower.file.effects import kept_tower, softened
-from towercrane.cranes.tower.file.members import as_chain, counter_jib_of, crane_on, tower_of, with_end_body
+from towercrane.cranes.tower.file.members import as_chain, counter_jib_of, crane_on, with_end_body
+from towercrane.cranes.tower.file.plane import stays_in_plane
 
 if TYPE_CHECKING:
     from modal import Chain
-    from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
-    from towercrane.cranes.tower.file.tables import Crane
+    from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.parameters import TowerCrane
-    from towercrane.cranes.tower.planar import RadialModel
 
 
-def radial_crane(tables: RadialCase) -> TowerCrane:
-    """The crane in the plane, on a tower without what the case's tolerance leaves out."""
-    return crane_on(kept_tower(tables), tables.crane)
-
-
-def space_crane(crane: Crane) -> TowerCrane:
-    """The crane in space: with its torsion, its jib's bending to the sides and its roll inertia where given."""
+def crane_of(tables: TowerCase) -> TowerCrane:
+    """The crane of a case, on a tower without what the case's tolerance leaves out, with all that its file gives."""
     from modal.beams.torsion import Shaft
 
-    tower, jib, standing = crane.tower, crane.jib, tower_of(crane)
+    crane, standing = tables.crane, kept_tower(tables)
+    tower, jib = crane.tower, crane.jib
     lateral, shaft = None, None
     if jib.lateral_second_moment_of_area is not None:
         lateral = Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.lateral_second_moment_of_area)
@@ -37,20 +32,20 @@ def space_crane(crane: Crane) -> TowerCrane:
     return crane_on(standing, crane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
 
 
-def crane_frame(tables: RadialCase, *, weight: bool = False) -> CraneFrame:
-    """Tower, jib, trolley and load of a radial case in their common vertical plane.
+def crane_frame(tables: TowerCase, *, weight: bool = False) -> CraneFrame:
+    """Tower, jib, trolley and load of a case in their common vertical plane.
 
     A counter-jib that has a bending stiffness bends, with the counterweight at its end; without one it is rigid, a
     part of the body on the tower.
 
     Parameters
     ----------
-    tables : RadialCase
+    tables : TowerCase
     weight : bool
         Whether the weight softens the tower.
     """
     counter_jib = counter_jib_of(tables.crane)
-    crane, load = radial_crane(tables), tables.payload
+    crane, load = crane_of(tables), tables.payload
     return frame_of(crane, load.mass, tables.rope.length, weight=weight, counter_jib=counter_jib)
 
 
@@ -77,35 +72,33 @@ def frame_of(
     )
 
 
-def radial_model(tables: RadialCase, **changes: Any) -> RadialModel:
-    """Model of a radial case; keyword arguments replace what the case chose."""
-    from towercrane.cranes.tower.planar import RadialModel
+def tower_model(tables: TowerCase, **changes: Any) -> FlexibleModel:
+    """Model of a case; keyword arguments replace what the case chose, or keep it in the plane."""
+    from towercrane.cranes.tower.crane_model import tower_crane_model
+
+    return tower_crane_model(**described_model(tables, **changes))
+
+
+def described_model(tables: TowerCase, **changes: Any) -> dict[str, Any]:
+    """What a case says of its model, by the arguments of
+    :func:`towercrane.cranes.tower.crane_model.tower_crane_model`."""
+    from towercrane.cranes.tower.crane_model import MODES
+    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
 
     chosen = {
-        "tower_modes": tables.model.tower_modes,
-        "jib_modes": tables.model.jib_modes,
+        **{key: getattr(tables.model, key) for key in MODES},
         "weight_softening": softened(tables),
-        "tower_damping_ratio": tables.model.tower_damping_ratio,
-        "jib_damping_ratio": tables.model.jib_damping_ratio,
-        "rope_as_rod": tables.rope.slack == "rod",
-        "self_weight": tables.start.state != "zero-no-self-weight",
-    }
-    return RadialModel(radial_crane(tables), load_of(tables.payload), **{**chosen, **changes})
+        "planar": stays_in_plane(tables),
+    } | changes
+    counts = ModeCounts(*(chosen.pop(key) for key in MODES))
+    return {**described_scene(tables), "modes": counts, **chosen}
 
 
-def space_model(tables: SpaceCase, **changes: Any) -> FlexibleModel:
-    """Model of a case in space; keyword arguments replace what the case chose, or keep it in the plane."""
-    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
-    from towercrane.cranes.tower.space import KINDS, model_in_space
+def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[str, Any]:
+    """The same without what may be chosen: modes, softening by the weight, whether it stays in the plane.
 
-    chosen = {key: getattr(tables.model, key) for key in (*KINDS, "weight_softening")} | changes
-    counts = ModeCounts(*(chosen.pop(key) for key in KINDS))
-    return model_in_space(counts=counts, **chosen, **space_parts(tables))
-
-
-def space_parts(tables: SpaceCase) -> dict[str, Any]:
-    """What a case in space says of its crane but how many modes it has, by the arguments of
-    :func:`towercrane.cranes.tower.space.model_in_space`."""
+    What is built of the crane already is taken as it is.
+    """
     from towercrane.cranes.parts.wind import WindAreas
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.modes.damping import ModalDamping
@@ -119,7 +112,7 @@ def space_parts(tables: SpaceCase) -> dict[str, Any]:
             friction.law, friction.torque, friction.rate,
         )  # fmt: skip
     return {
-        "crane": space_crane(crane),
+        "crane": built or crane_of(tables),
         "load": load_of(tables.payload),
         "self_weight": tables.start.state != "zero-no-self-weight",
         "rope_as_rod": tables.rope.slack == "rod",

@@ -1,4 +1,4 @@
-"""Case files of tower cranes, in the plane of the jib and in space."""
+"""Case files of tower cranes."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from pydantic import Field, StrictBool, StrictInt
 
 from modal.elements.beam_elements import MOST_ELEMENTS
 from towercrane.cranes.parts.tables import CaseTable, StartTable
-from towercrane.cranes.tower.file.tables import RadialCrane, SpaceCrane  # noqa: TC001 - pydantic reads annotations
-from towercrane.cranes.tower.targets import MOTIONS, RADIAL, SPACE
+from towercrane.cranes.tower.file.tables import Crane  # noqa: TC001 - pydantic reads annotations
+from towercrane.cranes.tower.targets import ALL, MOTIONS
 from towercrane.schema.fields import (
     Angle,
     EitherSpeed,
@@ -27,94 +27,32 @@ from towercrane.schema.targets import Asked, OutputsField, TargetField, Targets
 
 
 class Motions(Table):
-    """What the drives of a crane in radial motion do."""
+    """What the drives do; the head turns by its angle, or by that of its drive's shaft."""
 
     trolley: TrolleyMotion
     hoist: HoistMotion | None = None
-
-
-class SpaceMotions(Motions):
-    """What the drives of a tower crane in space do; the head's angle, or that of its drive's shaft."""
-
     slewing: JointMotion | None = None
     shaft: JointMotion | None = None
 
 
 class Accuracy(Asked):
-    """For a crane in radial motion, without a list all outputs with a target; relative for frequencies."""
+    """Errors that are accepted: without a list of all outputs with a target, see `Targets.every`; of frequencies."""
 
-    outputs: Annotated[tuple[str, ...], OutputsField(RADIAL)] = ()
-    target: Annotated[Targets, TargetField(RADIAL, RADIAL)] | None = None
+    outputs: Annotated[tuple[str, ...], OutputsField(ALL)] = ()
+    target: Annotated[Targets, TargetField(ALL, MOTIONS)] | None = None
     frequency: ToleranceIfAny = None
 
 
-class SpaceAccuracy(Asked):
-    """For a crane in space, without a list all motions with a target."""
-
-    outputs: Annotated[tuple[str, ...], OutputsField(SPACE)] = ()
-    target: Annotated[Targets, TargetField(SPACE, MOTIONS)] | None = None
-
-
 class Model(Table):
-    """What the model includes."""
+    """Modes that the model includes, zero for what is rigid; those of the tower count in both directions.
 
-    tower_modes: ModeCount = 2
-    jib_modes: ModeCount = 3
-    weight_softening: StrictBool = False
-    tower_damping_ratio: Ratio = 0.0
-    jib_damping_ratio: Ratio = 0.0
-
-
-class Start(StartTable):
-    """Initial state of a tower crane; its equilibrium is that in the wind's mean, the angle counts from there."""
-
-    state: Literal["equilibrium", "zero", "zero-no-self-weight"] = "equilibrium"
-
-
-class ModesRequest(Table):
-    """What ``towercrane modes`` shows; without positions, those at both ends of the trolley's way."""
-
-    count: Annotated[StrictInt, Field(ge=1, le=50)] = 4
-    trolley_positions: tuple[Position, ...] = ()
-    elements: Annotated[StrictInt, Field(ge=2, le=MOST_ELEMENTS)] = 32
-
-
-MOST_POSITIONS = 1000
-"""Places of the trolley in one map: more take minutes and cannot be read."""
-
-
-class MapRequest(Table):
-    """Where the frequency map is taken.
-
-    Without positions of the trolley, ``position_count`` of them equally spaced from the tower's axis to the end of
-    the jib; without masses of the load half the case's own, that itself, and its double.
+    A scene in the jib's plane takes those of the tower and of the jib up and down.
     """
-
-    position_count: Annotated[StrictInt, Field(ge=2, le=MOST_POSITIONS)] = 50
-    trolley_positions: tuple[Position, ...] = ()
-    payload_masses: tuple[Mass, ...] = ()
-
-
-class RadialCase(CaseTable):
-    """Case of a crane in radial motion."""
-
-    kind: Literal["radial"] = "radial"
-    crane: RadialCrane
-    motion: Motions
-    model: Model = Field(default_factory=Model)
-    start: Start = Field(default_factory=Start)
-    modes: ModesRequest = Field(default_factory=ModesRequest)
-    map: MapRequest = Field(default_factory=MapRequest)
-    accuracy: Accuracy = Field(default_factory=Accuracy)
-
-
-class SpaceModel(Table):
-    """Modes that a case in space includes, zero for what is rigid; those of the tower count in both directions."""
 
     tower_modes: ModeCount = 2
     torsion_modes: ModeCount = 1
     jib_lateral_modes: ModeCount = 2
-    jib_vertical_modes: ModeCount = 2
+    jib_vertical_modes: ModeCount = 3
     weight_softening: StrictBool = False
     tower_damping_ratio: Ratio = 0.0
     torsion_damping_ratio: Ratio = 0.0
@@ -135,23 +73,52 @@ class Wind(Table):
     series: str = ""
 
 
-class SpaceModesRequest(Table):
-    """Where ``towercrane modes`` takes the crane in space, one by one the others at the start of the motions."""
+class Start(StartTable):
+    """Initial state of a tower crane; its equilibrium is that in the wind's mean, the angle counts from there."""
 
-    count: Annotated[StrictInt, Field(ge=1, le=30)] = 8
+    state: Literal["equilibrium", "zero", "zero-no-self-weight"] = "equilibrium"
+
+
+class ModesRequest(Table):
+    """What ``towercrane modes`` shows.
+
+    ``count`` modes of tower and jib by themselves, and with the trolley at both ends of its way, or at the positions
+    named, those of the whole crane in its plane. In space ``crane_count`` modes of the whole crane where the motions
+    begin, and over one drive after the other where values are named.
+    """
+
+    count: Annotated[StrictInt, Field(ge=1, le=50)] = 4
+    crane_count: Annotated[StrictInt, Field(ge=1, le=30)] = 8
     trolley_positions: tuple[Position, ...] = ()
     rope_lengths: tuple[Length, ...] = ()
     slewing_angles: tuple[Angle, ...] = ()
+    elements: Annotated[StrictInt, Field(ge=2, le=MOST_ELEMENTS)] = 32
 
 
-class SpaceCase(CaseTable):
-    """Case of a tower crane in space."""
+MOST_POSITIONS = 1000
+"""Places of the trolley in one map: more take minutes and cannot be read."""
 
-    kind: Literal["space"] = "space"
-    crane: SpaceCrane
-    motion: SpaceMotions
+
+class MapRequest(Table):
+    """Where the frequency map is taken.
+
+    Without positions of the trolley, ``position_count`` of them equally spaced from the tower's axis to the end of
+    the jib; without masses of the load half the case's own, that itself, and its double.
+    """
+
+    position_count: Annotated[StrictInt, Field(ge=2, le=MOST_POSITIONS)] = 50
+    trolley_positions: tuple[Position, ...] = ()
+    payload_masses: tuple[Mass, ...] = ()
+
+
+class TowerCase(CaseTable):
+    """Case of a tower crane."""
+
+    crane: Crane
+    motion: Motions
     wind: Wind | None = None
-    model: SpaceModel = Field(default_factory=SpaceModel)
+    model: Model = Field(default_factory=Model)
     start: Start = Field(default_factory=Start)
-    modes: SpaceModesRequest = Field(default_factory=SpaceModesRequest)
-    accuracy: SpaceAccuracy = Field(default_factory=SpaceAccuracy)
+    modes: ModesRequest = Field(default_factory=ModesRequest)
+    map: MapRequest = Field(default_factory=MapRequest)
+    accuracy: Accuracy = Field(default_factory=Accuracy)

@@ -27,7 +27,7 @@ MISSING = "nothing: the key is missing"
 
 
 def check_tower(tree: dict[str, Any]) -> Iterator[Fault]:
-    """Faults of a radial crane's tower, of its bodies and of its counter-jib as wholes.
+    """Faults of a tower crane's tower, of its bodies and of its counter-jib as wholes.
 
     Keys that are wrong by themselves are for others to report.
     """
@@ -50,7 +50,7 @@ def check_tower(tree: dict[str, Any]) -> Iterator[Fault]:
 
 
 def tower_height(tree: dict[str, Any]) -> float | None:
-    """Height of a radial crane's tower, stated or the sum of its segments [m]; None where it is not known."""
+    """Height of a crane's tower, stated or the sum of its segments [m]; None where it is not known."""
     height = si_at(tree, f"{TOWER}.height", "m")
     return _sum_of_segments(tree) if height is None else height if height > 0.0 else None
 

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.cranes.tower.file.case_tables import RadialCase
-    from towercrane.cranes.tower.file.tables import RadialCrane
+    from towercrane.cranes.tower.file.case_tables import TowerCase
+    from towercrane.cranes.tower.file.tables import Crane
 
     Floats = NDArray[np.float64]
 
@@ -85,7 +85,7 @@ class Effects:
         return chain_frequencies(self.with_effects(effects), self.plain_frequencies.size)
 
 
-def effects_in(tables: RadialCase) -> Effects:
+def effects_in(tables: TowerCase) -> Effects:
     """Effects known of a radial case's tower, how much each is predicted to matter, and those that are kept.
 
     Without ``accuracy.frequency`` the results hold what the case describes, and the weight's softening where
@@ -100,7 +100,7 @@ def effects_in(tables: RadialCase) -> Effects:
 
 @lru_cache(maxsize=8)
 def _effects(
-    crane: RadialCrane, payload_mass: float, count: int, softened: bool, asked: bool, tolerance: float | None
+    crane: Crane, payload_mass: float, count: int, softened: bool, asked: bool, tolerance: float | None
 ) -> Effects:
     """Effects of a crane's tower in so many modes; whether the weight softens it may be asked for or a default."""
     written = tower_of(crane)
@@ -128,14 +128,14 @@ def _effects(
     return replace(effects, kept=without())
 
 
-def softened(tables: RadialCase) -> bool:
-    """Whether the weight softens the tower in a radial case's results: as it says, or by its tolerance."""
+def softened(tables: TowerCase) -> bool:
+    """Whether the weight softens the tower in a case's results: as it says, or by its tolerance."""
     if tables.accuracy.frequency is None:
         return tables.model.weight_softening
     return "weight" in effects_in(tables).kept
 
 
-def kept_tower(tables: RadialCase) -> Beam | Chain:
+def kept_tower(tables: TowerCase) -> Beam | Chain:
     """The tower of a case, without the slewing part and without weight, as the case's tolerance keeps it."""
     tower = tower_of(tables.crane)
     if isinstance(tower, Beam) or tables.accuracy.frequency is None:
@@ -143,7 +143,7 @@ def kept_tower(tables: RadialCase) -> Beam | Chain:
     return keeping(tower, effects_in(tables).kept)
 
 
-def _with_lattice(crane: RadialCrane, tower: Chain) -> Chain:
+def _with_lattice(crane: Crane, tower: Chain) -> Chain:
     """The tower with shear and rotary inertia of a lattice that stands beside its stated beam."""
     segment, *others = tower.segments
     lattice, modulus = crane.tower.lattice, crane.tower.youngs_modulus

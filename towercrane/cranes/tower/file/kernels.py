@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from towercrane.cranes.tower.file.members import uniform_of
+from towercrane.cranes.tower.file.plane import stays_in_plane
 
 if TYPE_CHECKING:
-    from towercrane.cranes.tower.file.case_tables import RadialCase, SpaceCase
+    from towercrane.cranes.tower.file.case_tables import TowerCase
 
 ROOTS = "modal.beams.roots"
 STRUCTURE, SHAPES = "modal.structures.kernels.structure", "modal.structures.kernels.shapes"
@@ -17,24 +18,15 @@ AT_REST = ("towercrane.cranes.tower.kernels.structure", ROOTS)
 LANES = ("towercrane.cranes.tower.kernels.lane_rhs", "towercrane.simulation.lanes.advance")
 
 
-def radial_kernels(tables: RadialCase, use: str) -> tuple[str, ...]:
-    """Modules for a use of a radial case."""
+def kernels(tables: TowerCase, use: str) -> tuple[str, ...]:
+    """Modules for a use of a case."""
+    # Those of a tower that is a chain of segments.
+    chain = () if uniform_of(tables.crane) is not None else (STRUCTURE, SHAPES)
     uses = {
-        "run": (*RUN, *_chain(tables), STEPPER),
+        "run": (*RUN, *chain, STEPPER),
         "lanes": (*LANES, STEPPER),
-        "modes": (*AT_REST, STRUCTURE, SHAPES),
+        "modes": (*AT_REST, STRUCTURE, SHAPES) if stays_in_plane(tables) else (*AT_REST, *chain),
         "map": (STRUCTURE, SHAPES),
         "lattice": (STRUCTURE,),
     }
     return uses[use]
-
-
-def space_kernels(tables: SpaceCase, use: str) -> tuple[str, ...]:
-    """Modules for a use of a case in space."""
-    chain = _chain(tables)
-    return {"run": (*RUN, *chain, STEPPER), "modes": (*AT_REST, *chain)}[use]
-
-
-def _chain(tables: RadialCase | SpaceCase) -> tuple[str, ...]:
-    """Those for a tower that is a chain of segments."""
-    return () if uniform_of(tables.crane) is not None else (STRUCTURE, SHAPES)

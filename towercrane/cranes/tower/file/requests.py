@@ -1,15 +1,22 @@
-"""What a radial case asks to be shown, its defaults filled in."""
+"""What a case asks for, its defaults filled in."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from towercrane.cranes.tower.crane_model import IN_PLANE as PLANE_MODES
+from towercrane.cranes.tower.crane_model import MODES
+from towercrane.cranes.tower.file.plane import stays_in_plane
+from towercrane.cranes.tower.targets import ALL, IN_PLANE, MOTIONS, OUT_OF_PLANE
+from towercrane.schema.targets import ForEvery
+
 if TYPE_CHECKING:
-    from towercrane.cranes.tower.file.case_tables import MapRequest, ModesRequest, RadialCase
+    from towercrane.cranes.tower.file.case_tables import MapRequest, ModesRequest, TowerCase
     from towercrane.motions.motion import Motion
+    from towercrane.schema.targets import Targets
 
 
-def modes_of(tables: RadialCase, trolley: Motion) -> ModesRequest:
+def modes_of(tables: TowerCase, trolley: Motion) -> ModesRequest:
     """What to show of the modes; positions of the trolley default to both ends of its way."""
     modes = tables.modes
     if modes.trolley_positions:
@@ -17,10 +24,41 @@ def modes_of(tables: RadialCase, trolley: Motion) -> ModesRequest:
     return modes.model_copy(update={"trolley_positions": tuple(dict.fromkeys(trolley.range()))})
 
 
-def map_of(tables: RadialCase) -> MapRequest:
+def map_of(tables: TowerCase) -> MapRequest:
     """Where the frequency map is taken."""
     asked, jib, load = tables.map, tables.crane.jib.length, tables.payload.mass
     steps = asked.position_count - 1
     positions = asked.trolley_positions or tuple(jib * i / steps for i in range(steps + 1))
     masses = asked.payload_masses or (0.5 * load, load, 2.0 * load)
     return asked.model_copy(update={"trolley_positions": positions, "payload_masses": masses})
+
+
+def targets_of(tables: TowerCase) -> Targets:
+    """Tolerance of every output whose error a case limits; where it names none, of those that fit the scene."""
+    asked = tables.accuracy
+    if asked.outputs or not isinstance(asked.target, ForEvery):
+        return asked.targets
+    fitting = IN_PLANE if stays_in_plane(tables) else MOTIONS
+    return {name: tolerance for name, tolerance in asked.targets.items() if name in fitting}
+
+
+def modes_that_move(tables: TowerCase) -> dict[str, str]:
+    """Kinds of modes that move in a scene, by the key that counts them."""
+    named = zip(MODES, ("tower", "torsion", "lateral", "vertical"), strict=True)
+    return {key: word for key, word in named if key in PLANE_MODES or not stays_in_plane(tables)}
+
+
+def left_out(tables: TowerCase) -> list[str]:
+    """What a scene leaves out because nothing excites it."""
+    if not stays_in_plane(tables):
+        return []
+    return [
+        "nothing turns the head or blows across the jib: torsion of the tower, bending of tower and jib to their "
+        "sides and sway across the jib are left out"
+    ]
+
+
+def outputs_of(tables: TowerCase) -> dict[str, str]:
+    """Outputs whose error can be asked for, and their units."""
+    gone = OUT_OF_PLANE if stays_in_plane(tables) else ()
+    return {name: unit for name, unit in ALL.items() if name not in gone}

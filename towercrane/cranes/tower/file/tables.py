@@ -1,4 +1,4 @@
-"""Crane files of tower cranes, for cases in the plane of the jib and in space."""
+"""Crane files of tower cranes."""
 
 from __future__ import annotations
 
@@ -79,10 +79,11 @@ class SmoothFriction(Friction):
 class Crane(CraneTable):
     """Tower crane.
 
-    One file serves cases in the jib's plane and in space. The latter alone use torsion of the tower, bending of the
-    jib to its sides, the wind's areas, drive, friction and roll inertia.
+    Scenes in the jib's plane use neither torsion of the tower, bending of the jib to its sides, drive, friction nor
+    roll inertia, and only those with a wind its areas.
     """
 
+    kind: Literal["tower"] = "tower"
     tower: Tower
     foundation: Foundation = Field(default_factory=Foundation)
     jib: Jib
@@ -92,15 +93,3 @@ class Crane(CraneTable):
     wind_areas: WindAreas = Field(default_factory=WindAreas)
     drive: SlewingDrive | None = None
     friction: SmoothFriction = SmoothFriction(law="none")
-
-
-class RadialCrane(Crane):
-    """Tower crane in radial motion."""
-
-    kind: Literal["radial"] = "radial"
-
-
-class SpaceCrane(Crane):
-    """Tower crane in space."""
-
-    kind: Literal["space"] = "space"

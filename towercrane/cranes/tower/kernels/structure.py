@@ -213,7 +213,7 @@ def path_of(rotation: tuple[float, ...], left: float, up: float) -> Vector:
     )
 
 
-@kernel(door=(types.int64, _t, _y, *_constants))
+@kernel(python_entry=(types.int64, _t, _y, *_constants))
 def structure(
     d: int,
     t: float,

@@ -100,6 +100,8 @@ class FlexibleCrane:
         Of the tower, per squared speed and length [kg/m^2].
     gravity : float
         [m/s^2]
+    written : TowerCrane, optional
+        The parameters that it is made of; without, it was put together by hand.
 
     Raises
     ------
@@ -123,6 +125,7 @@ class FlexibleCrane:
     counter_exposure: MassSums | None = None
     tower_drag: float = 0.0
     gravity: float = 9.81
+    written: TowerCrane | None = None
 
     def __post_init__(self) -> None:
         if self.planes not in (1, 2):
@@ -234,6 +237,7 @@ def flexible_crane(
         counter_exposure=counter_exposure,
         tower_drag=wind.drag(areas.tower) if areas is not None else 0.0,
         gravity=crane.gravity,
+        written=crane,
     )
 
 

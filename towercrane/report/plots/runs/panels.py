@@ -59,5 +59,13 @@ def _unit(panel: Panel) -> str:
 
 def run_pictures(result: xr.Dataset, pictures: Pictures) -> dict[str, Figure]:
     """All pictures of one run by file name."""
-    drawn = {name: over_time(result, title, panels) for name, (title, panels) in pictures.items()}
-    return {**drawn, "path.png": path_from_above([result])}
+    return {**over_times(result, pictures), "path.png": path_from_above([result])}
+
+
+def over_times(result: xr.Dataset, pictures: Pictures) -> dict[str, Figure]:
+    """Pictures of panels over time, those that the result has no line of left out."""
+    drawn = {}
+    for name, (title, panels) in pictures.items():
+        if shown := tuple(panel for panel in panels if any(line in result for line in panel.lines)):
+            drawn[name] = over_time(result, title, shown)
+    return drawn

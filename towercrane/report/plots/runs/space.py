@@ -7,11 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.kind import Panel
-from towercrane.report.plots.runs import panels
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
 
     from towercrane.cranes.kind import Pictures
 
@@ -81,7 +79,6 @@ PICTURES: Pictures = {
 """Title and panels of each picture of a run in space; the wind's is only for one with wind."""
 
 
-def run_pictures(result: xr.Dataset) -> dict[str, Figure]:
-    """All pictures of one run by file name."""
-    chosen = PICTURES | ({"wind.png": ("Wind", (WIND,))} if "wind_x" in result else {})
-    return panels.run_pictures(result, chosen)
+def pictures_of(result: xr.Dataset) -> Pictures:
+    """Pictures of a run by the names of their files."""
+    return PICTURES | ({"wind.png": ("Wind", (WIND,))} if "wind_x" in result else {})

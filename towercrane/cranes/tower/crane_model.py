@@ -1,29 +1,31 @@
-"""A tower crane in space in a number of modes of each kind."""
+"""A tower crane with its load in a number of modes of each kind, in the jib's plane or in space."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.cranes.tower.modes.modal_crane import flexible_crane
+from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
 
 if TYPE_CHECKING:
     from towercrane.cranes.parts.wind import WindAreas
     from towercrane.cranes.slewing.description import Drive
-    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.kernels.payload import Load
 
 
-KINDS = {
+MODES = {
     "tower_modes": "bending of the tower",
     "torsion_modes": "torsion of the tower",
     "jib_lateral_modes": "bending of the jib to its sides",
     "jib_vertical_modes": "bending of the jib up and down",
 }
 """Kinds of modes, by the key that counts them, in the order of
-:class:`towercrane.cranes.tower.modal_crane.ModeCounts`."""
+:class:`towercrane.cranes.tower.modes.modal_crane.ModeCounts`."""
 
 IN_PLANE = ("tower_modes", "jib_vertical_modes")
 """Kinds that move in the jib's vertical plane."""
@@ -32,31 +34,33 @@ IN_PLANE = ("tower_modes", "jib_vertical_modes")
 def described(crane: TowerCrane) -> tuple[str, ...]:
     """Kinds of modes for which a crane has data."""
     missing = {"torsion_modes": crane.shaft is None, "jib_lateral_modes": crane.jib_lateral is None}
-    return tuple(kind for kind in KINDS if not missing.get(kind, False))
+    return tuple(kind for kind in MODES if not missing.get(kind, False))
 
 
-def model_in_space(
+def tower_crane_model(
     crane: TowerCrane,
     load: Load,
-    counts: ModeCounts,
+    modes: ModeCounts,
     *,
     planar: bool = False,
     drive: Drive | None = None,
     drive_inertia: float = 0.0,
     areas: WindAreas | None = None,
     damping: ModalDamping | None = None,
-    weight_softening: bool = True,
+    weight_softening: bool = False,
     self_weight: bool = True,
     rope_as_rod: bool = False,
+    cap: float = np.inf,
 ) -> FlexibleModel:
-    """Equations of motion of a crane in space.
+    """Equations of motion of a tower crane; the counter-jib is rigid.
 
     Parameters
     ----------
     crane : TowerCrane
         With its shaft and its jib's lateral beam where it has them.
     load : Load
-    counts : ModeCounts
+    modes : ModeCounts
+        In the plane those of torsion and of the jib to its sides stand still, and are left out.
     planar : bool
         Whether all stays in the jib's vertical plane, along x; then the head does not turn.
     drive : Drive, optional
@@ -65,11 +69,13 @@ def model_in_space(
         [kg m^2]
     areas : WindAreas, optional
         What the wind meets; without it there is none.
-    damping, weight_softening, self_weight, rope_as_rod
+    damping, weight_softening, self_weight, rope_as_rod, cap
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
     """
+    if planar:
+        modes, drive, drive_inertia = replace(modes, torsion=0, lateral=0), None, 0.0
     return FlexibleModel(
-        flexible_crane(crane, counts, areas, planes=1 if planar else 2),
+        flexible_crane(crane, modes, areas, planes=1 if planar else 2),
         load,
         slewing="fixed" if planar else drive or "prescribed",
         drive_inertia=drive_inertia,
@@ -79,4 +85,5 @@ def model_in_space(
         rope_as_rod=rope_as_rod,
         wind=areas is not None,
         axes=2 if planar else 3,
+        cap=cap,
     )

@@ -1,10 +1,12 @@
-"""What of a case in space belongs together, checked on the tables as written."""
+"""What of a tower crane's scene belongs together, checked on the tables as written."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cranes.tower.file.case_tables import SpaceModel
+from towercrane.cranes.tower.file.case_tables import Model
+from towercrane.cranes.tower.file.plane import written_in_plane
+from towercrane.cranes.tower.targets import ALL, OUT_OF_PLANE
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.ranges import at, si_at
 from towercrane.schema.units import wanted
@@ -31,18 +33,33 @@ PRESSED = {
 """What the wind may press on, and its unit."""
 
 
-def check_space(tree: dict[str, Any]) -> Iterator[Fault]:
-    """Faults of a case in space as a whole. Keys that are wrong by themselves are for others to report."""
-    yield from _check_members(tree)
+def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Faults of a scene as a whole. Keys that are wrong by themselves are for others to report."""
+    if written_in_plane(tree):
+        yield from _check_outputs(tree)
+    else:
+        yield from _check_members(tree)
     yield from _check_drive(tree)
     yield from _check_wind(tree)
+
+
+def _check_outputs(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Errors that are asked for of outputs which stay zero."""
+    outputs, target = at(tree, "accuracy.outputs"), at(tree, "accuracy.target")
+    asked = [("outputs", name) for name in outputs] if isinstance(outputs, list) else []
+    asked += [("target", name) for name in target] if isinstance(target, dict) else []
+    for key, name in asked:
+        if name in OUT_OF_PLANE and name in ALL:
+            what = f"one of {', '.join(output for output in ALL if output not in OUT_OF_PLANE)}"
+            hint = "nothing turns the head or blows across the jib: the scene stays in the jib's plane"
+            yield Fault("", f"accuracy.{key}", what, shown(name), hint)
 
 
 def _check_members(tree: dict[str, Any]) -> Iterator[Fault]:
     """Modes of members that the crane file does not describe."""
     for modes, keys in NEEDED.items():
         count = at(tree, f"model.{modes}")
-        count = SpaceModel.model_fields[modes].default if count is None else count
+        count = Model.model_fields[modes].default if count is None else count
         if not (isinstance(count, int) and count > 0) or not isinstance(at(tree, "crane.tower"), dict):
             continue
         for key, unit in keys:

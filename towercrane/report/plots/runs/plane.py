@@ -1,4 +1,4 @@
-"""Pictures of the radial crane; Fig. 4 to 11 of Gao et al. (2023) are comparisons of two runs."""
+"""Pictures of a tower crane in its jib's plane; Fig. 4 to 11 of Gao et al. (2023) are comparisons of two runs."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def overview(result: xr.Dataset) -> Figure:
     time = result["time"]
     series = [
         ("trolley_position", 1.0, "trolley [m]"),
-        ("swing_angle", 180.0 / np.pi, "swing [deg]"),
+        ("sway_radial", 180.0 / np.pi, "swing [deg]"),
         ("tower_tip_displacement", 1e3, "tower top [mm]"),
         ("jib_tip_deflection", 1e3, "jib tip [mm]"),
         ("rope_tension", 1e-3, "rope tension [kN]"),
@@ -97,7 +97,7 @@ def motion(results: list[xr.Dataset]) -> Figure:
 
 def swing(results: list[xr.Dataset]) -> Figure:
     """Swing angle over time (Fig. 5 and 9)."""
-    return over_time(results, "swing_angle", 180.0 / np.pi, "swing angle [deg]", "Swing of the load")
+    return over_time(results, "sway_radial", 180.0 / np.pi, "swing angle [deg]", "Swing of the load")
 
 
 def tower(results: list[xr.Dataset]) -> Figure:
@@ -116,7 +116,7 @@ def phase(results: list[xr.Dataset]) -> Figure:
     panels = np.atleast_1d(figure.subplots(1, len(results)))
     degrees = 180.0 / np.pi
     for i, (axes, result) in enumerate(zip(panels, results, strict=True)):
-        angle, rate = degrees * result["swing_angle"].values, degrees * result["swing_rate"].values
+        angle, rate = degrees * result["sway_radial"].values, degrees * result["swing_rate"].values
         axes.plot(angle, rate, **line(i, result))
         for letter, row in _ramp_ends(result):
             axes.plot(angle[row], rate[row], "o", color="black", ms=4)
