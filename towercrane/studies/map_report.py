@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cases.assumptions import as_attribute, rests_on
+from towercrane.cranes.tower.file.case_tables import TowerCase
+from towercrane.cranes.tower.file.requests import left_out_in_plane
 from towercrane.results.versions import versions
 from towercrane.runs.summary import assumed
 from towercrane.studies.frequency_map import FINISHED, doubtful_steps
@@ -27,6 +29,7 @@ def provenance(case: Case) -> dict[str, Any]:
         "crane": case.crane.name,
         "changes": json.dumps(case.changes),
         "case_text": json.dumps(case.as_written),
+        "left_out": json.dumps(left_out_in_plane(case.tables(TowerCase))),
         "assumed": as_attribute(rests_on(case, exact_crane=True)),
         "versions": json.dumps(versions()),
     }
@@ -42,7 +45,7 @@ def map_report(data: xr.Dataset) -> dict[str, Any]:
         where the tower stands, ``frequencies_hz`` and ``energy_share`` (mean per member) by branch, and
         ``contribution`` by branch: each mode's part, from 0 to 1 or beyond, in the static outputs under a unit force
         on the trolley at its outermost position; None where the static output is zero. ``doubtful``: where a branch
-        may have been lost. ``assumed``, ``versions``, ``wall_seconds``.
+        may have been lost. ``left_out``, ``assumed``, ``versions``, ``wall_seconds``.
     """
     attributes = data.attrs
     names = [str(name) for name in data["branch"].values]
@@ -76,6 +79,7 @@ def map_report(data: xr.Dataset) -> dict[str, Any]:
         "branches": names,
         "payloads": payloads,
         "doubtful": [{"payload_kg": p, "position_m": x, "branch": names[k - 1]} for p, x, k in doubtful_steps(data)],
+        "left_out": json.loads(attributes["left_out"]),
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(data)],
         "versions": json.loads(attributes["versions"]),
         "spectra_computed": int(attributes["spectra_computed"]),

@@ -147,6 +147,7 @@ def lattice_tables(report: dict[str, Any]) -> None:
     console.print(
         "foot clamped, without bodies between foot and top; the truss, all pins, shares nothing with the beams"
     )
+    said(console, report["left_out"])
     _assumed(console, report["assumed"])
 
 
@@ -194,6 +195,7 @@ def map_tables(report: dict[str, Any]) -> None:
     for step in report["doubtful"]:
         where = f"load {step['payload_kg']:g} kg, just before {step['position_m']:.4g} m"
         console.print(f"doubtful {step['branch']}: its shape changes at once with {where}")
+    said(console, report["left_out"])
     _assumed(console, report["assumed"])
 
 

@@ -48,14 +48,17 @@ def modes_that_move(tables: TowerCase) -> dict[str, str]:
     return {key: word for key, word in named if key in PLANE_MODES or not stays_in_plane(tables)}
 
 
+SIDEWAYS = "torsion of the tower, bending of tower and jib to their sides and sway across the jib are left out"
+
+
 def left_out(tables: TowerCase) -> list[str]:
     """What a scene leaves out because nothing excites it."""
-    if not stays_in_plane(tables):
-        return []
-    return [
-        "nothing turns the head or blows across the jib: torsion of the tower, bending of tower and jib to their "
-        "sides and sway across the jib are left out"
-    ]
+    return [f"nothing turns the head or blows across the jib: {SIDEWAYS}"] if stays_in_plane(tables) else []
+
+
+def left_out_in_plane(tables: TowerCase) -> list[str]:
+    """What a study of the crane in the jib's plane leaves out, in a scene that may leave it."""
+    return left_out(tables) or [f"the scene leaves the jib's plane, but this shows the crane in it alone: {SIDEWAYS}"]
 
 
 def outputs_of(tables: TowerCase) -> dict[str, str]:
