@@ -88,7 +88,7 @@ def jib_torques() -> dict:
 
 KINDS = {
     "radial": lambda: Driven(
-        qtz5613.model(2, 2, load=LOAD.mass, tower_damping_ratio=0.01),
+        qtz5613.model(2, 2, load=LOAD.mass, damping=(0.01, 0.0)),
         {"trolley": trapezoid(10.0, 11.0, 0.8, 0.8), "rope": hoist(12.0)},
     ),
     "prescribed slewing": flexible,

@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from samples.qtz5613 import CRANE, model, motions
+from samples.qtz5613 import CRANE, in_plane, model, motions
 
 from modal import Chain, Foundation, Segment
-from tests.samples.qtz5613 import in_plane
-from towercrane.cranes.tower.lanes import OUTPUTS, RADIAL
+from towercrane.cranes.tower.lanes import IN_PLANE, OUTPUTS
 from towercrane.kernels.payload import Load
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases, rest, sequence
@@ -29,7 +28,7 @@ def lane_run(crane, drives, state="equilibrium", swing_angle=0.0):
 
 def in_lanes(scenes, **options):
     """Scenes are model, motions and, if need be, state and swing angle at the start."""
-    return integrate_many(RADIAL, [lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options})
+    return integrate_many(IN_PLANE, [lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options})
 
 
 def alone(crane, drives, state="equilibrium", swing_angle=0.0, **options):
@@ -73,7 +72,7 @@ def test_lanes_give_the_bits_of_single_runs(modes):
 @pytest.mark.parametrize(
     "options",
     [
-        {"tower_damping_ratio": 0.01, "jib_vertical_damping_ratio": 0.02},
+        {"damping": (0.01, 0.02)},
         {"weight_softening": True},
         {"self_weight": False},
         {"rope_as_rod": True},

@@ -9,7 +9,6 @@ from samples import lab_crane, qtz5613, space_crane
 from scipy.linalg import eigh
 
 from modal import Chain, EndBody, Foundation, Segment
-from tests.samples.qtz5613 import in_plane
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.small_motions import linear_matrices
 from towercrane.kernels.payload import Load
@@ -47,9 +46,9 @@ def test_a_pair_that_feeds_all_vibrations_has_no_reach():
 @pytest.mark.parametrize(
     "scene",
     [
-        qtz5613.model(2, 3).scene,
-        qtz5613.model(2, 3, load=20_000.0).scene,
-        qtz5613.model(0, 2).scene,
+        qtz5613.model(2, 3),
+        qtz5613.model(2, 3, load=20_000.0),
+        qtz5613.model(0, 2),
         space_crane.model(),
         space_crane.model(tower=1, torsion=0, lateral=1, vertical=1),
     ],
@@ -118,7 +117,7 @@ def test_a_foundation_is_among_what_vibrates():
     # A light block on a stiff spring shakes faster than the tower on it.
     block = {0: EndBody(mass=200.0, rotary_inertia=500.0)}
     tower = Chain((Segment(23.8, 350.0, 206e9 * 0.014),), block, foundation=Foundation(5e9, 4e9))
-    model = in_plane(dataclasses.replace(qtz5613.CRANE, tower=tower), Load(800.0), 6, 3)
+    model = qtz5613.in_plane(dataclasses.replace(qtz5613.CRANE, tower=tower), Load(800.0), 6, 3)
     found = fastest_of(model, qtz5613.standing(3.0, 18.0))
     assert found < 1.02 * model.scene.fastest < 1.1 * found
 

@@ -86,7 +86,7 @@ def test_every_joint_gets_its_own_torque():
     assert_allclose(condensed @ (slopes[0] - slopes[1])[rates], inputs[:3, 0], rtol=1e-9)
 
 
-@pytest.mark.parametrize("sway_radial", [0.0, 0.4])
+@pytest.mark.parametrize("swing_angle", [0.0, 0.4])
 def test_energy_at_rest_counts_from_the_foot_of_the_post(swing_angle):
     luff, fold, rope = 0.6, -0.2, 20.0
     result = simulate(planned(), standing(0.7, luff, fold, rope), 0.1, output_step=0.1, swing_angle=swing_angle)

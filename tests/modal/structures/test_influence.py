@@ -12,6 +12,7 @@ from modal import Chain, EndBody, Foundation, Segment, chain_frequencies, chain_
 from modal.structures.influence import EFFECTS, Influence, effects_of, influence, keeping
 from modal.structures.structure_modes import structure_modes
 from towercrane import load_case
+from towercrane.cranes.tower.equations.small_motions import plane_modes
 from towercrane.cranes.tower.file.build import crane_frame, tower_model
 from towercrane.cranes.tower.truncation import TRUSTED, truncation_error
 
@@ -91,7 +92,7 @@ def test_the_cost_of_missing_jib_modes_is_estimated(position, jib_vertical_modes
     case = load_case("qtz5613/condition-3")
     model = tower_model(case.checked, tower_modes=12, jib_vertical_modes=jib_vertical_modes)
     exact = crane_structure(crane_frame(case.checked), position).angular_frequencies(4)
-    actual = model.natural_frequencies(position, 18.0)[:4] / exact - 1.0
+    actual = plane_modes(model, position, 18.0)[0][:4] / exact - 1.0
     estimate = truncation_error(model, position, 18.0)[:4]
     judged = actual > 1e-7
     ratio = estimate[judged] / actual[judged]
