@@ -10,7 +10,6 @@ from typer.testing import CliRunner
 
 from towercrane import load_case
 from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, stated, verification
-from towercrane.accuracy.scene import Setting
 from towercrane.cli import app
 from towercrane.report.tables.runs import run_tables, verification_tables
 from towercrane.runs.run import record_case, run_case
@@ -124,13 +123,13 @@ def test_verification_compares_with_a_richer_model(capsys):
     report = verification(case, result)
     assert report["finer"]["jib_vertical_modes"] == report["setting"]["jib_vertical_modes"] + 4
     assert report["finer"]["rtol"] == pytest.approx(1e-8)
-    assert finer(Setting(2, 3, rtol=1e-8)).rtol == pytest.approx(1e-10)
+    assert finer(plane_setting(2, 3, rtol=1e-8)).rtol == pytest.approx(1e-10)
     for name in ("tower_tip_displacement", "jib_tip_deflection"):
         output = report["outputs"][name]
         assert 0.02 * output["estimated"] < output["actual"] < output["estimated"]
     verification_tables(report)
     assert "Run beside a richer model" in capsys.readouterr().out
-    assert (finer(Setting(8, 14)).tower_modes, finer(Setting(8, 14)).jib_vertical_modes) == (10, 18)
+    assert (finer(plane_setting(8, 14)).tower_modes, finer(plane_setting(8, 14)).jib_vertical_modes) == (10, 18)
 
 
 @pytest.mark.parametrize("name", ["towers/laced", "towers/tapered", OPEN])

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from samples.qtz5613 import CRANE, motions, standing
+from samples.qtz5613 import CRANE, motions, plane_setting, standing
 from typer.testing import CliRunner
 
 from modal.beams.beam import Beam
@@ -15,7 +15,8 @@ from modal.beams.chain import Chain, Foundation
 from modal.beams.segment import Segment
 from modal.beams.torsion import Shaft
 from towercrane import load_case
-from towercrane.accuracy.choice import Indicators, choose
+from towercrane.accuracy.choice import choose
+from towercrane.accuracy.foretold import Indicators
 from towercrane.accuracy.indicators import _slip_by_swing, drift, vibration
 from towercrane.accuracy.instants import OUTPUTS, RICHEST, SWING, nodes_of
 from towercrane.accuracy.mode_convergence import measured_choice
@@ -26,11 +27,11 @@ from towercrane.accuracy.promise import (
     KEPT,
     OUT_OF_REACH,
     VERIFIED,
-    finer_in_space,
+    finer,
     settle,
     verification,
 )  # fmt: skip
-from towercrane.accuracy.scene import Scene, Setting
+from towercrane.accuracy.scene import Scene
 from towercrane.cli import app
 from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.slewing.description import Drive
@@ -83,6 +84,7 @@ HEAVY_ON_A_LONG_ROPE = Scene(
     },
     90.0,
     swing_angle=-0.19552973284747477,
+    planar=True,
 )
 
 LEANING = Scene(
@@ -100,6 +102,7 @@ LEANING = Scene(
     60.0,
     state="zero",
     rope_as_rod=True,
+    planar=True,
 )
 
 STUBBY = Scene(
@@ -109,6 +112,7 @@ STUBBY = Scene(
     20.0,
     state="zero",
     rope_as_rod=True,
+    planar=True,
 )
 
 
@@ -125,17 +129,17 @@ def test_a_wide_swing_of_a_heavy_load_wants_the_jib_to_bend():
     exact = HEAVY_ON_A_LONG_ROPE.run(replace(CAPPED, cap=20.0))
     reached = gap(HEAVY_ON_A_LONG_ROPE.run(choice.setting), exact, "sway_radial") / peak(exact, "sway_radial")
     assert 0.01 * target < reached < target
-    rigid = Setting(1, 0, rtol=1e-7, atol=1e-10)
+    rigid = plane_setting(1, 0, rtol=1e-7, atol=1e-10)
     lost = gap(HEAVY_ON_A_LONG_ROPE.run(rigid), exact, "sway_radial")
     assert lost > 2.0 * target * peak(exact, "sway_radial")
     assert Indicators(HEAVY_ON_A_LONG_ROPE).truncation(rigid)[SWING] > lost
 
 
-@pytest.mark.parametrize("jib_vertical_modes", [1, 2])
-def test_a_swing_is_slower_on_a_crane_that_yields(jib_vertical_modes):
-    scene = Scene(CRANE, Load(2000.0), standing(45.0, 25.0), 60.0, swing_angle=0.1)
+@pytest.mark.parametrize("jib", [1, 2])
+def test_a_swing_is_slower_on_a_crane_that_yields(jib):
+    scene = Scene(CRANE, Load(2000.0), standing(45.0, 25.0), 60.0, swing_angle=0.1, planar=True)
     nodes = nodes_of(scene)
-    soft, stiff = Setting(0, jib_vertical_modes, rtol=1e-9, atol=1e-12), Setting(0, 0, rtol=1e-9, atol=1e-12)
+    soft, stiff = plane_setting(0, jib, rtol=1e-9, atol=1e-12), plane_setting(0, 0, rtol=1e-9, atol=1e-12)
 
     def last_crossing(setting):
         run = scene.run(setting)
@@ -185,7 +189,7 @@ def test_kinds_of_modes_that_matter_only_together_are_found():
     )
     choice, run = measured_choice(scene, over(target, "tower_tip_twist", "tower_tip_displacement"))
     assert choice.kept
-    exact = scene.run(finer_in_space(choice.setting, scene.described))
+    exact = scene.run(finer(choice.setting, scene, foretold=False))
     for name in ("tower_tip_twist", "tower_tip_displacement"):
         assert gap(run, exact, name) < target * peak(exact, name)
 
@@ -199,7 +203,7 @@ def test_kinds_of_modes_that_matter_only_together_are_found():
     ],
 )
 def test_drives_that_never_move_steadily_are_chosen_for_like_any_other(motion, duration):
-    scene = Scene(CRANE, Load(800.0), {"trolley": motion, "rope": rest(18.0)}, duration)
+    scene = Scene(CRANE, Load(800.0), {"trolley": motion, "rope": rest(18.0)}, duration, planar=True)
     choice = choose(scene, over(1e-2, *OUTPUTS))
     assert choice.kept
     assert not choice.doubts
@@ -212,13 +216,13 @@ def test_drives_that_never_move_steadily_are_chosen_for_like_any_other(motion, d
 
 
 def test_a_wide_swing_of_drives_that_never_move_steadily_is_doubted():
-    scene = Scene(CRANE, Load(800.0), {"trolley": minimum_jerk(5.0, 41.0, 9.0), "rope": rest(18.0)}, 9.0)
+    scene = Scene(CRANE, Load(800.0), {"trolley": minimum_jerk(5.0, 41.0, 9.0), "rope": rest(18.0)}, 9.0, planar=True)
     assert "the load swings" in choose(scene, over(1e-2, "sway_radial")).doubts[0]
 
 
 @pytest.mark.parametrize("counts", [(7, 3), (11, 2), (2, 12), (14, 14)])
 def test_any_stated_numbers_of_modes_are_compared_with_more(counts):
-    scene = Scene(CRANE, Load(800.0), motions(), 80.0)
+    scene = Scene(CRANE, Load(800.0), motions(), 80.0, planar=True)
     choice = choose(
         scene, over(0.1, *OUTPUTS[:3]), dict(zip(("tower_modes", "jib_vertical_modes"), counts, strict=True))
     )
@@ -229,9 +233,9 @@ def test_any_stated_numbers_of_modes_are_compared_with_more(counts):
 
 def test_what_the_richest_model_lacks_is_in_every_promise():
     indicators = Indicators(STUBBY)
-    beyond = nodes_of(STUBBY, Setting(24, 14))
-    lacking = sum(drift(vibration(beyond, Setting(24, 14)), vibration(beyond, RICHEST)))
-    few = sum(drift(vibration(beyond, Setting(24, 14)), vibration(beyond, Setting(6, 14))))
+    beyond = nodes_of(STUBBY, plane_setting(24, 14))
+    lacking = sum(drift(vibration(beyond, plane_setting(24, 14)), vibration(beyond, RICHEST)))
+    few = sum(drift(vibration(beyond, plane_setting(24, 14)), vibration(beyond, plane_setting(6, 14))))
     assert (lacking < few)[:3].all()
     assert (indicators.lacking(True) > lacking)[:3].all()
     assert (indicators.truncation(RICHEST) >= indicators.lacking(True)).all()
@@ -274,7 +278,7 @@ def test_a_promise_that_its_verification_breaks_ends_with_an_exit_code(tmp_path,
     assert "the error asked for is promise broken" in done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert summary["accuracy"]["outcome"] == BROKEN
-    assert any("swing angle: 1 rad found beside a richer model" in notice for notice in summary["notices"])
+    assert any("sway radial: 1 rad found beside a richer model" in notice for notice in summary["notices"])
     assert json.loads(results.load(tmp_path / "result.nc").attrs["accuracy"])["outcome"] == BROKEN
 
 

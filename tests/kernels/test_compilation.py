@@ -70,7 +70,7 @@ def test_a_case_names_what_a_use_of_its_crane_needs(name, use, modules):
 
 
 def test_all_modules_of_kernels_are_there():
-    lanes = KINDS["radial"].kernels(load_case("qtz5613/condition-3").checked, "lanes")
+    lanes = KINDS["tower"].kernels(load_case("qtz5613/condition-3").checked, "lanes")
     others = ["towercrane.cranes.slewing.kernel", "towercrane.cranes.jib.kernel", "towercrane.cranes.overhead.kernel"]
     assert all(importlib.util.find_spec(module) for module in (*RUN, *REST, *STRUCTURE, *lanes, *others))
 

@@ -39,7 +39,7 @@ PENDULUMS = [
 
 def swing(pendulum, times=TIMES, **options):
     """States of a load that swings under a rigid crane, in space, over time."""
-    model = qtz5613.model(0, 0, rope_as_rod=True, axes=3)
+    model = replace(qtz5613.model(0, 0, rope_as_rod=True), axes=3)
     start = np.zeros(model.size)
     start[:3] = np.sin(pendulum.angle), 0.0, -np.cos(pendulum.angle)
     start[4] = pendulum.turning * np.sqrt(GRAVITY / pendulum.length) * np.sin(pendulum.angle)
@@ -173,7 +173,9 @@ def test_a_wide_swing_in_lanes_has_the_bits_of_a_single_run(modes):
     cut = phases((rest(20.0), rest(5.0)), 60.0)
     grid, loose = np.linspace(0.0, 60.0, 61), {"rtol": 1e-5, "atol": 1e-7}
     angles = (1.5, 2.5, 1.2)
-    found = integrate_many(IN_PLANE, [LaneRun(crane, cut, "zero", angle) for angle in angles], grid, threads=1, **loose)
+    found = integrate_many(
+        IN_PLANE, [LaneRun(crane, cut, "zero", angle) for angle in angles], grid, threads=1, **loose
+    )
     for angle, state, evaluations in zip(angles, found.end_states, found.evaluations, strict=True):
         single = integrate(crane.system, cut, crane.start(cut.inputs[0], "zero", angle), grid, **loose)
         assert np.array_equal(state, single.end_state)

@@ -135,7 +135,11 @@ def test_command_prints_writes_and_says_what_is_next(tmp_path):
 def test_command_in_json(tmp_path):
     done = towercrane("qtz5613/condition-3", "--json", cwd=tmp_path)
     report = json.loads(done.stdout)
-    assert report["states"][0] == {"name": "tower_mode_1", "units": "kg^0.5 m", "value": report["states"][0]["value"]}
+    assert report["states"][0] == {
+        "name": "tower_x_mode_1",
+        "units": "kg^0.5 m",
+        "value": report["states"][0]["value"],
+    }
     assert np.shape(report["A"]) == (16, 16)
     assert [e["damping_ratio"] for e in report["eigenvalues"][:4]] == [None] * 4
     assert_allclose(report["eigenvalues"][4]["frequency_hz"], 0.1174, atol=1e-4)

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from modal.beams.beam import Beam
+from towercrane.accuracy.setting import Setting
 from towercrane.cranes.tower.crane_model import tower_crane_model
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
@@ -47,6 +48,11 @@ def in_plane(
 
 def model(tower: int = 2, jib: int = 3, load: float = 800.0, **options) -> FlexibleModel:
     return in_plane(CRANE, Load(load), tower, jib, **options)
+
+
+def plane_setting(tower: int = 0, jib: int = 0, **options) -> Setting:
+    """So many modes of tower and jib in the plane of the jib."""
+    return Setting(tower_modes=tower, jib_vertical_modes=jib, planar=True, **options)
 
 
 def motions(speed: float = 0.8, rope: float = 18.0) -> dict:

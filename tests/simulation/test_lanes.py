@@ -28,7 +28,9 @@ def lane_run(crane, drives, state="equilibrium", swing_angle=0.0):
 
 def in_lanes(scenes, **options):
     """Scenes are model, motions and, if need be, state and swing angle at the start."""
-    return integrate_many(IN_PLANE, [lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options})
+    return integrate_many(
+        IN_PLANE, [lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options}
+    )
 
 
 def alone(crane, drives, state="equilibrium", swing_angle=0.0, **options):

@@ -13,7 +13,7 @@ from modal.structures.influence import EFFECTS, Influence, effects_of, influence
 from modal.structures.structure_modes import structure_modes
 from towercrane import load_case
 from towercrane.cranes.tower.equations.small_motions import plane_modes
-from towercrane.cranes.tower.file.build import crane_frame, tower_model
+from towercrane.cranes.tower.file.build import crane_frame, crane_of, tower_model
 from towercrane.cranes.tower.truncation import TRUSTED, truncation_error
 
 TOWER, END_BODY = CRANE.tower, CRANE.end_body
@@ -93,7 +93,7 @@ def test_the_cost_of_missing_jib_modes_is_estimated(position, jib_vertical_modes
     model = tower_model(case.checked, tower_modes=12, jib_vertical_modes=jib_vertical_modes)
     exact = crane_structure(crane_frame(case.checked), position).angular_frequencies(4)
     actual = plane_modes(model, position, 18.0)[0][:4] / exact - 1.0
-    estimate = truncation_error(model, position, 18.0)[:4]
+    estimate = truncation_error(model, crane_of(case.checked), position, 18.0)[:4]
     judged = actual > 1e-7
     ratio = estimate[judged] / actual[judged]
     assert judged.sum() >= 2
@@ -104,4 +104,4 @@ def test_the_cost_of_missing_jib_modes_is_estimated(position, jib_vertical_modes
 def test_a_mode_that_cannot_be_represented_is_not_trusted():
     case = load_case("qtz5613/condition-3")
     model = tower_model(case.checked, tower_modes=12, jib_vertical_modes=1)
-    assert truncation_error(model, 41.0, 18.0)[3] > TRUSTED
+    assert truncation_error(model, crane_of(case.checked), 41.0, 18.0)[3] > TRUSTED
