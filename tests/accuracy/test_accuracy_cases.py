@@ -6,10 +6,12 @@ import json
 
 import numpy as np
 import pytest
+from samples.qtz5613 import plane_setting
 from typer.testing import CliRunner
 
 from towercrane import load_case
 from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, stated, verification
+from towercrane.accuracy.scene import scene_of
 from towercrane.cli import app
 from towercrane.report.tables.runs import run_tables, verification_tables
 from towercrane.runs.run import record_case, run_case
@@ -99,7 +101,7 @@ def test_what_the_case_states_is_checked():
     case, result, found = promised(STATED, "accuracy.target=1e-4", "model.weight_softening=false")
     assert found["outcome"] == OUT_OF_REACH
     assert found["stated"] == ["atol", "jib_vertical_modes", "method", "rtol", "tower_modes", "weight_softening"]
-    assert stated(case)["jib_vertical_modes"] == 3
+    assert stated(case, scene_of(case))["jib_vertical_modes"] == 3
     assert result.attrs["rtol"] == 1e-8
     assert any("jib tip deflection" in reason and "wanted" in reason for reason in found["reasons"])
     assert any("softening" in part and "%" in part for part in found["left_out"])
@@ -123,13 +125,15 @@ def test_verification_compares_with_a_richer_model(capsys):
     report = verification(case, result)
     assert report["finer"]["jib_vertical_modes"] == report["setting"]["jib_vertical_modes"] + 4
     assert report["finer"]["rtol"] == pytest.approx(1e-8)
-    assert finer(plane_setting(2, 3, rtol=1e-8)).rtol == pytest.approx(1e-10)
+    scene = scene_of(case)
+    assert finer(plane_setting(2, 3, rtol=1e-8), scene, foretold=True).rtol == pytest.approx(1e-10)
     for name in ("tower_tip_displacement", "jib_tip_deflection"):
         output = report["outputs"][name]
         assert 0.02 * output["estimated"] < output["actual"] < output["estimated"]
     verification_tables(report)
     assert "Run beside a richer model" in capsys.readouterr().out
-    assert (finer(plane_setting(8, 14)).tower_modes, finer(plane_setting(8, 14)).jib_vertical_modes) == (10, 18)
+    richer = finer(plane_setting(8, 14), scene, foretold=True)
+    assert richer.counts == plane_setting(10, 18).counts
 
 
 @pytest.mark.parametrize("name", ["towers/laced", "towers/tapered", OPEN])

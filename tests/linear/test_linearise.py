@@ -177,8 +177,8 @@ def test_damping_ratios_are_recovered():
 def test_dominant_states_do_not_depend_on_units():
     linear = linearise(dataclasses.replace(model(2, 3), axes=3), standing(20.0, 18.0))
     found = [e.state for e in linear.eigenvalues()][4:]
-    wanted = "sway_outward sway_sideways jib_vertical_mode_1 tower_x_mode_1 jib_vertical_mode_2 tower_x_mode_2 jib_vertical_mode_3"
-    assert found == wanted.split()
+    structure = "jib_vertical_mode_1 tower_x_mode_1 jib_vertical_mode_2 tower_x_mode_2 jib_vertical_mode_3"
+    assert found == ["sway_outward", "sway_sideways", *structure.split()]
     size = 10.0 ** np.random.default_rng(1).uniform(-6, 6, 9)
     by_name = dict(zip(dict.fromkeys(n.removesuffix("_rate") for n in names(linear.states)), size, strict=True))
     units = np.array([by_name[n.removesuffix("_rate")] for n in names(linear.states)])

@@ -205,7 +205,8 @@ def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
     console = _console()
     known = [*report["states"], *report["inputs"]]
     values = {signal["name"]: f"{_rounded(signal['value'], 9):g} {signal['units']}" for signal in known}
-    where = ", ".join(f"{name} {values[name]}" for name in drives)
+    # A head that a scene in the plane holds is no drive of the model.
+    where = ", ".join(f"{name} {values[name]}" for name in drives if name in values)
     balanced = "the equilibrium" if report["equilibrium"] else "a state that is no equilibrium"
     title = f"{report['name']}: small motions about {balanced}"
     table = _table(
