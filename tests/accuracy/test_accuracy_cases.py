@@ -21,6 +21,7 @@ from towercrane.accuracy.promise import (
 )
 from towercrane.accuracy.scene import scene_of
 from towercrane.cli import app
+from towercrane.cranes.tower.targets import IN_PLANE
 from towercrane.report.tables.runs import run_tables, verification_tables
 from towercrane.runs.run import record_case, run_case
 from towercrane.runs.summary import summarise
@@ -184,3 +185,15 @@ def test_interrupted_verification_keeps_the_run(tmp_path, monkeypatch):
     assert done.exit_code == 130
     assert "the run is kept, its verification is not" in done.stderr
     assert {path.name for path in tmp_path.iterdir()} == {"result.nc", "summary.json"}
+
+
+def test_a_force_fits_the_tension_in_the_plane_and_in_space_only_outputs_that_are_named():
+    assert targets_of(load_case(STATED, ['accuracy.target="50 N"'])) == {
+        "rope_tension": Tolerance(50.0, relative=False)
+    }
+    assert list(targets_of(load_case(STATED, ["accuracy.target=0.1"]))) == list(IN_PLANE)
+    force = 'accuracy.target="50 N"'
+    named = load_case("qtz5613/manoeuvre", [force, 'accuracy.outputs=["rope_tension"]'])
+    assert targets_of(named) == {"rope_tension": Tolerance(50.0, relative=False)}
+    with pytest.raises(CaseError, match="(?s)accuracy.target.*an error of motions where no outputs are named"):
+        load_case("qtz5613/manoeuvre", [force])

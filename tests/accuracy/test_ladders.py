@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from towercrane import load_case
 from towercrane.accuracy.mode_convergence import Ladders, measured_choice
-from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, verification
+from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, targets_of, verification
 from towercrane.accuracy.scene import Scene, scene_of
 from towercrane.accuracy.setting import Setting
 from towercrane.cli import app
@@ -133,10 +133,10 @@ def test_an_unknown_output():
 
 def test_targets_of_a_case_in_space():
     def targets(*changes):
-        return load_case(NAME, [*SHORT, *changes]).checked.accuracy.targets
+        return targets_of(load_case(NAME, [*SHORT, *changes]))
 
     assert set(targets()) == {"payload_position", "sway_radial", "sway_tangential", "slewing_torque"}
-    whole = load_case("qtz5613/manoeuvre", ["accuracy.target=0.01"]).checked.accuracy.targets
+    whole = targets_of(load_case("qtz5613/manoeuvre", ["accuracy.target=0.01"]))
     assert list(whole) == list(MOTIONS)
     lengths = load_case("qtz5613/manoeuvre", ['accuracy.target="5 cm"']).checked.accuracy.targets
     assert lengths["payload_position"] == Tolerance(pytest.approx(0.05), relative=False)

@@ -30,7 +30,7 @@ def heavier(factor):
     model = qtz5613.model(1, 1)
     numbers = model.system.numbers.copy()
     numbers[layout.GRAVITY] *= factor
-    vars(model.scene)["system"] = replace(model.system, numbers=numbers)
+    vars(model)["system"] = replace(model.system, numbers=numbers)
     return model
 
 
@@ -126,7 +126,7 @@ def test_loads_in_lanes_have_the_tolerance_of_their_own_work():
     for mass in (20.0, 5000.0):
         other = crane.with_load(replace(crane.load, mass=mass))
         assert np.array_equal(other.system.scale, qtz5613.model(0, 0, load=mass).system.scale)
-        assert other.system.scale[-1] == pytest.approx(mass * 9.81 * crane.scene.crane.jib_length)
+        assert other.system.scale[-1] == pytest.approx(mass * 9.81 * crane.crane.jib_length)
 
 
 def test_the_command_ends_with_code_3_and_names_what_to_change(tmp_path, monkeypatch):

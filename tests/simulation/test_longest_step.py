@@ -67,7 +67,7 @@ def test_nothing_vibrates_faster_than_the_unloaded_crane_with_its_trolley_at_the
 
 
 def test_a_crane_without_coordinates_of_its_own_bounds_no_step():
-    assert qtz5613.model(0, 0).scene.fastest == 0.0
+    assert qtz5613.model(0, 0).fastest == 0.0
 
 
 def test_no_burst_of_the_fastest_mode_at_any_loose_tolerance():
@@ -119,7 +119,7 @@ def test_a_foundation_is_among_what_vibrates():
     tower = Chain((Segment(23.8, 350.0, 206e9 * 0.014),), block, foundation=Foundation(5e9, 4e9))
     model = qtz5613.in_plane(dataclasses.replace(qtz5613.CRANE, tower=tower), Load(800.0), 6, 3)
     found = fastest_of(model, qtz5613.standing(3.0, 18.0))
-    assert found < 1.02 * model.scene.fastest < 1.1 * found
+    assert found < 1.02 * model.fastest < 1.1 * found
 
 
 def test_another_load_has_the_longest_step_of_a_model_made_anew():

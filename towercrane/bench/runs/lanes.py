@@ -125,7 +125,7 @@ def _loop(runs: list[LaneRun], grid: Floats, rtol: float) -> Floats:
         _, guards = evaluate(model.system, run.phases, found.times, found.states)
         n = model.coordinates
         swing = np.arctan2(found.states[:, n], -found.states[:, n + 1])
-        values = np.column_stack([found.states[:, :n] @ model.tip_shapes.T, swing, guards[:, 0]])
+        values = np.column_stack([found.states[:, :n] @ IN_PLANE.watched(model).T, swing, guards[:, 0]])
         high, low = values.argmax(axis=0), values.argmin(axis=0)
         extremes.append(np.stack([values.max(axis=0), grid[high], values.min(axis=0), grid[low]], axis=1))
     return np.array(extremes)

@@ -39,7 +39,7 @@ def targets_of(tables: TowerCase) -> Targets:
     if asked.outputs or not isinstance(asked.target, ForEvery):
         return asked.targets
     fitting = IN_PLANE if stays_in_plane(tables) else MOTIONS
-    return {name: tolerance for name, tolerance in asked.targets.items() if name in fitting}
+    return {name: asked.targets[name] for name in fitting if name in asked.targets}
 
 
 def modes_that_move(tables: TowerCase) -> dict[str, str]:

@@ -8,7 +8,7 @@ from towercrane.cranes.tower.file.case_tables import Model
 from towercrane.cranes.tower.file.plane import written_in_plane
 from towercrane.cranes.tower.targets import ALL, OUT_OF_PLANE
 from towercrane.schema.faults import Fault, shown
-from towercrane.schema.ranges import at, si_at
+from towercrane.schema.ranges import at, si, si_at
 from towercrane.schema.units import wanted
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
         yield from _check_outputs(tree)
     else:
         yield from _check_members(tree)
+        yield from _check_force(tree)
     yield from _check_drive(tree)
     yield from _check_wind(tree)
 
@@ -53,6 +54,14 @@ def _check_outputs(tree: dict[str, Any]) -> Iterator[Fault]:
             what = f"one of {', '.join(output for output in ALL if output not in OUT_OF_PLANE)}"
             hint = "nothing turns the head or blows across the jib: the scene stays in the jib's plane"
             yield Fault("", f"accuracy.{key}", what, shown(name), hint)
+
+
+def _check_force(tree: dict[str, Any]) -> Iterator[Fault]:
+    """A force that no output is named for: in space a target without names is one of the motions."""
+    target = at(tree, "accuracy.target")
+    if isinstance(target, str) and not at(tree, "accuracy.outputs") and si(target, "N") is not None:
+        hint = "accuracy.outputs names the forces that the target is for"
+        yield Fault("", "accuracy.target", "an error of motions where no outputs are named", shown(target), hint)
 
 
 def _check_members(tree: dict[str, Any]) -> Iterator[Fault]:
