@@ -44,13 +44,13 @@ MEND = [
     (BASIC, "crane.drag.tower_top=2", "crane.drag.tower_top", ['of kind "multi-mass" or "enhanced"', '"basic"']),
     (BASIC, "crane.mass.counterweight=2", "crane.mass.counterweight", ['of kind "multi-mass"; this crane is of']),
     (ENHANCED, "crane.mass.counterweight=2", "crane.mass.counterweight", ['cranes of kind "multi-mass"']),
-    (MULTI, "crane.trolley.mass=2", "crane.trolley", ['cranes of kind "radial"', '"multi-mass"']),
+    (MULTI, "crane.trolley.mass=2", "crane.trolley", ['cranes of kind "tower" or "overhead"', '"multi-mass"']),
     (MULTI, "crane.post.inertia=2", "crane.post", ['cranes of kind "jib"']),
     (RADIAL, "crane.mass.jib_tip=2", "crane.mass", ['"multi-mass", "basic" or "enhanced"; this crane']),
-    (MULTI, "model.jib_vertical_modes=2", "model", ['cranes of kind "radial"']),
-    (PLAN, "modes.count=2", "modes", ['cranes of kind "radial"']),
-    (MULTI, "motion.trolley.start=2", "motion.trolley", ["one of the keys shaft, hoist", '"radial"']),
-    (PLAN, "motion.shaft.start=2", "motion.shaft", ['"multi-mass", "basic", "enhanced" or "space"']),
+    (MULTI, "model.jib_vertical_modes=2", "model", ['cranes of kind "tower"']),
+    (PLAN, "modes.count=2", "modes", ['cranes of kind "tower"']),
+    (MULTI, "motion.trolley.start=2", "motion.trolley", ["one of the keys shaft, hoist", '"tower" or "overhead"']),
+    (PLAN, "motion.shaft.start=2", "motion.shaft", ['"tower", "multi-mass", "basic" or "enhanced"']),
     (RADIAL, "motion.luff.start=2", "motion.luff", ['cranes of kind "jib"']),
     (MULTI, "motion.shaft.speed=0.7 m/s", "motion.shaft.speed", ["a rotary speed", '"7 rpm"', "is a speed"]),
     (MULTI, "motion.shaft.ramp=0 s", "motion.shaft.ramp", ["a time", "above 0"]),
@@ -154,7 +154,7 @@ def test_missing_tables_and_keys_are_named(copied):
     [
         ('"multimass"', 'did you mean "multi-mass"?'),
         ('"Multi-Mass"', 'did you mean "multi-mass"?'),
-        ('"tower"', 'the keys are those of kind "multi-mass"'),
+        ('"mobile"', 'the keys are those of kind "multi-mass"'),
         ("3", 'the keys are those of kind "multi-mass"'),
         ('""', 'the keys are those of kind "multi-mass"'),
     ],
@@ -162,7 +162,7 @@ def test_missing_tables_and_keys_are_named(copied):
 def test_an_unknown_kind_is_one_fault_and_the_rest_is_still_checked(kind, hint):
     fault = only_fault(MULTI, f"crane.kind={kind}")
     assert (fault.key, fault.got) == ("crane.kind", kind)
-    assert fault.wanted == 'one of "radial", "multi-mass", "basic", "enhanced", "jib", "space", "overhead"'
+    assert fault.wanted == 'one of "tower", "multi-mass", "basic", "enhanced", "jib", "overhead"'
     assert fault.hint == hint
     faults = faults_of(MULTI, f"crane.kind={kind}", "crane.mass.tower_topp=3")
     assert [f.key for f in faults] == ["crane.kind", "crane.mass.tower_topp"]
@@ -181,11 +181,11 @@ def test_a_crane_without_its_kind_is_told_which(copied, name, kind):
     fault = only_fault(path)
     assert (Path(fault.file).name, fault.key, fault.got) == ("crane.toml", "kind", "nothing: the key is missing")
     assert f'the keys are those of kind "{kind}"' in fault.hint
-    assert '"radial"' in fault.hint
+    assert 'states no kind is a "tower" crane' in fault.hint
 
 
-def test_a_crane_of_may_state_its_kind():
-    assert load_case(RADIAL, ["crane.kind=radial"]).kind == "radial"
+def test_a_tower_crane_may_state_its_kind():
+    assert load_case(RADIAL, ["crane.kind=tower"]).kind == load_case(RADIAL).kind == "tower"
 
 
 @pytest.mark.parametrize("name", [MULTI, PLAN, RADIAL])

@@ -14,8 +14,8 @@ from towercrane.schema.fields import known_keys
 from towercrane.schema.ranges import FARTHEST
 
 CASES = {
-    "radial": "towers/stepped",
-    "space": "qtz5613/soft-drive",
+    "tower in the plane": "towers/stepped",
+    "tower in space": "qtz5613/soft-drive",
     "multi-mass": "slewing/multi-mass/example-1",
     "basic": "slewing/basic/example-1",
     "enhanced": "slewing/enhanced/example-1",
@@ -32,7 +32,7 @@ ODD = (
 """Sizes, units, types, texts and depths that no case has."""
 
 RUNS = {
-    "radial": ("payload.mass", "crane.gravity", "crane.trolley.mass", "crane.counter_jib.counterweight"),
+    "tower in the plane": ("payload.mass", "crane.gravity", "crane.trolley.mass", "crane.counter_jib.counterweight"),
     "basic": ("crane.gravity",),
     "jib": ("crane.gravity",),
 }
@@ -62,11 +62,11 @@ def places(kind):
                 yield key.replace(f".{parent}.", f".{parent}.0.")
 
 
-@pytest.mark.parametrize("kind", CASES)
-def test_every_key_with_every_odd_value_is_a_fault_or_a_case(kind):
-    keys = list(dict.fromkeys(places(kind)))
+@pytest.mark.parametrize("scene", CASES)
+def test_every_key_with_every_odd_value_is_a_fault_or_a_case(scene):
+    keys = list(dict.fromkeys(places(scene.partition(" ")[0])))
     # One or two of the values for each key, and each value for many keys.
-    found = [said(CASES[kind], f"{key}={value}") for i, key in enumerate(keys) for value in ODD[i % 20 :: 20]]
+    found = [said(CASES[scene], f"{key}={value}") for i, key in enumerate(keys) for value in ODD[i % 20 :: 20]]
     assert sum(map(bool, found)) > 0.8 * len(found) > 100
 
 
@@ -82,7 +82,7 @@ def test_every_key_with_every_odd_value_is_a_fault_or_a_case(kind):
     ids=lambda text: ascii(text[:20]),
 )  # fmt: skip
 def test_odd_overrides_are_named(override):
-    assert said(CASES["radial"], override)
+    assert said(CASES["tower in the plane"], override)
 
 
 @pytest.mark.parametrize(
@@ -99,20 +99,21 @@ def test_odd_files_are_named(content, tmp_path):
 
 
 def _runs():
-    for kind, keys in RUNS.items():
+    for scene, keys in RUNS.items():
         for key in keys:
-            rule = ranges_in((key,), kind)[key]
+            rule = ranges_in((key,), scene.partition(" ")[0])[key]
             for value in (rule.low / FARTHEST, rule.high * FARTHEST):
-                yield kind, key, f"{value:.3g}"
+                yield scene, key, f"{value:.3g}"
 
 
-@pytest.mark.parametrize(("kind", "key", "value"), list(_runs()))
-def test_absurd_but_finite_numbers_that_a_case_allows_end_by_a_name(kind, key, value):
+@pytest.mark.parametrize(("scene", "key", "value"), list(_runs()))
+def test_absurd_but_finite_numbers_that_a_case_allows_end_by_a_name(scene, key, value):
+    kind = scene.partition(" ")[0]
     short = ["run.duration=0.05", "run.output_step=0.05", "solver.rtol=1e-4", f'allow_implausible=["{key}"]']
-    case = load_case(CASES[kind], [*short, f"{key}={value}"])
+    case = load_case(CASES[scene], [*short, f"{key}={value}"])
     assert record_case(case).attrs["outcome"]
     farther = float(value) * (1e-3 if float(value) < ranges_in((key,), kind)[key].low else 1e3)
-    (fault,) = said(CASES[kind], *short, f"{key}={farther}")
+    (fault,) = said(CASES[scene], *short, f"{key}={farther}")
     assert fault.key == key.removeprefix("crane.") or fault.file.startswith("--set")
 
 
@@ -120,6 +121,6 @@ def test_absurd_but_finite_numbers_that_a_case_allows_end_by_a_name(kind, key, v
 @pytest.mark.parametrize("override", ["payload.mass=1e308", "crane.gravity=1e-300", "rope.length=nan", "x=1"])
 def test_commands_refuse_odd_values_in_words_and_write_nothing(command, override, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    done = CliRunner().invoke(app, [command, CASES["radial"], "--set", override])
+    done = CliRunner().invoke(app, [command, CASES["tower in the plane"], "--set", override])
     assert isinstance(done.exception, CaseError)
     assert list(tmp_path.iterdir()) == []

@@ -9,7 +9,7 @@ from samples.qtz5613 import CONDITIONS, CRANE, model, motions
 
 from modal import cantilever_modes
 from towercrane.report.plots import style
-from towercrane.report.plots.runs import radial
+from towercrane.report.plots.runs import plane
 from towercrane.simulation.simulate import simulate
 
 matplotlib.use("Agg")
@@ -41,7 +41,7 @@ def conditions():
 
 
 def test_every_axis_has_a_unit_and_every_line_a_name(conditions):
-    figures = radial.run_pictures(conditions[3]) | radial.source_figures(conditions)
+    figures = plane.run_pictures(conditions[3]) | plane.source_figures(conditions)
     assert len(figures) == 15
     for name, figure in figures.items():
         for axes in figure.axes:
@@ -56,12 +56,12 @@ def test_every_axis_has_a_unit_and_every_line_a_name(conditions):
 
 def test_run_without_motion_or_cut_short_is_drawn_too(conditions):
     parked = simulate(model(0, 0), {**motions(), "trolley": motions()["trolley"]}, 0.1)
-    for figure in radial.run_pictures(parked).values():
+    for figure in plane.run_pictures(parked).values():
         figure.canvas.draw()
 
 
 def test_peaks_are_named_where_the_spectrum_has_them(conditions):
-    axes = radial.spectrum([conditions[1], conditions[2]]).axes[0]
+    axes = plane.spectrum([conditions[1], conditions[2]]).axes[0]
     curves = {line.get_color(): line.get_data() for line in axes.get_lines()}
     assert len(axes.texts) >= 2
     for name in axes.texts:
@@ -74,21 +74,21 @@ def test_peaks_are_named_where_the_spectrum_has_them(conditions):
 
 @looks_like("modes.png")
 def test_look_of_the_mode_shapes():
-    return radial.modes(cantilever_modes(CRANE.tower, 4, CRANE.end_body), cantilever_modes(CRANE.jib, 4), ASSUMED)
+    return plane.modes(cantilever_modes(CRANE.tower, 4, CRANE.end_body), cantilever_modes(CRANE.jib, 4), ASSUMED)
 
 
 @looks_like("overview.png")
 def test_look_of_the_overview(conditions):
-    return radial.overview(conditions[3])
+    return plane.overview(conditions[3])
 
 
 @looks_like("phase.png")
 def test_look_of_the_phase_path(conditions):
-    return radial.phase([conditions[1], conditions[2]])
+    return plane.phase([conditions[1], conditions[2]])
 
 
 def test_picture_is_written_whole_or_not_at_all(tmp_path, conditions):
-    figure = radial.swing([conditions[3]])
+    figure = plane.swing([conditions[3]])
     style.save(figure, tmp_path / "swing.png")
     assert (tmp_path / "swing.png").read_bytes()[:4] == b"\x89PNG"
     figure.savefig = lambda *a, **k: (_ for _ in ()).throw(OSError("full"))

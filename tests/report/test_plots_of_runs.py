@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from samples.pictures import DEGREE, JIB, RADIAL, ROWS, SLEWING, SPACE, TIMES, made
 
 from towercrane.report.plots import style
-from towercrane.report.plots.runs import jib, radial, slewing, space
+from towercrane.report.plots.runs import jib, plane, slewing, tower
 from towercrane.results.spectrum import amplitude_spectrum
 
 UNITS = {"deg": DEGREE, "mm": 1e3, "kN": 1e-3, "kN m": 1e-3, "mrad": 1e3, "deg/s": DEGREE}
@@ -39,7 +39,7 @@ def assert_draws(figure, result, panels):
 
 
 OVER_TIME = [
-    (radial, RADIAL, {
+    (tower, RADIAL, {
         "overview.png": [["trolley_position"], ["rope_length"], ["sway_radial"], ["tower_tip_displacement"],
                          ["jib_tip_deflection"], ["rope_tension"]],
         "swing.png": [["sway_radial"]],
@@ -54,7 +54,7 @@ OVER_TIME = [
         "moments.png": [["jib_moment_horizontal"], ["jib_moment_vertical"]],
         "torque.png": [["drive_torque"], ["drive_torque_elastic"]],
     }),
-    (space, SPACE, {
+    (tower, SPACE, {
         "overview.png": [["slewing_angle", "shaft_angle"], ["trolley_position", "rope_length"],
                          ["sway_radial", "sway_tangential"], ["slewing_torque"],
                          ["tower_tip_displacement", "tower_tip_displacement_sideways"], ["rope_tension"]],
@@ -122,7 +122,7 @@ def test_platform_and_path_of_a_slewing_crane():
 
 
 def test_motion_is_drawn_with_its_derivative():
-    position, speed, acceleration = radial.run_pictures(RADIAL)["motion.png"].axes
+    position, speed, acceleration = plane.run_pictures(RADIAL)["motion.png"].axes
     assert_allclose(position.get_lines()[0].get_ydata(), RADIAL["trolley_position"].values)
     assert_allclose(speed.get_lines()[0].get_ydata(), RADIAL["trolley_speed"].values)
     rate = np.gradient(RADIAL["trolley_speed"].values, TIMES)
@@ -134,11 +134,11 @@ def test_ends_of_the_ramps_are_marked_in_their_rows(sign):
     """At rest to row 10, faster to row 30, steady to row 61, at rest from row 80 on."""
     speed = sign * 0.8 * np.interp(np.arange(ROWS), [10, 30, 61, 80], [0.0, 1.0, 1.0, 0.0])
     result = RADIAL.assign(trolley_speed=("time", speed, RADIAL["trolley_speed"].attrs))
-    assert radial._ramp_ends(result) == [("A", 10), ("B", 30), ("C", 61), ("D", 80)]
-    assert radial._ramp_ends(result.isel(time=slice(0, 62))) == [("A", 10), ("B", 30)]
-    assert radial._ramp_ends(result.isel(time=slice(0, 70))) == [("A", 10), ("B", 30), ("C", 61)]
-    assert radial._ramp_ends(result.isel(time=slice(0, 11))) == []
-    (axes,) = radial.phase([result]).axes
+    assert plane._ramp_ends(result) == [("A", 10), ("B", 30), ("C", 61), ("D", 80)]
+    assert plane._ramp_ends(result.isel(time=slice(0, 62))) == [("A", 10), ("B", 30)]
+    assert plane._ramp_ends(result.isel(time=slice(0, 70))) == [("A", 10), ("B", 30), ("C", 61)]
+    assert plane._ramp_ends(result.isel(time=slice(0, 11))) == []
+    (axes,) = plane.phase([result]).axes
     path, *marks = axes.get_lines()
     angle, rate = DEGREE * result["sway_radial"].values, DEGREE * result["swing_rate"].values
     assert_allclose(path.get_xdata(), angle)
@@ -157,7 +157,7 @@ def test_peaks_of_a_drawn_spectrum_are_labelled_where_they_are():
         {"time": times},
         RADIAL.attrs,
     )
-    (axes,) = radial.spectrum([result]).axes
+    (axes,) = plane.spectrum([result]).axes
     frequencies, amplitudes = amplitude_spectrum(times, top)
     (line,) = axes.get_lines()
     assert_allclose(line.get_xdata(), frequencies)
@@ -181,11 +181,11 @@ def test_lines_are_named_by_what_tells_runs_apart():
     assert style.run_label(driven).startswith(f"some-case: {fastest:.3g} 1, 777 kg")
 
 
-@pytest.mark.parametrize(("kind", "result"), [(slewing, SLEWING), (space, SPACE), (jib, JIB)])
+@pytest.mark.parametrize(("kind", "result"), [(slewing, SLEWING), (tower, SPACE), (jib, JIB)])
 def test_every_picture_names_its_lines(kind, result):
     for name, figure in kind.run_pictures(result).items():
         legends = [axes.get_legend() for axes in figure.axes]
-        shared = name in ("sway.png", "moments.png", "torque.png", "angles.png") and kind is not space
+        shared = name in ("sway.png", "moments.png", "torque.png", "angles.png") and kind is not tower
         for axes, named in zip(figure.axes, legends, strict=True):
             if named is not None or not shared:
                 labels = [line.get_label() for line in axes.get_lines() if not line.get_label().startswith("_")]
@@ -206,7 +206,7 @@ def test_figures_of_the_source_compare_its_conditions():
     pairs = dict.fromkeys(("04", "05", "06", "07", "08"), (1, 2)) | {"09": (3, 4), "10": (3, 4), "11": (2, 3)}
     shown = {"05": "sway_radial", "07": "tower_tip_displacement", "09": "sway_radial"}
     shown |= dict.fromkeys(("10", "11"), "tower_tip_displacement")
-    for name, figure in radial.source_figures(made_up).items():
+    for name, figure in plane.source_figures(made_up).items():
         number = name.split("-")[1]
         named = [
             text.get_text() for axes in figure.axes if (legend := axes.get_legend()) for text in legend.get_texts()

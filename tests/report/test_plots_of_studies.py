@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from samples.pictures import DEGREE
 
 from modal import Beam, EndBody, cantilever_modes
-from towercrane.report.plots.runs import radial
+from towercrane.report.plots.runs import plane
 from towercrane.report.plots.studies import sensitivity, sweep
 from towercrane.studies.sensitivity import Study
 
@@ -119,10 +119,10 @@ def test_influence_is_drawn_as_bars_and_surfaces():
 def test_mode_shapes_stand_and_lie_as_their_beams_do():
     tower = cantilever_modes(Beam(20.0, 300.0, 2e11, 0.01), 8, EndBody(2e4, 5e6))
     arm = cantilever_modes(Beam(50.0, 100.0, 2e11, 0.003), 3)
-    left, right = radial.modes(tower, arm, []).axes
+    left, right = plane.modes(tower, arm, []).axes
     for axes, shapes, upright, zeros in ((left, tower, True, 1), (right, arm, False, 1)):
         lines = axes.get_lines()[:-zeros]
-        assert len(lines) == min(len(shapes.frequencies_hz), radial.MOST_SHAPES)
+        assert len(lines) == min(len(shapes.frequencies_hz), plane.MOST_SHAPES)
         for i, line in enumerate(lines):
             across, along = (line.get_xdata(), line.get_ydata())[:: 1 if upright else -1]
             assert_allclose(along[[0, -1]], [0.0, shapes.length])

@@ -55,7 +55,7 @@ def test_a_linear_model(capsys):
     )  # fmt: skip
     rows, lines = said(capsys)
     assert rows[1:] == [
-        ["swing angle", "0.160000", "6.2500", "0.012500", "-0.250000 +- 1.500000i"],
+        ["sway radial", "0.160000", "6.2500", "0.012500", "-0.250000 +- 1.500000i"],
         ["creep", "0.160000", "", "", "0.000000"],
     ]
     assert "trolley 2.5 m" in lines[0]

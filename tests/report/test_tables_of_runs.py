@@ -104,7 +104,7 @@ def test_an_error_that_is_asked_for(capsys):
     rows, lines = said(capsys)
     assert rows[-3:] == [
         ["output", "allowed", "expected", "peak", "expected / peak", "unit"],
-        ["swing angle", "0.0002", "5e-05", "0.02", "2.5e-03", "rad"],
+        ["sway radial", "0.0002", "5e-05", "0.02", "2.5e-03", "rad"],
         ["rope tension", "12", "unknown", "7858", "", "N"],
     ]
     assert "Error asked for: out of reach" in lines
@@ -125,7 +125,7 @@ def test_a_verification(capsys):
     verification_tables(report)
     rows, lines = said(capsys)
     assert rows[1:] == [
-        ["swing angle", "5e-05", "6e-05 (!)", "3.0e-03", "rad"],
+        ["sway radial", "5e-05", "6e-05 (!)", "3.0e-03", "rad"],
         ["rope tension", "9", "4", "5.0e-04", "N"],
         ["other output", "unknown", "3", "", "m"],
     ]

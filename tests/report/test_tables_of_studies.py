@@ -99,8 +99,8 @@ def test_a_sweep(capsys):
     rows, lines = said(capsys)
     assert rows == [
         ["output", "", "value", "unit", "payload.mass [kg]", "model.jib_vertical_modes [1]"],
-        ["swing angle", "largest", "0.12346", "rad", "700", "3"],
-        ["swing angle", "smallest", "-2.5", "rad", "150.25", "1"],
+        ["sway radial", "largest", "0.12346", "rad", "700", "3"],
+        ["sway radial", "smallest", "-2.5", "rad", "150.25", "1"],
     ]
     assert lines[0] == "Some crane: Some title; 12 runs, 11 finished, 1 slack rope"
     assert "2.50 s, 4.8 runs per second" in lines

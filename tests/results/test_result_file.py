@@ -107,7 +107,7 @@ def variable(name, value):
         for scale in scales:
             made.dims[0].attach_scale(file[scale])
         for axis in range(1, stored.ndim):
-            made.dims[axis].attach_scale(file["axis"])
+            made.dims[axis].attach_scale(file["fixed_axis"])
 
     return spoil
 

@@ -128,7 +128,7 @@ def test_csv_has_units_in_its_header_and_the_same_numbers(recording, tmp_path):
     header = next(line for line in lines if not line.startswith("#")).split(",")
     assert header[0] == "time [s]"
     assert "tower_tip_displacement [m]" in header
-    assert "payload_position outward [m]" in header
+    assert "payload_position x [m]" in header
     table = np.loadtxt(path, delimiter=",", skiprows=sum(line.startswith("#") for line in lines) + 1)
     assert table.shape == (len(recording.times), len(header))
     assert_allclose(

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from samples.qtz5613 import in_plane
 from samples.tower_files import ONE_SEGMENT, SEGMENTS, UNIFORM, write_case
 
 from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Segment, crane_structure
-from tests.samples.qtz5613 import in_plane
 from towercrane import Load, TowerCrane, load_case, run_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.file.build import crane_frame, crane_of, tower_model

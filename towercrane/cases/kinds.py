@@ -107,6 +107,18 @@ def _keys(kind: str) -> frozenset[str]:
 
 
 def _likely(tree: dict[str, Any]) -> str:
-    """The kind that knows most of the written keys; of equals the first."""
+    """The kind that knows most of the written keys; of equals the first that misses least of what a case needs."""
     written = {plain_key(key) for key, _ in leaves(tree)}
-    return max(KINDS, key=lambda kind: len(written & _keys(kind)))
+    return max(KINDS, key=lambda kind: (len(written & _keys(kind)), -_missing(KINDS[kind].tables, tree)))
+
+
+def _missing(table: type[Table], tree: dict[str, Any]) -> int:
+    """How many keys a table needs that are not written, those of its tables included."""
+    count = 0
+    for name, field in table.model_fields.items():
+        inner = list(tables(field.annotation))
+        if name not in tree:
+            count += field.is_required()
+        elif isinstance(tree[name], dict) and len(inner) == 1:
+            count += _missing(inner[0], tree[name])
+    return count

@@ -6,9 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from samples.qtz5613 import model, motions
+from samples.qtz5613 import in_plane, model, motions
 
-from tests.samples.qtz5613 import in_plane
 from towercrane import load_case
 from towercrane.cranes.tower.equations.small_motions import plane_modes
 from towercrane.cranes.tower.file.build import crane_of

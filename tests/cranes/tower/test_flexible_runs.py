@@ -8,10 +8,10 @@ from numpy.polynomial.legendre import leggauss
 from numpy.testing import assert_allclose
 from oracles.balance import imbalance
 from samples import space_crane as space
+from samples.qtz5613 import in_plane
 from samples.space_crane import manoeuvre, standing
 
 from modal.beams.beam import Beam
-from tests.samples.qtz5613 import in_plane
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.damping import ModalDamping

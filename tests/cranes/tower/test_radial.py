@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from oracles.balance import imbalance
-from samples.qtz5613 import CONDITIONS, CRANE, model, motions, standing
+from samples.qtz5613 import CONDITIONS, CRANE, in_plane, model, motions, standing
 from scipy.integrate import solve_ivp
 
-from tests.samples.qtz5613 import in_plane
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import s_curve, trapezoid

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from samples.qtz5613 import in_plane
 
 from modal import Chain, EndBody, Foundation, Segment, crane_structure
-from tests.samples.qtz5613 import in_plane
 from towercrane import load_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.parts.load import load_of

@@ -9,9 +9,8 @@ import mpmath as mp
 import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
-from samples.qtz5613 import CRANE
+from samples.qtz5613 import CRANE, in_plane
 
-from tests.samples.qtz5613 import in_plane
 from towercrane.kernels.payload import Load
 
 GAUSS = leggauss(32)
