@@ -17,7 +17,7 @@ RIGID = [
     *((IN_SPACE, kinds) for kinds in (*((kind,) for kind in SPACE), SPACE)),
 ]
 COORDINATES = {
-    IN_THE_PLANE: {"tower_modes": {"tower"}, "jib_vertical_modes": {"jib"}},
+    IN_THE_PLANE: {"tower_modes": {"tower_x"}, "jib_vertical_modes": {"jib_vertical"}},
     IN_SPACE: {
         "tower_modes": {"tower_x", "tower_y"},
         "torsion_modes": {"torsion"},

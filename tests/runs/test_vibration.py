@@ -15,7 +15,7 @@ from towercrane.runs.sweep import sweep
 from towercrane.runs.vibration import cycles, vibration
 from towercrane.simulation.simulate import LOOK, MOST_LOOKS, looks_per_row, rows_of
 
-SIGNALS = KINDS["radial"].signals
+SIGNALS = KINDS["tower"].signals
 TIMES = np.arange(2401) * 0.05
 CASE, CHANGES = "qtz5613/condition-3", ["run.duration=200 s", "solver.rtol=1e-6", "solver.atol=1e-8"]
 

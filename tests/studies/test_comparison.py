@@ -45,9 +45,9 @@ def test_variants_leave_out_what_the_case_does():
     assert len(names) == 8 + 2
     assert not any("torsion" in name for name in names)
     assert variants(load_case(NAME, ["model.tower_modes=14"]))[-1].counts["tower_modes"] == 14
-    assert [v.name for v in variants(load_case(RADIAL))] == ["rigid", "tower", "jib", ONE_OF_EACH, OWN, RICHEST]
+    assert [v.name for v in variants(load_case(RADIAL))] == ["rigid", "tower", "vertical", ONE_OF_EACH, OWN, RICHEST]
     one = ["model.tower_modes=1", "model.jib_vertical_modes=1"]
-    assert [v.name for v in variants(load_case(RADIAL, one))] == ["rigid", "tower", "jib", OWN, RICHEST]
+    assert [v.name for v in variants(load_case(RADIAL, one))] == ["rigid", "tower", "vertical", OWN, RICHEST]
 
 
 def test_errors_are_distances_from_the_richest(compared):
@@ -122,7 +122,7 @@ def test_a_model_that_ends_early_has_no_error():
 
 
 def test_what_cannot_be_compared_is_refused():
-    with pytest.raises(ValueError, match="wanted a case of kind radial or space, got 'jib'"):
+    with pytest.raises(ValueError, match="wanted a case of kind tower, got 'jib'"):
         compare(load_case("jib-crane/plan"), 0.01)
     with pytest.raises(ValueError, match="wanted one mode or more"):
         compare(load_case(RADIAL, ["model.tower_modes=0", "model.jib_vertical_modes=0"]), 0.01)

@@ -192,7 +192,7 @@ def test_command_writes_a_report_tables_for_drives_and_pictures(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["slewing/basic/example-1"], "wanted a crane of kind radial"),
+        (["slewing/basic/example-1"], "wanted a crane of kind tower"),
         ([CASE, "--set", 'motion.trolley={shape="rest", start=5}'], "wanted a trolley or a slewing drive that moves"),
         ([CASE, "--within", "0"], "--within 0: wanted a positive distance"),
         ([CASE, "--step", "20"], "--step 20: wanted seconds from 0.001 to 10"),

@@ -215,7 +215,7 @@ def test_command_prints_tables_or_json_and_draws(tmp_path):
     assert "the rope by itself swings at 0.111465 Hz" in done.output
     assert f"next: towercrane run {NAME}" in done.output
     assert {path.name for path in tmp_path.iterdir()} == {"modes.png", "frequencies.png"}
-    report = json.loads(runner.invoke(app, ["modes", NAME, "--json", "--set", "modes.count=2"]).stdout)
+    report = json.loads(runner.invoke(app, ["modes", NAME, "--json", "--set", "modes.crane_count=2"]).stdout)
     assert len(report["modes"]) == 2
     for command in ("map", "lattice"):
         refused = runner.invoke(app, [command, NAME])

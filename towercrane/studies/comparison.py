@@ -188,22 +188,17 @@ def _row(case: Case, variant: Variant, result: xr.Dataset, richest: xr.Dataset, 
 def slowest(case: Case, variant: Variant, result: xr.Dataset) -> dict[str, float]:
     """Lowest natural frequency along and, in space, across the jib where a run ended [Hz]; none if it buckles."""
     from towercrane.cranes.tower.equations.small_motions import natural_modes
-    from towercrane.cranes.tower.model import FlexibleModel
 
     model: Any = variant.model(case)
     trolley, rope = (float(result[name][-1]) for name in ("trolley_position", "rope_length"))
     try:
-        if not isinstance(model, FlexibleModel):
-            return {"along": float(model.natural_frequencies(trolley, rope)[0] / (2.0 * np.pi))}
-        heading = float(result["shaft_angle" if "shaft_angle" in result else "slewing_angle"][-1])
-        modes = natural_modes(model, trolley, rope, heading)
+        turned = next((name for name in ("shaft_angle", "slewing_angle") if name in result), None)
+        modes = natural_modes(model, trolley, rope, float(result[turned][-1]) if turned else 0.0)
     except NoEquilibrium:
         return {}
     in_plane = [mode.shares["radial"] + mode.shares["radial sway"] > 0.5 for mode in modes]
-    return {
-        "along": next(mode.frequency_hz for mode, plane in zip(modes, in_plane, strict=True) if plane),
-        "across": next(mode.frequency_hz for mode, plane in zip(modes, in_plane, strict=True) if not plane),
-    }
+    ways = ["along" if plane else "across" for plane in in_plane]
+    return {way: modes[ways.index(way)].frequency_hz for way in ("along", "across") if way in ways}
 
 
 def _needed(case: Case, rows: list[dict[str, Any]], chosen: list[Variant], target: float) -> dict[str, Any]:

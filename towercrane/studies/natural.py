@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from modal.clock import timed
-from towercrane.cases.assumptions import as_entries, left_out
+from towercrane.cases.assumptions import as_entries, left_out, rests_on
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.crane_model import IN_PLANE
 from towercrane.cranes.tower.equations.small_motions import plane_modes
@@ -86,7 +86,9 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
         report["tower"]["published_roots"] = list(tables.crane.tower.published_roots)
     if (lattice := lattice_of(tables.crane)) is not None:
         report["lattice"] = _lattice(lattice, crane.tower.length)
-    report["assumed"] = as_entries(case.assumed)
+    entering = rests_on(case, exact_crane=True)
+    lattice_too = (a for a in case.assumed if a in entering or a.key.startswith("crane.tower.lattice."))
+    report["assumed"] = as_entries(lattice_too)
     return report
 
 

@@ -198,7 +198,8 @@ def attempt(model: FlexibleModel, motions: Mapping[str, Motion], rope: float = 1
     if outcome == FINISHED:
         after = result["payload_position"].values[result["time"].values >= stop, :-1]
         residual = float(np.linalg.norm(after - resting_place(model, run), axis=1).max())
-    return Trial(residual, _peak(result["slewing_torque"]), _peak(result["trolley_force"]), outcome)
+    torque = _peak(result["slewing_torque"]) if "slewing_torque" in result else 0.0
+    return Trial(residual, torque, _peak(result["trolley_force"]), outcome)
 
 
 def resting_place(model: FlexibleModel, motions: Mapping[str, Motion]) -> Floats:
