@@ -1,0 +1,66 @@
+"""Whether a tower crane stays in its jib's plane follows from its scene, not from a statement of its kind."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from samples.case_files import RADIAL, copy_case, only_fault
+
+from towercrane import load_case, run_case
+from towercrane.cranes.tower.file.build import tower_model
+from towercrane.cranes.tower.file.plane import stays_in_plane
+
+SIDE = ["wind.speed=10 m/s", "wind.direction=90 deg"]
+TIGHT = ["run.duration=6 s", "solver.rtol=1e-11", "solver.atol=1e-13", "motion.slewing.shape=rest"]
+ALONG = ["wind.speed=12 m/s", "wind.direction=180 deg", "wind.upward=2 m/s", "payload.drag_area=2 m^2"]
+
+
+@pytest.mark.parametrize("kind", ["radial", "space"])
+def test_a_former_kind_is_one_message_wherever_it_is_written(kind, tmp_path):
+    for where, key in (
+        (("title =", f'kind = "{kind}"\ntitle ='), "kind"),
+        (('source = "Gao', f'kind = "{kind}"\nsource = "Gao'), "kind"),
+    ):
+        fault = only_fault(copy_case(tmp_path, RADIAL, where))
+        assert (fault.key, fault.got) == (key, f'"{kind}"')
+        assert "in the plane of its jib or in space follows from" in fault.hint
+    for override in (f"kind={kind}", f"crane.kind={kind}"):
+        assert "follows from" in only_fault(RADIAL, override).hint
+
+
+@pytest.mark.parametrize(("former", "now"), [
+    ("model.jib_modes=2", "jib_vertical_modes"), ("model.jib_damping_ratio=0.01", "jib_vertical_damping_ratio"),
+])  # fmt: skip
+def test_renamed_keys_say_what_they_are_called_now(former, now):
+    assert only_fault(RADIAL, former).hint == f'now called "{now}"'
+
+
+@pytest.mark.parametrize(("changes", "planar"), [
+    ([], True),
+    (["motion.slewing.shape=rest"], True),
+    (["motion.slewing.shape=rest", "motion.slewing.start=10 deg"], False),
+    (["motion.shaft.shape=rest", "motion.shaft.start=10 deg"], False),
+    (["wind.speed=10 m/s"], True),
+    (ALONG, True),
+    (SIDE, False),
+    (["wind.series=gusts.csv"], False),
+])  # fmt: skip
+def test_a_scene_is_planar_unless_something_turns_or_blows_across(changes, planar):
+    assert stays_in_plane(load_case(RADIAL, changes).checked) is planar
+
+
+def test_a_planar_scene_has_no_tangential_sway_to_promise():
+    fault = only_fault(RADIAL, "accuracy.target=1e-3", 'accuracy.outputs=["sway_tangential"]')
+    assert fault.key == "accuracy.outputs"
+    assert "stays in the jib's plane" in fault.hint
+
+
+@pytest.mark.parametrize("wind", [[], ALONG])
+def test_a_planar_run_is_the_run_in_space_whose_head_rests(wind):
+    case = load_case(RADIAL, [*TIGHT, *wind])
+    plane = run_case(case)
+    space = run_case(case, model=tower_model(case.checked, planar=False))
+    for name in plane.data_vars:
+        scale = abs(plane[name].values).max()
+        assert_allclose(space[name].values, plane[name].values, rtol=0.0, atol=1e-9 * scale, err_msg=name)
+    for name in set(space.data_vars) - set(plane.data_vars) - {"payload_in_crane_axes"}:
+        assert np.abs(space[name].values).max() < 1e-9, name
