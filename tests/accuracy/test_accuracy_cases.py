@@ -195,5 +195,5 @@ def test_a_force_fits_the_tension_in_the_plane_and_in_space_only_outputs_that_ar
     force = 'accuracy.target="50 N"'
     named = load_case("qtz5613/manoeuvre", [force, 'accuracy.outputs=["rope_tension"]'])
     assert targets_of(named) == {"rope_tension": Tolerance(50.0, relative=False)}
-    with pytest.raises(CaseError, match="(?s)accuracy.target.*an error of motions where no outputs are named"):
+    with pytest.raises(CaseError, match=r"(?s)accuracy\.target.*an error of motions where no outputs are named"):
         load_case("qtz5613/manoeuvre", [force])
