@@ -6,7 +6,6 @@ import warnings
 import numpy as np
 import pytest
 from samples import lab_crane, qtz5613, space_crane
-from samples.qtz5613 import in_plane
 from scipy.linalg import eigh
 
 from modal import Chain, EndBody, Foundation, Segment
