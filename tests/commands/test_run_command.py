@@ -45,7 +45,7 @@ def test_run_answers_in_the_documented_json(run):
 
 def test_run_writes_result_summary_and_pictures(run, folder):
     files = {path.name for path in folder.iterdir()}
-    pictures = {"overview", "motion", "swing", "phase", "tower", "jib", "spectrum", "modes"}
+    pictures = {"overview", "motion", "swing", "phase", "tower", "jib", "spectrum", "torque", "base", "modes"}
     assert files == {"result.nc", "result.csv", "summary.json"} | {f"{name}.png" for name in pictures}
     assert json.loads((folder / "summary.json").read_text(encoding="utf-8")) == run
     data = results.load(folder / "result.nc")

@@ -9,7 +9,7 @@ from samples.lab_crane import crane, motions
 
 from towercrane.cases.case import load_case
 from towercrane.report.folder import RUN_FILES
-from towercrane.report.plots.runs import jib, slewing, space
+from towercrane.report.plots.runs import jib, slewing, tower
 from towercrane.report.plots.studies import sensitivity
 from towercrane.runs.run import run_case
 from towercrane.simulation.simulate import simulate
@@ -120,7 +120,7 @@ def test_surface_shows_every_output_over_time_and_percent(turned):
 
 @pytest.mark.parametrize("name", ["soft-drive", "gusts-working"])
 def test_pictures_of_runs_in_space(name):
-    figures = space.run_pictures(run_case(load_case(f"qtz5613/{name}", ["run.duration=4 s"])))
+    figures = tower.run_pictures(run_case(load_case(f"qtz5613/{name}", ["run.duration=4 s"])))
     drawn = {"overview", "sway", "torque", "tower", "jib", "base", "path"} | ({"wind"} if "gusts" in name else set())
     assert set(figures) == {f"{picture}.png" for picture in drawn}
     check(figures)

@@ -213,6 +213,6 @@ def test_figures_of_the_source_compare_its_conditions():
         ]
         assert [text.partition(":")[0] for text in named] == [f"condition-{n}" for n in pairs[number]], name
         if number in shown:
-            factor = DEGREE if "swing" in shown[number] else 1e3
+            factor = DEGREE if "sway" in shown[number] else 1e3
             for line, n in zip(figure.axes[0].get_lines(), pairs[number], strict=True):
                 assert_allclose(line.get_ydata(), factor * made_up[n][shown[number]].values)

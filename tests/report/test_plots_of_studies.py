@@ -78,7 +78,7 @@ def test_a_sweep_over_two_values_has_each_run_in_its_place():
     bars = [axes for axes in figure.axes if axes not in panels]
     figure.canvas.draw()
     assert [bar.get_ylabel() for bar in bars] == [
-        "largest size of swing angle [deg]",
+        "largest size of sway radial [deg]",
         "largest size of rope tension [kN]",
     ]
     assert all(not bar.yaxis.get_offset_text().get_text() for bar in bars)

@@ -31,6 +31,7 @@ def run_summary(**changes):
         "notices": ["look twice"],
         "idle": ["crane.x", "crane.y"],
         "assumed": ASSUMED,
+        "left_out": ["this scene leaves out that"],
     }
     return {**summary, **changes}
 
@@ -55,6 +56,7 @@ def test_a_run(capsys):
         "energy balance        0.023 J off, 5.6e-09 of the change",
         "solver                dop853, rtol 3e-07, 4321 evaluations, 0.125 s of 0.750 s wall",
         "note     look twice",
+        "left out this scene leaves out that",
         "unused   crane.x, crane.y: keys of the crane file that this run has no use for",
         "assumed  a.key = 3 m: some reason",
     ]
@@ -89,7 +91,10 @@ SETTING = {
     "tower_modes": 2, "jib_vertical_modes": 7, "cap": 6.5, "weight_softening": True, "method": "dop853", "rtol": 2e-5,
     "atol": 3e-8,
 }  # fmt: skip
-WORDS = "2 tower, 7 jib modes capped at 6.5 Hz, with the weight's softening, dop853 at rtol 2.0e-05, atol 3.0e-08"
+WORDS = (
+    "2 tower, 7 jib vertical modes capped at 6.5 Hz, with the weight's softening, "
+    "dop853 at rtol 2.0e-05, atol 3.0e-08"
+)
 
 
 def test_an_error_that_is_asked_for(capsys):
@@ -109,7 +114,7 @@ def test_an_error_that_is_asked_for(capsys):
     ]
     assert "Error asked for: out of reach" in lines
     assert f"chosen                {WORDS}" in lines
-    assert "stated by the case    jib modes, rtol; what a case leaves out is chosen" in lines
+    assert "stated by the case    jib vertical modes, rtol; what a case leaves out is chosen" in lines
     assert "left out              this" in lines
     assert "choice                19 settings looked at, 14 ms" in lines
 
@@ -131,7 +136,7 @@ def test_a_verification(capsys):
     ]
     assert f"run                   {WORDS}" in lines
     assert (
-        "richer                2 tower, 7 jib modes, in the plane, without the weight's softening, "
+        "richer                2 tower, 7 jib vertical modes, in the plane, without the weight's softening, "
         "dop853 at rtol 2.0e-05, atol 3.0e-08; it ended early: slack rope" in lines
     )
     assert any(line.startswith("note     ") and line.endswith("a doubt") for line in lines)

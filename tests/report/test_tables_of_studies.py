@@ -129,7 +129,7 @@ def test_models_beside_each_other(capsys):
     report = {
         "kind": "radial", "crane": "Some crane", "title": "Some title", "case": "some/case", "rows": [row, early],
         "recommended": "rigid", "kinds_of_modes": ["tower", "jib"], "departure_m": 0.8123, "reasons": ["since"],
-        "target": 0.05, "needed": ["jib"], "assumed": ASSUMED,
+        "target": 0.05, "needed": ["jib"], "left_out": ["this scene leaves out that"], "assumed": ASSUMED,
     }  # fmt: skip
     comparison_tables(report)
     rows, lines = said(capsys)
@@ -155,7 +155,7 @@ def test_the_recommended_model_alone_is_bold(capsys, monkeypatch):
         {
             "kind": "radial", "crane": "Some crane", "title": "Some title", "case": "some/case", "recommended": "two",
             "rows": [{"name": name, **row} for name in ("one", "two", "three")], "kinds_of_modes": ["tower"],
-            "departure_m": 0.8123, "reasons": [], "target": 0.05, "needed": [], "assumed": [],
+            "departure_m": 0.8123, "reasons": [], "target": 0.05, "needed": [], "left_out": [], "assumed": [],
         }
     )  # fmt: skip
     rows = [line for line in capsys.readouterr().out.splitlines() if "987" in line]

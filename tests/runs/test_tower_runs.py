@@ -14,6 +14,7 @@ from samples.tower_files import ONE_SEGMENT, SEGMENTS, UNIFORM, write_case
 from modal import Beam, Chain, CraneFrame, EndBody, Foundation, LacedColumn, Segment, crane_structure
 from towercrane import Load, TowerCrane, load_case, run_case
 from towercrane.cases.models import motions_of
+from towercrane.cranes.tower.equations.small_motions import plane_modes
 from towercrane.cranes.tower.file.build import crane_frame, crane_of, tower_model
 from towercrane.cranes.tower.file.effects import kept_tower
 from towercrane.cranes.tower.file.requests import modes_of
@@ -112,7 +113,8 @@ def test_a_counter_jib_that_bends(tmp_path):
 def test_the_shipped_laced_tower_is_the_published_crane_on_its_lattice():
     laced = load_case("towers/laced")
     published = load_case("qtz5613/condition-3", ["crane.tower.beam=shear-flexible"])
-    assert replace(crane_of(laced.checked), name="QTZ5613") == crane_of(published.checked)
+    in_its_plane = replace(crane_of(published.checked), jib_lateral=None, shaft=None)
+    assert replace(crane_of(laced.checked), name="QTZ5613") == in_its_plane
     assert motions_of(laced)["trolley"].switch_times == pytest.approx(motions_of(published)["trolley"].switch_times)
     # Lacing as soft as this costs the first mode, which the slewing part's inertia governs, next to nothing.
     stated = crane_of(load_case("qtz5613/condition-3").checked).tower_modes(4).frequencies_hz
@@ -128,7 +130,7 @@ def test_many_modes_of_a_shipped_tower_reach_the_exact_crane(name, rigid):
     case = load_case(name, rigid)
     position = modes_of(case.checked, motions_of(case)["trolley"]).trolley_positions[-1]
     exact = hertz(crane_frame(case.checked, weight=case.checked.model.weight_softening), position, 5)
-    found = [tower_model(case.checked, **modes).natural_modes(position, case.rope.length)[0][:5] / (2 * np.pi)
+    found = [plane_modes(tower_model(case.checked, **modes), position, case.rope.length)[0][:5] / (2 * np.pi)
              for modes in ({}, {"tower_modes": 10, "jib_vertical_modes": 12})]  # fmt: skip
     # Modes that are left out make a crane too stiff, never too soft.
     assert np.all(found[1] / exact > 1.0 - 1e-9)

@@ -115,7 +115,7 @@ def test_a_model_that_ends_early_has_no_error():
     report, results = compare(case, 0.01)
     assert results[RICHEST].attrs["outcome"] == "slack rope"
     assert all(row["relative_error"] is None for row in report["rows"])
-    assert (report["recommended"], report["needed"]) == (None, ["tower", "jib"])
+    assert (report["recommended"], report["needed"]) == (None, ["tower", "vertical"])
     assert any("slack rope" in reason or "finished" in reason for reason in report["reasons"])
     assert len(gaps(results["rigid"], results[RICHEST])) <= len(results["rigid"].time)
     paths(report, results).canvas.draw()
@@ -151,10 +151,10 @@ def test_command_answers_for_space_and_for_the_plane(tmp_path):
     assert report["target"] == 0.05
     plane = ["compare", RADIAL, "--out", str(tmp_path), "--no-pictures", "--json", "--set", "run.duration=20 s"]
     report = json.loads(runner.invoke(app, [*plane, "--target", "0.1"]).stdout)
-    assert (report["target"], report["kinds_of_modes"]) == (0.1, ["tower", "jib"])
+    assert (report["target"], report["kinds_of_modes"]) == (0.1, ["tower", "vertical"])
     assert json.loads(runner.invoke(app, plane).stdout)["target"] == 0.01
     for wrong, words in (
-        (["compare", "jib-crane/plan"], "wanted a case of kind 'radial' or 'space'"),
+        (["compare", "jib-crane/plan"], "wanted a case of kind 'tower'"),
         (["compare", NAME, "--target", "3"], "wanted a fraction between 0 and 1"),
         (
             ["compare", RADIAL, "--set", "model.tower_modes=0", "--set", "model.jib_vertical_modes=0"],

@@ -105,6 +105,12 @@ USUAL = {
     ("MN/m", "N/m"): 1e6,
     ("kN m/rad", "N m/rad"): 1e3,
     ("MN m/rad", "N m/rad"): 1e6,
+    ("kN m s/rad", "N m s/rad"): 1e3,
+    ("kN m", "N m"): 1e3,
+    ("MN m^2", "N m^2"): 1e6,
+    ("t m^2", "kg m^2"): 1e3,
+    ("kg m", "kg m^2/m"): 1.0,
+    ("rpm", "rad/s"): 0.10471975511965977,
     ("kg/m", "N s^2/m^2"): 1.0,
 }
 """Sizes of the commonest units in SI: a case that has no others is read without loading pint, in half the time."""

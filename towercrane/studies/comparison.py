@@ -187,13 +187,15 @@ def _row(case: Case, variant: Variant, result: xr.Dataset, richest: xr.Dataset, 
 
 def slowest(case: Case, variant: Variant, result: xr.Dataset) -> dict[str, float]:
     """Lowest natural frequency along and, in space, across the jib where a run ended [Hz]; none if it buckles."""
-    from towercrane.cranes.tower.equations.small_motions import natural_modes
+    from towercrane.cranes.tower.equations.small_motions import natural_modes, plane_modes
 
     model: Any = variant.model(case)
     trolley, rope = (float(result[name][-1]) for name in ("trolley_position", "rope_length"))
     try:
-        turned = next((name for name in ("shaft_angle", "slewing_angle") if name in result), None)
-        modes = natural_modes(model, trolley, rope, float(result[turned][-1]) if turned else 0.0)
+        if model.axes == 2:
+            return {"along": float(plane_modes(model, trolley, rope)[0][0] / (2.0 * np.pi))}
+        turned = "shaft_angle" if "shaft_angle" in result else "slewing_angle"
+        modes = natural_modes(model, trolley, rope, float(result[turned][-1]))
     except NoEquilibrium:
         return {}
     in_plane = [mode.shares["radial"] + mode.shares["radial sway"] > 0.5 for mode in modes]

@@ -64,7 +64,7 @@ def run_tables(summary: dict[str, Any]) -> None:
     for notice in summary["notices"]:
         console.print(f"note     {notice}", style="bold")
     for left_out in summary["left_out"]:
-        console.print(f"plane    {left_out}")
+        console.print(f"left out {left_out}")
     if summary["idle"]:
         console.print(f"unused   {', '.join(summary['idle'])}: keys of the crane file that this run has no use for")
     _assumed(console, summary["assumed"])
@@ -117,8 +117,9 @@ def _accuracy(console: Console, promised: dict[str, Any]) -> None:
 
 
 def setting_words(setting: dict[str, Any]) -> str:
-    """Model and solver of a run in words, as :func:`towercrane.accuracy.scene.provenance` gives them."""
-    counts = {key.removesuffix("_modes").replace("_", " "): n for key, n in setting.items() if key.endswith("_modes")}
+    """Model and solver of a run in words, as :func:`towercrane.accuracy.setting.Setting.provenance` gives them."""
+    moving = ("tower_modes", "jib_vertical_modes") if setting.get("planar") else setting
+    counts = {key.removesuffix("_modes").replace("_", " "): setting[key] for key in moving if key.endswith("_modes")}
     modes = ", ".join(f"{count} {kind}" for kind, count in counts.items())
     cap = f" capped at {setting['cap']:.3g} Hz" if setting.get("cap") else ""
     planar = " in the plane," if setting.get("planar") else ""
