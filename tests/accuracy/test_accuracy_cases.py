@@ -21,7 +21,7 @@ from towercrane.accuracy.promise import (
 )
 from towercrane.accuracy.scene import scene_of
 from towercrane.cli import app
-from towercrane.cranes.tower.targets import IN_PLANE
+from towercrane.cranes.tower.targets import FORETOLD
 from towercrane.report.tables.runs import run_tables, verification_tables
 from towercrane.runs.run import record_case, run_case
 from towercrane.runs.summary import summarise
@@ -191,7 +191,7 @@ def test_a_force_fits_the_tension_in_the_plane_and_in_space_only_outputs_that_ar
     assert targets_of(load_case(STATED, ['accuracy.target="50 N"'])) == {
         "rope_tension": Tolerance(50.0, relative=False)
     }
-    assert list(targets_of(load_case(STATED, ["accuracy.target=0.1"]))) == list(IN_PLANE)
+    assert list(targets_of(load_case(STATED, ["accuracy.target=0.1"]))) == list(FORETOLD)
     force = 'accuracy.target="50 N"'
     named = load_case("qtz5613/manoeuvre", [force, 'accuracy.outputs=["rope_tension"]'])
     assert targets_of(named) == {"rope_tension": Tolerance(50.0, relative=False)}

@@ -17,7 +17,7 @@ from towercrane.accuracy.promise import KEPT, finer, verification
 from towercrane.accuracy.scene import Scene, scene_of
 from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.cranes.tower.targets import ALL, IN_PLANE, OUT_OF_PLANE
+from towercrane.cranes.tower.targets import ALL, FORETOLD, OUT_OF_PLANE
 from towercrane.kernels.payload import Load
 from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.results.measures import gap, peak
@@ -33,7 +33,7 @@ BLOWN = replace(
     motions={**SHORT.motions, **steady(np.array([8.0, 0.0, 0.0]))},
     areas=WindAreas(tower=0.5, jib=0.3, counter_jib=0.3, counterweight=4.0),
 )
-FORETOLD = {
+STILL_AIR = {
     "trapezoid": SCENE,
     "hoist": replace(SCENE, motions={**standing(30.0, 18.0), "rope": s_curve(18.0, 9.0, 0.5, 0.3, 0.6)}),
     "swinging": replace(SCENE, swing_angle=0.2, damping=ModalDamping(tower=0.01, vertical=0.01)),
@@ -46,10 +46,10 @@ def over(value, *names):
 
 
 def test_small_motions_foretell_four_outputs_of_a_plane_in_still_air():
-    assert SCENE.foretells(IN_PLANE)
+    assert SCENE.foretells(FORETOLD)
     assert SCENE.foretells(["rope_tension"])
-    for name in set(ALL) - set(IN_PLANE):
-        assert not SCENE.foretells([*IN_PLANE, name])
+    for name in set(ALL) - set(FORETOLD):
+        assert not SCENE.foretells([*FORETOLD, name])
     assert not BLOWN.foretells(["sway_radial"])
     assert not replace(SCENE, planar=False).foretells(["sway_radial"])
     assert set(SCENE.outputs) == set(ALL) - set(OUT_OF_PLANE)
@@ -103,7 +103,7 @@ expected error of the jib's tip for want of modes and by damping [m]."""
 def test_known_choices(name, target, count):
     tower, jib, cap, rtol, lost = CHOSEN[name, target, count]
     outputs = OUTPUTS[:3] if count == 3 else OUTPUTS[3:]
-    choice = choose(FORETOLD[name], over(target, *outputs))
+    choice = choose(STILL_AIR[name], over(target, *outputs))
     assert choice.setting.counts == plane_setting(tower, jib).counts
     assert choice.setting.planar
     assert choice.setting.cap == pytest.approx(cap, rel=1e-9)

@@ -11,7 +11,7 @@ from samples.space_crane import CRANE, manoeuvre, standing
 from typer.testing import CliRunner
 
 from towercrane import load_case
-from towercrane.accuracy.mode_convergence import Ladders, measured_choice
+from towercrane.accuracy.mode_convergence import ModeConvergence, measured_choice
 from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, targets_of, verification
 from towercrane.accuracy.scene import Scene, scene_of
 from towercrane.accuracy.setting import Setting
@@ -118,7 +118,7 @@ def test_what_is_stated_is_kept_and_judged():
 
 def test_a_rung_is_the_difference_of_two_runs():
     base = Setting(1, 1, 1, 1, rtol=1e-6, atol=1e-8)
-    ladders = Ladders(SLEW, base)
+    ladders = ModeConvergence(SLEW, base)
     runs = SLEW.run(base), SLEW.run(replace(base, jib_lateral_modes=2))
     place = np.linalg.norm(runs[0]["payload_position"].values - runs[1]["payload_position"].values, axis=1)
     assert ladders.step("jib_lateral_modes", 1)[0] == place.max()

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.lanes import IN_PLANE
+from towercrane.cranes.tower.lanes import PLANE_CRANES
 from towercrane.motions.motion import phases, rest
 from towercrane.motions.profiles import s_curve, smooth_ramps
 from towercrane.runs.run import record_case
@@ -59,7 +59,7 @@ def test_in_lanes_it_is_the_outcome_of_its_run_alone():
     drives = qtz5613.standing(20.0, 18.0)
     cut = phases((drives["trolley"], drives["rope"]), 10.0)
     runs = [LaneRun(heavier(factor), cut, "zero", 0.3) for factor in (1.0, 1.001, 1.0)]
-    found = integrate_many(IN_PLANE, runs, rows_of(10.0, 0.5), threads=1)
+    found = integrate_many(PLANE_CRANES, runs, rows_of(10.0, 0.5), threads=1)
     assert found.outcomes == ["finished", NOT_CONSERVED, "finished"]
 
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from samples.qtz5613 import CRANE, in_plane, model, motions
 
 from modal import Chain, Foundation, Segment
-from towercrane.cranes.tower.lanes import IN_PLANE, OUTPUTS
+from towercrane.cranes.tower.lanes import OUTPUTS, PLANE_CRANES
 from towercrane.kernels.payload import Load
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases, rest, sequence
@@ -29,7 +29,7 @@ def lane_run(crane, drives, state="equilibrium", swing_angle=0.0):
 def in_lanes(scenes, **options):
     """Scenes are model, motions and, if need be, state and swing angle at the start."""
     return integrate_many(
-        IN_PLANE, [lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options}
+        PLANE_CRANES, [lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options}
     )
 
 

@@ -31,7 +31,10 @@ SHARES = (0.3, 0.01)
 LOOSEST, TIGHTEST = 2e-3, 1e-9
 """Range of rtol."""
 
-MODES = ((0, 0), (1, 0), (0, 1), (1, 1), (1, 2), (2, 2), (2, 3), (2, 4), (3, 4), (3, 6), (4, 8), (5, 11), (8, 11))
+TRIED_COUNTS = (
+    (0, 0), (1, 0), (0, 1), (1, 1), (1, 2), (2, 2), (2, 3),
+    (2, 4), (3, 4), (3, 6), (4, 8), (5, 11), (8, 11),
+)  # fmt: skip
 """Numbers of tower and jib modes that are tried."""
 
 CAPS = (1.0, 2.0, 5.0, 12.0)
@@ -101,7 +104,7 @@ def candidates(indicators: Indicators, outputs: set[str], stated: dict[str, Any]
     tower, jib = np.split(own[:-1], [indicators.richest.tower_modes])
     free = free_frequency(indicators)
     found: dict[Setting, float] = {}
-    for a, b in MODES:
+    for a, b in TRIED_COUNTS:
         counts = {"planar": True, "tower_modes": a, "jib_vertical_modes": b, **stated}
         a, b = counts["tower_modes"], counts["jib_vertical_modes"]
         rigid = (OUTPUTS[0] in outputs and not a) or (OUTPUTS[1] in outputs and not b)

@@ -10,7 +10,7 @@ from numpy.polynomial.polynomial import polyder, polyval
 
 from towercrane.accuracy.setting import Setting
 from towercrane.cranes.tower.equations.constants import geometric_stiffness
-from towercrane.cranes.tower.targets import IN_PLANE
+from towercrane.cranes.tower.targets import FORETOLD
 from towercrane.motions.motion import phases
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ RICHEST = Setting(tower_modes=10, jib_vertical_modes=14, planar=True)
 BEYOND = {"tower_modes": 2, "jib_vertical_modes": 4}
 """Modes that the richest model has more than a model whose numbers of modes are stated."""
 
-OUTPUTS = tuple(IN_PLANE)
+OUTPUTS = tuple(FORETOLD)
 """Outputs whose error is estimated, in the order of all arrays here."""
 
 SWING, TENSION = 2, 3

@@ -16,7 +16,7 @@ import numpy as np
 
 from towercrane.accuracy.estimate import SMALLEST_PEAK, Choice, Estimate, limits
 from towercrane.accuracy.setting import Setting
-from towercrane.cranes.tower.crane_model import IN_PLANE, MODES
+from towercrane.cranes.tower.crane_model import MODE_KINDS, PLANE_MODES
 from towercrane.cranes.tower.targets import MOTIONS
 from towercrane.results.measures import gap, peak
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
@@ -61,7 +61,7 @@ GAIN = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Ladders:
+class ModeConvergence:
     """Runs of a scene with one mode of each kind, and from there up or down in one kind.
 
     Parameters
@@ -151,8 +151,8 @@ def measured_choice(
     if not targets or not set(targets) <= set(scene.outputs):
         raise ValueError(f"targets: wanted some of {', '.join(scene.outputs)}, got {', '.join(targets) or 'none'}")
     began, stated, tried = time.process_time(), dict(stated or {}), 0
-    ladders = Ladders(scene, _base(scene, targets, stated))
-    kinds = [kind for kind in scene.described if not ladders.base.planar or kind in IN_PLANE]
+    ladders = ModeConvergence(scene, _base(scene, targets, stated))
+    kinds = [kind for kind in scene.described if not ladders.base.planar or kind in PLANE_MODES]
     free = [kind for kind in kinds if kind not in stated]
     patient, before = not {"rtol", "atol"}.isdisjoint(stated), np.inf
     while True:
@@ -165,7 +165,7 @@ def measured_choice(
         before = excess
         if not patient:
             tried += len(ladders.runs)
-            ladders = Ladders(scene, ladders.base.tightened(TIGHTER))
+            ladders = ModeConvergence(scene, ladders.base.tightened(TIGHTER))
     setting = ladders.base.with_counts(counts)
     together = _together(ladders, setting, kinds)
     while excess <= 1.0 < _excess(together, (1.0 - SOLVED) * allowed):
@@ -193,7 +193,7 @@ def measured_choice(
 
 def _base(scene: Scene, targets: Mapping[str, Tolerance], stated: dict[str, Any]) -> Setting:
     """One mode of each kind that is described and moves, unless something else is stated."""
-    counts = {kind: int(kind in scene.described and (kind in IN_PLANE or not scene.planar)) for kind in MODES}
+    counts = {kind: int(kind in scene.described and (kind in PLANE_MODES or not scene.planar)) for kind in MODE_KINDS}
     relative = min((value for value, relative in targets.values() if relative), default=1e-3)
     share = PROBING["motions" if set(targets) <= set(MOTIONS) else "forces"]
     rtol = float(np.clip(share * relative, 10.0 * TIGHTEST, LOOSEST))
@@ -202,7 +202,7 @@ def _base(scene: Scene, targets: Mapping[str, Tolerance], stated: dict[str, Any]
 
 
 def _counts(
-    ladders: Ladders, kinds: list[str], free: list[str], allowed: Floats, patient: bool
+    ladders: ModeConvergence, kinds: list[str], free: list[str], allowed: Floats, patient: bool
 ) -> tuple[dict[str, int], Floats]:
     """Fewest modes whose errors add up to no more than the model's part, and these errors.
 
@@ -235,18 +235,18 @@ def _counts(
     return counts, np.asarray(sum(lost().values()))
 
 
-def _together(ladders: Ladders, setting: Setting, kinds: list[str]) -> Floats:
+def _together(ladders: ModeConvergence, setting: Setting, kinds: list[str]) -> Floats:
     """What all modes beyond a setting would change: more together than kind by kind, maybe; shape (outputs,)."""
     return REST * ladders.apart(setting, setting.with_more(dict.fromkeys(kinds, 1)))
 
 
-def _lost(ladders: Ladders, setting: Setting, allowed: Floats, kind: str) -> float:
+def _lost(ladders: ModeConvergence, setting: Setting, allowed: Floats, kind: str) -> float:
     """What one mode more of a kind changes beside all others, over what is allowed."""
     return _excess(ladders.apart(setting, setting.with_more({kind: 1})), allowed)
 
 
 def _solved(
-    ladders: Ladders, setting: Setting, allowed: Floats, stated: dict[str, Any], progress: Progress | None
+    ladders: ModeConvergence, setting: Setting, allowed: Floats, stated: dict[str, Any], progress: Progress | None
 ) -> tuple[Setting, Run, Floats]:
     """A setting with tolerances for the solver's part, the run, and what its steps cost; shape (outputs,)."""
     if "rtol" in stated or "atol" in stated:
@@ -268,13 +268,13 @@ def _excess(errors: Any, allowed: Floats) -> float:
 
 
 def _left_out(
-    ladders: Ladders, kinds: list[str], free: list[str], counts: dict[str, int], wanted: NDArray[np.bool_]
+    ladders: ModeConvergence, kinds: list[str], free: list[str], counts: dict[str, int], wanted: NDArray[np.bool_]
 ) -> list[str]:
     """What the setting has not, what that is expected to change, and what the rest is good for, in sentences."""
     found = []
     if ladders.base.planar:
         found.append("motion out of the jib's plane: nothing drives the crane or its load out of it")
-    moving = {kind: what for kind, what in MODES.items() if kind in IN_PLANE or not ladders.base.planar}
+    moving = {kind: what for kind, what in MODE_KINDS.items() if kind in PLANE_MODES or not ladders.base.planar}
     for kind, what in moving.items():
         if kind not in ladders.scene.described:
             found.append(f"{what}: the crane file does not describe it")
@@ -294,7 +294,7 @@ def _left_out(
     return found
 
 
-def _change(ladders: Ladders, change: Floats, wanted: NDArray[np.bool_]) -> str:
+def _change(ladders: ModeConvergence, change: Floats, wanted: NDArray[np.bool_]) -> str:
     """The largest change of the outputs with a target, in words."""
     shares = np.where(wanted, change / ladders.peaks(ladders.base), 0.0)
     worst = int(shares.argmax())

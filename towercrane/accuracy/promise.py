@@ -16,10 +16,10 @@ from towercrane.accuracy.mode_convergence import measured_choice
 from towercrane.accuracy.scene import Scene, scene_of, setting_of
 from towercrane.accuracy.setting import Setting, setting_from
 from towercrane.cranes.registry import KINDS
-from towercrane.cranes.tower.crane_model import IN_PLANE, MODES
+from towercrane.cranes.tower.crane_model import MODE_KINDS, PLANE_MODES
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import softened
-from towercrane.cranes.tower.targets import IN_PLANE as FORETOLD
+from towercrane.cranes.tower.targets import FORETOLD
 from towercrane.results.measures import gap, peak, picked_in
 from towercrane.schema.targets import Targets, Tolerance
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
@@ -63,7 +63,7 @@ def stated(case: Case, scene: Scene) -> dict[str, Any]:
     written = {key: getattr(table, key) for table in (tables.model, tables.solver) for key in table.model_fields_set}
     if tables.accuracy.frequency is not None:
         written["weight_softening"] = softened(tables)
-    still = set(MODES) - set(IN_PLANE) if scene.planar else set()
+    still = set(MODE_KINDS) - set(PLANE_MODES) if scene.planar else set()
     return {key: value for key, value in written.items() if key in Setting.__dataclass_fields__ and key not in still}
 
 
@@ -140,7 +140,7 @@ def finer(setting: Setting, scene: Scene, *, foretold: bool) -> Setting:
 
 
 def _moves(kind: str, scene: Scene) -> bool:
-    return kind in IN_PLANE or not scene.planar
+    return kind in PLANE_MODES or not scene.planar
 
 
 def verification(case: Case, result: Run) -> dict[str, Any]:

@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.accuracy.setting import Setting
 from towercrane.cases.models import motions_of
-from towercrane.cranes.tower.crane_model import IN_PLANE as PLANE_MODES
-from towercrane.cranes.tower.crane_model import MODES, described, tower_crane_model
+from towercrane.cranes.tower.crane_model import MODE_KINDS, PLANE_MODES, described, tower_crane_model
 from towercrane.cranes.tower.file.build import described_scene
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import softened
 from towercrane.cranes.tower.file.plane import stays_in_plane
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.modal_crane import ModeCounts
-from towercrane.cranes.tower.targets import ALL, IN_PLANE, OUT_OF_PLANE
+from towercrane.cranes.tower.targets import ALL, FORETOLD, OUT_OF_PLANE
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import looks_per_row, record
 
@@ -91,7 +90,7 @@ class Scene:
 
     def foretells(self, outputs: Iterable[str]) -> bool:
         """Whether small motions foretell the error of these outputs, so that nothing is run to choose a setting."""
-        return self.planar and self.areas is None and set(outputs) <= set(IN_PLANE)
+        return self.planar and self.areas is None and set(outputs) <= set(FORETOLD)
 
     def model(self, setting: Setting) -> FlexibleModel:
         """The crane in the setting's coordinates."""
@@ -150,5 +149,5 @@ def setting_of(case: Case) -> Setting:
     tables = case.tables(TowerCase)
     planar, solver = stays_in_plane(tables), tables.solver
     plain = Setting(planar=planar, method=solver.method, rtol=solver.rtol, atol=solver.atol)
-    moving = {kind: getattr(tables.model, kind) for kind in MODES if not planar or kind in PLANE_MODES}
+    moving = {kind: getattr(tables.model, kind) for kind in MODE_KINDS if not planar or kind in PLANE_MODES}
     return replace(plain.with_counts(moving), weight_softening=softened(tables))

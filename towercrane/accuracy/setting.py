@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.crane_model import MODES
+from towercrane.cranes.tower.crane_model import MODE_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -46,7 +46,7 @@ class Setting:
     @property
     def counts(self) -> dict[str, int]:
         """Number of modes by kind."""
-        return {kind: getattr(self, kind) for kind in MODES}
+        return {kind: getattr(self, kind) for kind in MODE_KINDS}
 
     def with_counts(self, counts: Mapping[str, int]) -> Setting:
         """The same with other numbers of modes of some kinds."""

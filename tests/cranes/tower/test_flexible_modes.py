@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from oracles import space_frame
 from samples import space_crane as space
 
-from towercrane.cranes.tower.equations.small_motions import KINDS, linear_matrices, natural_modes
+from towercrane.cranes.tower.equations.small_motions import MOTION_KINDS, linear_matrices, natural_modes
 from towercrane.kernels.payload import JACOBIAN, MASS
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
@@ -50,7 +50,7 @@ def test_frequencies_at_equilibrium_are_known():
     kinds = [mode.kind for mode in found[:7]]
     assert kinds == ["torsion", "radial sway", "lateral sway", "radial", "lateral", "radial", "lateral"]
     for mode in found:
-        assert set(mode.shares) == set(KINDS)
+        assert set(mode.shares) == set(MOTION_KINDS)
         assert sum(mode.shares.values()) == pytest.approx(1.0, abs=1e-12)
         across = mode.shares["lateral"] + mode.shares["torsion"] + mode.shares["lateral sway"]
         assert min(across, 1.0 - across) < 1e-9

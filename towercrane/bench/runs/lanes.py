@@ -13,7 +13,7 @@ from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
-from towercrane.cranes.tower.lanes import IN_PLANE, OUTPUTS
+from towercrane.cranes.tower.lanes import OUTPUTS, PLANE_CRANES
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import evaluate, integrate
@@ -105,7 +105,7 @@ def _variations(count: int, duration: float) -> list[LaneRun]:
 
 
 def _lanes(runs: list[LaneRun], grid: Floats, rtol: float, threads: int) -> LaneAnswers:
-    found = integrate_many(IN_PLANE, runs, grid, rtol=rtol, atol=1e-2 * rtol, threads=threads)
+    found = integrate_many(PLANE_CRANES, runs, grid, rtol=rtol, atol=1e-2 * rtol, threads=threads)
     if INTERRUPTED in found.outcomes:
         raise KeyboardInterrupt
     return found
@@ -125,7 +125,7 @@ def _loop(runs: list[LaneRun], grid: Floats, rtol: float) -> Floats:
         _, guards = evaluate(model.system, run.phases, found.times, found.states)
         n = model.coordinates
         swing = np.arctan2(found.states[:, n], -found.states[:, n + 1])
-        values = np.column_stack([found.states[:, :n] @ IN_PLANE.watched(model).T, swing, guards[:, 0]])
+        values = np.column_stack([found.states[:, :n] @ PLANE_CRANES.watched(model).T, swing, guards[:, 0]])
         high, low = values.argmax(axis=0), values.argmin(axis=0)
         extremes.append(np.stack([values.max(axis=0), grid[high], values.min(axis=0), grid[low]], axis=1))
     return np.array(extremes)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from towercrane.kernels.payload import Load
 
 
-MODES = {
+MODE_KINDS = {
     "tower_modes": "bending of the tower",
     "torsion_modes": "torsion of the tower",
     "jib_lateral_modes": "bending of the jib to its sides",
@@ -27,14 +27,14 @@ MODES = {
 """Kinds of modes, by the key that counts them, in the order of
 :class:`towercrane.cranes.tower.modes.modal_crane.ModeCounts`."""
 
-IN_PLANE = ("tower_modes", "jib_vertical_modes")
+PLANE_MODES = ("tower_modes", "jib_vertical_modes")
 """Kinds that move in the jib's vertical plane."""
 
 
 def described(crane: TowerCrane) -> tuple[str, ...]:
     """Kinds of modes for which a crane has data."""
     missing = {"torsion_modes": crane.shaft is None, "jib_lateral_modes": crane.jib_lateral is None}
-    return tuple(kind for kind in MODES if not missing.get(kind, False))
+    return tuple(kind for kind in MODE_KINDS if not missing.get(kind, False))
 
 
 def tower_crane_model(

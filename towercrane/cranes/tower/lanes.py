@@ -94,7 +94,7 @@ class _DrivenMotion(FlexibleMotion):
         return np.asarray(self.drives[:, channels.index(channel), derivative])
 
 
-IN_PLANE = LaneCrane(
+PLANE_CRANES = LaneCrane(
     rhs=rhs,
     observe=observe,
     outputs=OUTPUTS,
@@ -115,4 +115,4 @@ def lane_of(tables: TowerCase) -> Lane | None:
     # Written out, floats to the last digit: equal text is equal data.
     alike = repr({key: value for key, value in model.items() if key != "load"})
     # A hauled rope begins its motion at its length, and what a tolerance of frequencies leaves out hangs on the load.
-    return Lane(IN_PLANE, alike, plain=tables.motion.hoist is None and tables.accuracy.frequency is None)
+    return Lane(PLANE_CRANES, alike, plain=tables.motion.hoist is None and tables.accuracy.frequency is None)

@@ -1,6 +1,6 @@
 """Outputs of a tower crane's run whose error can be asked for, with their units, and those that a plane has not."""
 
-IN_PLANE = {"tower_tip_displacement": "m", "jib_tip_deflection": "m", "sway_radial": "rad", "rope_tension": "N"}
+FORETOLD = {"tower_tip_displacement": "m", "jib_tip_deflection": "m", "sway_radial": "rad", "rope_tension": "N"}
 """Those whose error small motions in the jib's plane foretell, without a run."""
 
 MOTIONS = {

@@ -110,7 +110,7 @@ def integrate_many(
     Parameters
     ----------
     crane : LaneCrane
-        Of all runs, such as :data:`towercrane.cranes.tower.lanes.IN_PLANE`.
+        Of all runs, such as :data:`towercrane.cranes.tower.lanes.PLANE_CRANES`.
     runs : sequence of LaneRun
         With the same numbers of modes and the same shapes of the jib's modes.
     sample_times : ndarray, shape (p,)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-KINDS = ("radial", "lateral", "torsion", "radial sway", "lateral sway")
+MOTION_KINDS = ("radial", "lateral", "torsion", "radial sway", "lateral sway")
 """What moves in a mode: tower and jib in the jib's vertical plane, tower and jib across it, torsion with slewing, and
 the load along and across the jib."""
 
@@ -34,7 +34,7 @@ class NaturalMode:
     angular_frequency : float
         [rad/s]
     kind : str
-        The one of `KINDS` that holds most of the mode's energy.
+        The one of `MOTION_KINDS` that holds most of the mode's energy.
     shares : dict of str to float
         Share of each kind in the elastic and potential energy; they add up to 1.
     shape : ndarray, shape (coordinates + 2,)
@@ -213,4 +213,4 @@ def _rows(model: Equations) -> dict[str, list[int]]:
         [n],
         [n + 1],
     )
-    return dict(zip(KINDS, groups, strict=True))
+    return dict(zip(MOTION_KINDS, groups, strict=True))

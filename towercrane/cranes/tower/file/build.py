@@ -82,15 +82,15 @@ def tower_model(tables: TowerCase, **changes: Any) -> FlexibleModel:
 def described_model(tables: TowerCase, **changes: Any) -> dict[str, Any]:
     """What a case says of its model, by the arguments of
     :func:`towercrane.cranes.tower.crane_model.tower_crane_model`."""
-    from towercrane.cranes.tower.crane_model import MODES
+    from towercrane.cranes.tower.crane_model import MODE_KINDS
     from towercrane.cranes.tower.modes.modal_crane import ModeCounts
 
     chosen = {
-        **{key: getattr(tables.model, key) for key in MODES},
+        **{key: getattr(tables.model, key) for key in MODE_KINDS},
         "weight_softening": softened(tables),
         "planar": stays_in_plane(tables),
     } | changes
-    counts = ModeCounts(*(chosen.pop(key) for key in MODES))
+    counts = ModeCounts(*(chosen.pop(key) for key in MODE_KINDS))
     return {**described_scene(tables), "modes": counts, **chosen}
 
 

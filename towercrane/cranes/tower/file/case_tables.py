@@ -9,7 +9,7 @@ from pydantic import Field, StrictBool, StrictInt
 from modal.elements.beam_elements import MOST_ELEMENTS
 from towercrane.cranes.parts.tables import CaseTable, StartTable
 from towercrane.cranes.tower.file.tables import Crane  # noqa: TC001 - pydantic reads annotations
-from towercrane.cranes.tower.targets import ALL, IN_PLANE, MOTIONS
+from towercrane.cranes.tower.targets import ALL, FORETOLD, MOTIONS
 from towercrane.schema.fields import (
     Angle,
     EitherSpeed,
@@ -39,7 +39,7 @@ class Accuracy(Asked):
     """Errors that are accepted: without a list of all outputs with a target, see `Targets.every`; of frequencies."""
 
     outputs: Annotated[tuple[str, ...], OutputsField(ALL)] = ()
-    target: Annotated[Targets, TargetField(ALL, MOTIONS | IN_PLANE)] | None = None
+    target: Annotated[Targets, TargetField(ALL, MOTIONS | FORETOLD)] | None = None
     frequency: ToleranceIfAny = None
 
 

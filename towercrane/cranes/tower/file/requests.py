@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from towercrane.cranes.tower.crane_model import IN_PLANE as PLANE_MODES
-from towercrane.cranes.tower.crane_model import MODES
+from towercrane.cranes.tower.crane_model import MODE_KINDS, PLANE_MODES
 from towercrane.cranes.tower.file.plane import stays_in_plane
-from towercrane.cranes.tower.targets import ALL, IN_PLANE, MOTIONS, OUT_OF_PLANE
+from towercrane.cranes.tower.targets import ALL, FORETOLD, MOTIONS, OUT_OF_PLANE
 from towercrane.schema.targets import ForEvery
 
 if TYPE_CHECKING:
@@ -38,13 +37,13 @@ def targets_of(tables: TowerCase) -> Targets:
     asked = tables.accuracy
     if asked.outputs or not isinstance(asked.target, ForEvery):
         return asked.targets
-    fitting = IN_PLANE if stays_in_plane(tables) else MOTIONS
+    fitting = FORETOLD if stays_in_plane(tables) else MOTIONS
     return {name: asked.targets[name] for name in fitting if name in asked.targets}
 
 
 def modes_that_move(tables: TowerCase) -> dict[str, str]:
     """Kinds of modes that move in a scene, by the key that counts them."""
-    named = zip(MODES, ("tower", "torsion", "lateral", "vertical"), strict=True)
+    named = zip(MODE_KINDS, ("tower", "torsion", "lateral", "vertical"), strict=True)
     return {key: word for key, word in named if key in PLANE_MODES or not stays_in_plane(tables)}
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.equations.small_motions import KINDS
+from towercrane.cranes.tower.equations.small_motions import MOTION_KINDS
 from towercrane.report.plots.style import COLOURS, figure_of, footnote
 from towercrane.studies.space_shapes import crane_lines
 
@@ -53,7 +53,7 @@ def shapes(
         unit = crane_lines(model, mode, place, counter_jib, 1.0)
         largest = max(float(np.abs(unit[name] - still[name]).max()) for name in still)
         moved = crane_lines(model, mode, place, counter_jib, LARGEST * size / largest)
-        colour = COLOURS[KINDS.index(mode.kind)]
+        colour = COLOURS[MOTION_KINDS.index(mode.kind)]
         side, above = panels.ravel()[2 * k : 2 * k + 2]
         for axes, rows, label in ((side, (0, 2), "height [m]"), (above, (0, 1), "across [m]")):
             for name, line in still.items():
@@ -88,7 +88,7 @@ def frequencies(sweeps: dict[str, list[dict[str, Any]]], title: str, notes: Note
             axes.plot(at, [row["frequencies_hz"][k] for row in rows], color="0.8", lw=0.8, zorder=1)
         for row, x in zip(rows, at, strict=True):
             for kind, frequency in zip(row["kinds"], row["frequencies_hz"], strict=True):
-                number = KINDS.index(kind)
+                number = MOTION_KINDS.index(kind)
                 axes.plot(x, frequency, MARKS[number], color=COLOURS[number], ms=3)
         axes.set(xlabel=label, yscale="log")
         axes.grid(which="both", color="0.92", lw=0.6)
@@ -98,7 +98,9 @@ def frequencies(sweeps: dict[str, list[dict[str, Any]]], title: str, notes: Note
     panels[0].yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     panels[0].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     panels[0].yaxis.set_minor_formatter(NullFormatter())
-    handles = [Line2D([], [], color=COLOURS[i], marker=MARKS[i], ls="", label=kind) for i, kind in enumerate(KINDS)]
+    handles = [
+        Line2D([], [], color=COLOURS[i], marker=MARKS[i], ls="", label=kind) for i, kind in enumerate(MOTION_KINDS)
+    ]
     figure.legend(handles=handles, loc="outside right upper", fontsize=8, frameon=False)
     figure.suptitle(title, fontsize=10)
     footnote(figure, notes)
