@@ -21,7 +21,7 @@ from towercrane.cranes.tower.targets import ALL, FORETOLD, OUT_OF_PLANE
 from towercrane.kernels.payload import Load
 from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.results.measures import gap, peak
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case
 from towercrane.schema.targets import Tolerance
 
 OPEN = "qtz5613/within-1e-3"
@@ -115,7 +115,7 @@ def test_a_case_in_the_plane_that_asks_for_a_moment_measures_and_verifies_it():
     asked = ['accuracy.outputs=["base_moment_y", "payload_position"]', "accuracy.target=1e-2"]
     case = load_case(OPEN, ["run.duration=30 s", *asked])
     assert not scene_of(case).foretells(["base_moment_y", "payload_position"])
-    result = run_case(case)
+    result = record_case(case)
     found = json.loads(result.attrs["accuracy"])
     assert found["outcome"] == KEPT
     assert found["setting"]["planar"]
