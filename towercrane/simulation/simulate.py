@@ -61,7 +61,7 @@ def record(
     Parameters
     ----------
     model : Model
-        The crane, such as a :class:`towercrane.cranes.tower.planar.RadialModel`.
+        The crane, such as a :class:`towercrane.cranes.tower.model.FlexibleModel`.
     motions : dict of str to Motion
         One for each of the model's channels, such as "trolley" and "rope" [m].
     duration : float

@@ -38,7 +38,7 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
     Parameters
     ----------
     case : Case
-    model : RadialModel, optional
+    model : FlexibleModel, optional
         The case's own, where it has been built.
     actual : bool
         Put beside every prediction what a solution gives.

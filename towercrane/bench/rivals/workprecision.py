@@ -67,7 +67,7 @@ def work_precision(scene: Scene, repeats: int, *, quick: bool = False) -> dict[s
         notes.append(f"the quick benchmark leaves out runs of seconds: {', '.join(slow)}")
     elif scene.plain is None:
         notes.append(
-            "equations in NumPy and as heyoka's expressions exist for the radial crane only: heyoka calls no "
+            "equations in NumPy and as heyoka's expressions exist for the crane in the plane only: heyoka calls no "
             "compiled right-hand side, and every crane's equations would have to be written and checked once more"
         )
     if scene.system.switch is not None:

@@ -1,4 +1,4 @@
-"""Benchmark of the radial crane: right-hand side, modes left out."""
+"""Benchmark of the crane in its jib's plane: right-hand side, modes left out."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def right_hand_side(repeats: int) -> dict[str, Any]:
         model = tower_model(load_case(CASE).tables(TowerCase), tower_modes=modes[0], jib_vertical_modes=modes[1])
         cut, start = _scene(model)
         models[f"{modes[0]} tower + {modes[1]} jib modes"] = Instant(model.system, cut, start, 10.0)
-    return evaluations("radial-rhs", "Right-hand side of the radial crane", models, repeats)
+    return evaluations("radial-rhs", "Right-hand side of the crane in its jib's plane", models, repeats)
 
 
 def modes_left_out(repeats: int) -> dict[str, Any]:

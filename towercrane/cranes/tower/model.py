@@ -1,4 +1,4 @@
-"""Flexible crane in space: its equations of motion in chosen modes, and what a run of it shows."""
+"""Flexible tower crane with its load: its equations of motion in chosen modes, and what a run of it shows."""
 
 from __future__ import annotations
 

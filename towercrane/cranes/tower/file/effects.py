@@ -86,7 +86,7 @@ class Effects:
 
 
 def effects_in(tables: TowerCase) -> Effects:
-    """Effects known of a radial case's tower, how much each is predicted to matter, and those that are kept.
+    """Effects known of a case's tower, how much each is predicted to matter, and those that are kept.
 
     Without ``accuracy.frequency`` the results hold what the case describes, and the weight's softening where
     ``model.weight_softening`` asks for it. With it, of those and the weight, what is negligible is left out. Each

@@ -83,7 +83,7 @@ class Tower(Section):
 
     Which keys belong together is for :mod:`towercrane.cranes.tower.file.checks`. Roots that the source of a uniform
     tower prints are shown beside the computed ones. Torsion is that of one uniform shaft from the foot to the top,
-    whatever the tower bends like, and matters to a crane in space alone.
+    whatever the tower bends like, and matters to a scene that leaves the plane alone.
     """
 
     height: LengthIfAny = None

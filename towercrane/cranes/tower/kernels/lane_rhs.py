@@ -1,4 +1,4 @@
-"""Compiled equations and outputs of the crane in radial motion for lane vectors: the same for several runs."""
+"""Compiled equations and outputs of a crane in its jib's plane for lane vectors: the same for several runs."""
 
 from __future__ import annotations
 
