@@ -203,7 +203,7 @@ def test_pictures_show_units_kinds_and_assumptions(case):
     figure = pictured.frequencies(sweeps, "title", notes)
     figure.canvas.draw()
     assert [axes.get_xlabel().rpartition(" ")[2] for axes in figure.axes] == ["[m]", "[m]", "[deg]"]
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == list(pictured.KINDS)
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == list(pictured.MOTION_KINDS)
     assert "torsional" in figure._supxlabel.get_text()
 
 
