@@ -128,24 +128,24 @@ def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> t
         if system.switch is not None and system.switch.changes_equations:
             slopes[part], guards[part] = _switched(system, system.switch, states[part], under)
         else:
-            slopes[part], guards[part] = under(system.numbers)
+            under(system.numbers, slopes[part], guards[part])
     return slopes, guards
 
 
-def _under(system: System, times: Floats, states: Floats, inputs: Floats, numbers: Floats) -> tuple[Floats, Floats]:
-    """Slopes and guards of one phase with these numbers in place of the system's own."""
+def _under(
+    system: System, times: Floats, states: Floats, inputs: Floats, numbers: Floats, slopes: Floats, guards: Floats
+) -> None:
+    """Write slopes and guards of one phase, with these numbers in place of the system's own."""
     from towercrane.simulation import stepper
 
-    slopes, guards = np.empty_like(states), np.empty((len(times), len(system.guards)))
     work = np.zeros(system.work_shape)
     stepper.evaluate(
         system.rhs, times, states, slopes, guards, inputs, numbers, *system.constants[1:], work
     )  # fmt: skip
-    return slopes, guards
 
 
 def _switched(
-    system: System, switch: Switch, states: Floats, under: Callable[[Floats], tuple[Floats, Floats]]
+    system: System, switch: Switch, states: Floats, under: Callable[[Floats, Floats, Floats], None]
 ) -> tuple[Floats, Floats]:
     """Slopes and guards where equations switch: each state has its own, but few of them differ."""
     slopes, guards = np.empty_like(states), np.empty((len(states), len(system.guards)))
@@ -155,7 +155,8 @@ def _switched(
     def of_all() -> tuple[Floats, Floats]:
         key = numbers.tobytes()
         if key not in found:
-            found[key] = under(numbers)
+            found[key] = np.empty_like(slopes), np.empty_like(guards)
+            under(numbers, *found[key])
         return found[key]
 
     for row, state in enumerate(states):
