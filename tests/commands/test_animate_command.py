@@ -175,3 +175,13 @@ def test_interrupted_run_makes_no_film(tmp_path, monkeypatch):
     done = animate(CASE, *SHORT, "--out", tmp_path / "film.gif")
     assert done.exit_code == 130
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", ["qtz5613/gusts-working", "qtz5613/gusts-parked"])
+def test_a_result_of_a_run_in_recorded_wind_is_filmed_like_its_case(name, tmp_path):
+    runner = CliRunner()
+    made = runner.invoke(app, ["run", name, "--set", "run.duration=1 s", "--no-pictures", "--out", str(tmp_path)])
+    assert (tmp_path / "result.nc").exists(), made.output
+    done = runner.invoke(app, ["animate", str(tmp_path / "result.nc"), "--out", str(tmp_path / "film.gif")])
+    assert done.exit_code == 0, (done.output, done.exception)
+    assert (tmp_path / "film.gif").stat().st_size > 0

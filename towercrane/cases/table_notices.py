@@ -28,7 +28,8 @@ SAME_INSTANT = 1e-6
 
 def table_notices(case: Case) -> tuple[str, ...]:
     """Records that end before the run does, and tables whose noise the crane feels as acceleration."""
-    return (*_ended(case), *_noisy(case))
+    # The case of a result has no motions to look at: what was to be said of them stands in the result.
+    return (*_ended(case), *_noisy(case)) if case.plans else ()
 
 
 def _ended(case: Case) -> Iterator[str]:
