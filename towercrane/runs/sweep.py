@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from towercrane.results.recording import Recording
     from towercrane.runs.variants import Variant
 
     Floats = NDArray[np.float64]
@@ -88,7 +87,11 @@ def sweep(
     loaded = case if isinstance(case, Case) else load_case(case)
     values = _read(loaded, vary)
     found = Found(len(next(iter(values.values()))))
-    waiting = _one_by_one(Variants(loaded, values), found, series, progress)
+    variants = Variants(loaded, values)
+    waiting = _one_by_one(variants, found, series, progress)
+    if any(set(found.outputs) - set(company[0].outputs) for company in waiting):
+        # Beside runs with more outputs, lanes would leave gaps.
+        waiting = _alone(variants, waiting, found, progress)
     _side_by_side(waiting, found, threads, series, progress)
     if len(found.faults) == found.count:
         raise CaseError(found.faults[0].faults)
@@ -141,10 +144,7 @@ def _one_by_one(
                 raise ValueError(
                     "series: wanted a tower crane in its jib's plane and a compiled method, got another; see run_case"
                 )
-            result = record_case(variant.case)
-            if result.attrs["outcome"] == INTERRUPTED:
-                raise KeyboardInterrupt
-            _note(found, run, variant.case, result)
+            _recorded(found, run, variant.case)
         except CaseError as refused:
             found.faults[run] = refused
         except KeyboardInterrupt:
@@ -154,16 +154,33 @@ def _one_by_one(
     return waiting
 
 
-def _note(found: Found, run: int, case: Case, result: Recording) -> None:
-    """Keep the extremes of a run that was recorded."""
+def _alone(
+    variants: Variants, waiting: dict[tuple[Any, ...], dict[int, Variant]], found: Found, progress: Progress | None
+) -> dict[tuple[Any, ...], dict[int, Variant]]:
+    """Let runs that could share lanes run one by one; none is left waiting."""
+    try:
+        for run in sorted(run for members in waiting.values() for run in members):
+            _recorded(found, run, variants.case_of(run))
+            if progress is not None:
+                progress(len(found.rows) + len(found.faults))
+    except KeyboardInterrupt:
+        pass
+    return {}
+
+
+def _recorded(found: Found, run: int, case: Case) -> None:
+    """Record a run and keep its extremes."""
+    result = record_case(case)
+    if result.attrs["outcome"] == INTERRUPTED:
+        raise KeyboardInterrupt
     extremes = peaks(result)
-    # The same as of the runs beside it that share lanes.
+    # Those of runs in lanes, unless another run of the sweep has more.
     lane = KINDS[case.kind].lane
     shared = lane(case.checked) if lane else None
     names = list(shared.crane.outputs if shared else extremes)
     found.outputs |= {name: (result[name].attrs["units"], result[name].attrs["long_name"]) for name in names}
     ways = ("maximum", "maximum_time_s", "minimum", "minimum_time_s")
-    kept = {name: [extremes[name][way] for way in ways] for name in names}
+    kept = {name: [extreme[way] for way in ways] for name, extreme in extremes.items()}
     attributes = result.attrs
     found.rows[run] = attributes["outcome"], attributes["end_time"], attributes["evaluations"], kept
     if promised := accuracy(result):

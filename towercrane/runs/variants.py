@@ -99,6 +99,10 @@ class Variants:
         plain = self._plain[combination]
         return self._read(self._changes(run, self._values)) if plain is None else self._altered(plain, run)
 
+    def case_of(self, run: int) -> Case:
+        """A run's own case, read anew."""
+        return load_case(self._case.path, [*self._case.changes, *self._changes(run, self._values)])
+
     def _combination(self, run: int) -> tuple[Value, ...]:
         return tuple(self._values[key][run] for key in self._slow)
 
