@@ -16,7 +16,7 @@ import numpy as np
 
 from towercrane.accuracy.estimate import SMALLEST_PEAK, Choice, Estimate, limits
 from towercrane.accuracy.setting import Setting
-from towercrane.cranes.tower.crane_model import MODE_KINDS, PLANE_MODES
+from towercrane.cranes.tower.crane_model import MODE_KINDS, moving
 from towercrane.cranes.tower.targets import MOTIONS
 from towercrane.results.measures import gap, peak
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
@@ -152,7 +152,7 @@ def measured_choice(
         raise ValueError(f"targets: wanted some of {', '.join(scene.outputs)}, got {', '.join(targets) or 'none'}")
     began, stated, tried = time.process_time(), dict(stated or {}), 0
     ladders = ModeConvergence(scene, _base(scene, targets, stated))
-    kinds = [kind for kind in scene.described if not ladders.base.planar or kind in PLANE_MODES]
+    kinds = [kind for kind in moving(ladders.base.planar) if kind in scene.described]
     free = [kind for kind in kinds if kind not in stated]
     patient, before = not {"rtol", "atol"}.isdisjoint(stated), np.inf
     while True:
@@ -193,7 +193,7 @@ def measured_choice(
 
 def _base(scene: Scene, targets: Mapping[str, Tolerance], stated: dict[str, Any]) -> Setting:
     """One mode of each kind that is described and moves, unless something else is stated."""
-    counts = {kind: int(kind in scene.described and (kind in PLANE_MODES or not scene.planar)) for kind in MODE_KINDS}
+    counts = {kind: int(kind in scene.described) for kind in moving(scene.planar)}
     relative = min((value for value, relative in targets.values() if relative), default=1e-3)
     share = PROBING["motions" if set(targets) <= set(MOTIONS) else "forces"]
     rtol = float(np.clip(share * relative, 10.0 * TIGHTEST, LOOSEST))
@@ -274,8 +274,8 @@ def _left_out(
     found = []
     if ladders.base.planar:
         found.append("motion out of the jib's plane: nothing drives the crane or its load out of it")
-    moving = {kind: what for kind, what in MODE_KINDS.items() if kind in PLANE_MODES or not ladders.base.planar}
-    for kind, what in moving.items():
+    for kind in moving(ladders.base.planar):
+        what = MODE_KINDS[kind]
         if kind not in ladders.scene.described:
             found.append(f"{what}: the crane file does not describe it")
         elif kind in counts:

@@ -16,7 +16,7 @@ from towercrane.accuracy.mode_convergence import measured_choice
 from towercrane.accuracy.scene import Scene, scene_of, setting_of
 from towercrane.accuracy.setting import Setting, setting_from
 from towercrane.cranes.registry import KINDS
-from towercrane.cranes.tower.crane_model import MODE_KINDS, PLANE_MODES
+from towercrane.cranes.tower.crane_model import MODE_KINDS, moving
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import softened
 from towercrane.cranes.tower.targets import FORETOLD
@@ -63,7 +63,7 @@ def stated(case: Case, scene: Scene) -> dict[str, Any]:
     written = {key: getattr(table, key) for table in (tables.model, tables.solver) for key in table.model_fields_set}
     if tables.accuracy.frequency is not None:
         written["weight_softening"] = softened(tables)
-    still = set(MODE_KINDS) - set(PLANE_MODES) if scene.planar else set()
+    still = set(MODE_KINDS) - set(moving(scene.planar))
     return {key: value for key, value in written.items() if key in Setting.__dataclass_fields__ and key not in still}
 
 
@@ -133,14 +133,10 @@ def finer(setting: Setting, scene: Scene, *, foretold: bool) -> Setting:
 
     It leaves the plane where the scene does. Small motions foretell what the modes beyond `BEYOND` matter.
     """
-    more = BEYOND if foretold else {kind: MORE[kind] for kind in scene.described if _moves(kind, scene)}
+    more = BEYOND if foretold else {kind: MORE[kind] for kind in moving(scene.planar) if kind in scene.described}
     # Fast modes that only it has need a tolerance of their own.
     tighter = min(FINER, FINE / setting.rtol)
     return replace(setting.with_more(more).tightened(tighter), planar=scene.planar, cap=np.inf)
-
-
-def _moves(kind: str, scene: Scene) -> bool:
-    return kind in PLANE_MODES or not scene.planar
 
 
 def verification(case: Case, result: Run) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.accuracy.setting import Setting
 from towercrane.cases.models import motions_of
-from towercrane.cranes.tower.crane_model import MODE_KINDS, PLANE_MODES, described, tower_crane_model
+from towercrane.cranes.tower.crane_model import described, moving, tower_crane_model
 from towercrane.cranes.tower.file.build import described_scene
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import softened
@@ -55,12 +55,8 @@ class Scene:
     damping : ModalDamping
     self_weight, rope_as_rod : bool
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
-    drive : Drive, optional
-        What turns the head in place of the motion "slewing".
-    drive_inertia : float
-        [kg m^2]
-    areas : WindAreas, optional
-        What the wind meets; without it there is none.
+    drive, drive_inertia, areas
+        As of :func:`towercrane.cranes.tower.crane_model.tower_crane_model`.
     """
 
     crane: TowerCrane
@@ -149,5 +145,5 @@ def setting_of(case: Case) -> Setting:
     tables = case.tables(TowerCase)
     planar, solver = stays_in_plane(tables), tables.solver
     plain = Setting(planar=planar, method=solver.method, rtol=solver.rtol, atol=solver.atol)
-    moving = {kind: getattr(tables.model, kind) for kind in MODE_KINDS if not planar or kind in PLANE_MODES}
-    return replace(plain.with_counts(moving), weight_softening=softened(tables))
+    counts = {kind: getattr(tables.model, kind) for kind in moving(planar)}
+    return replace(plain.with_counts(counts), weight_softening=softened(tables))

@@ -56,8 +56,6 @@ class Lane(NamedTuple):
     """What a run needs to share vector lanes with others."""
 
     crane: LaneCrane
-    alike: str
-    """Equal for runs whose models differ in their load alone."""
     plain: bool
     """Whether another load, and another rope that rests, change nothing else of it."""
 
@@ -127,8 +125,6 @@ class Kind:
         `Natural` of its model and the values of its drives; without it the linear model is asked.
     lengths : callable, optional
         Length of the member that each deflection in a result is of [m], of its model.
-    outputs : callable, optional
-        Outputs whose error can be asked for, and their units, of its tables.
     targets : callable, optional
         Errors that its tables ask for, by output.
     lane : callable, optional
@@ -157,7 +153,6 @@ class Kind:
     idle: Callable[..., Iterator[str]] | None = None
     natural: Callable[..., Natural] | None = None
     lengths: Callable[[Any], dict[str, float]] | None = None
-    outputs: Callable[[Any], dict[str, str]] | None = None
     targets: Callable[[Any], Targets] | None = None
     lane: Callable[[Any], Lane | None] | None = None
     modes: Callable[[Any], dict[str, str]] | None = None

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from towercrane.cases.case import Case
     from towercrane.cranes.kind import Lane
-    from towercrane.simulation.lanes.crane import LaneRun
+    from towercrane.simulation.lanes.crane import LaneCrane, LaneRun
 
     Value = float | int | str
 
@@ -112,14 +112,14 @@ class Variants:
     def _read(self, changes: list[str]) -> Variant:
         case = load_case(self._case.path, [*self._case.changes, *changes])
         shared = lane_of(case)
-        return Variant(case, self._lane(case, shared.alike), shared) if shared else Variant(case)
+        return Variant(case, self._lane(case, shared.crane), shared) if shared else Variant(case)
 
-    def _lane(self, case: Case, alike: str) -> LaneRun:
+    def _lane(self, case: Case, crane: LaneCrane) -> LaneRun:
         from towercrane.simulation.lanes.crane import LaneRun
 
         model: Any = model_of(case)
         motions = motions_of(case, model)
-        model = self._models.setdefault(alike, model).with_load(model.load)
+        model = self._models.setdefault(crane.alike(model), model).with_load(model.load)
         cut = phases(tuple(motions[channel] for channel in model.channels), case.run.duration)
         state = "equilibrium" if case.start.state == "equilibrium" else "zero"
         return LaneRun(model, cut, state, case.start.swing_angle)

@@ -63,8 +63,6 @@ class Task:
         kind = self.case.kind
         if self.serves(use):
             return
-        if self.serves("modes"):
-            self.refuse(f"wanted a case of kind {either(use)}, got {kind!r}; try: towercrane modes {self.name}")
         self.refuse(f"a crane of kind {kind!r} has no {lacking}; try: towercrane linearise {self.name}")
 
     def refuse(self, why: str) -> NoReturn:

@@ -31,6 +31,11 @@ PLANE_MODES = ("tower_modes", "jib_vertical_modes")
 """Kinds that move in the jib's vertical plane."""
 
 
+def moving(planar: bool) -> tuple[str, ...]:
+    """Kinds of modes that move in a scene: in the jib's plane, or in space."""
+    return PLANE_MODES if planar else tuple(MODE_KINDS)
+
+
 def described(crane: TowerCrane) -> tuple[str, ...]:
     """Kinds of modes for which a crane has data."""
     missing = {"torsion_modes": crane.shaft is None, "jib_lateral_modes": crane.jib_lateral is None}

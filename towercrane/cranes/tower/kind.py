@@ -26,7 +26,6 @@ TOWER = Kind(
     kernels=later("towercrane.cranes.tower.file.kernels", "kernels"),
     natural=later("towercrane.cranes.tower.file.natural", "natural"),
     lengths=later("towercrane.cranes.tower.file.natural", "lengths"),
-    outputs=later("towercrane.cranes.tower.file.requests", "outputs_of"),
     targets=later("towercrane.cranes.tower.file.requests", "targets_of"),
     lane=later("towercrane.cranes.tower.lanes", "lane_of"),
     signals=Signals("tower_tip_displacement", ("sway_tangential", "sway_radial")),

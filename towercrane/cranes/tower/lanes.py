@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.kind import Lane
-from towercrane.cranes.tower.file.build import described_model
 from towercrane.cranes.tower.file.plane import stays_in_plane
 from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.kernels.lane_rhs import JIB_TIP, SWING, TENSION, TOWER_TIP, observe, rhs
@@ -94,6 +93,12 @@ class _DrivenMotion(FlexibleMotion):
         return np.asarray(self.drives[:, channels.index(channel), derivative])
 
 
+def _alike(model: FlexibleModel) -> str:
+    # Written out, floats to the last digit: equal text is equal data.
+    made_of = (model.crane.written, model.counts, model.damping, model.cap)
+    return repr((*made_of, model.weight_softening, model.self_weight, model.rope_as_rod))
+
+
 PLANE_CRANES = LaneCrane(
     rhs=rhs,
     observe=observe,
@@ -101,6 +106,7 @@ PLANE_CRANES = LaneCrane(
     watched=_tips,
     observed=observed,
     energy=energy,
+    alike=_alike,
     # A crane without a stable equilibrium has buckled under its weights.
     unstable=TOWER_BUCKLED,
 )
@@ -111,8 +117,5 @@ def lane_of(tables: TowerCase) -> Lane | None:
     """What a case's run needs to share lanes; None where it leaves the plane or a wind blows."""
     if tables.wind is not None or not stays_in_plane(tables):
         return None
-    model = described_model(tables)
-    # Written out, floats to the last digit: equal text is equal data.
-    alike = repr({key: value for key, value in model.items() if key != "load"})
     # A hauled rope begins its motion at its length, and what a tolerance of frequencies leaves out hangs on the load.
-    return Lane(PLANE_CRANES, alike, plain=tables.motion.hoist is None and tables.accuracy.frequency is None)
+    return Lane(PLANE_CRANES, plain=tables.motion.hoist is None and tables.accuracy.frequency is None)

@@ -57,6 +57,8 @@ class LaneCrane:
     energy : callable
         Total energy of runs in states (runs, size), and their load's weight times the length of its rope, with values
         and rates of their channels (runs, channels, 2); both of shape (runs,) [J].
+    alike : callable
+        Of a model, a text that is equal for models which differ in their load alone.
     unstable : str
         Outcome of a run that finds no equilibrium to start from.
     """
@@ -67,4 +69,5 @@ class LaneCrane:
     watched: Callable[[Any], Floats]
     observed: Callable[[Floats, Floats, Floats], Floats]
     energy: Callable[[Sequence[Any], Floats, Floats], tuple[Floats, Floats]]
+    alike: Callable[[Any], str]
     unstable: str

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from towercrane.cranes.tower.crane_model import MODE_KINDS, PLANE_MODES
+from towercrane.cranes.tower.crane_model import MODE_KINDS, moving
 from towercrane.cranes.tower.file.plane import stays_in_plane
-from towercrane.cranes.tower.targets import ALL, FORETOLD, MOTIONS, OUT_OF_PLANE
+from towercrane.cranes.tower.targets import FORETOLD, MOTIONS
 from towercrane.schema.targets import ForEvery
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def targets_of(tables: TowerCase) -> Targets:
 def modes_that_move(tables: TowerCase) -> dict[str, str]:
     """Kinds of modes that move in a scene, by the key that counts them."""
     named = zip(MODE_KINDS, ("tower", "torsion", "lateral", "vertical"), strict=True)
-    return {key: word for key, word in named if key in PLANE_MODES or not stays_in_plane(tables)}
+    return {key: word for key, word in named if key in moving(stays_in_plane(tables))}
 
 
 SIDEWAYS = "torsion of the tower, bending of tower and jib to their sides and sway across the jib are left out"
@@ -58,9 +58,3 @@ def left_out(tables: TowerCase) -> list[str]:
 def left_out_in_plane(tables: TowerCase) -> list[str]:
     """What a study of the crane in the jib's plane leaves out, in a scene that may leave it."""
     return left_out(tables) or [f"the scene leaves the jib's plane, but this shows the crane in it alone: {SIDEWAYS}"]
-
-
-def outputs_of(tables: TowerCase) -> dict[str, str]:
-    """Outputs whose error can be asked for, and their units."""
-    gone = OUT_OF_PLANE if stays_in_plane(tables) else ()
-    return {name: unit for name, unit in ALL.items() if name not in gone}
