@@ -45,7 +45,8 @@ def test_a_linear_model(capsys):
     signals = [{"name": name, "value": 2.5, "units": "m"} for name in ("trolley", "sway_radial")]
     linear_tables(
         {
-            "name": "Some crane", "states": signals, "inputs": signals[:1], "outputs": [], "assumed": ASSUMED,
+            "name": "Some crane", "states": signals, "inputs": signals[:1], "outputs": [], "left_out": [],
+            "assumed": ASSUMED,
             "equilibrium": False, "rope_inclination_rad": 0.0625, "slope": [0.5, -3.25],
             "eigenvalues": [row, {**row, "dominant_state": "trolley"},
                             {**row, "dominant_state": "creep", "imaginary": 0.0, "damping_ratio": None,

@@ -20,6 +20,7 @@ from towercrane.results import files as results
 from towercrane.runs.summary import accuracy, peaks
 from towercrane.runs.sweep import grid
 from towercrane.runs.sweep_data import BAD_INPUT
+from towercrane.runs.sweep_report import report
 from towercrane.schema.faults import CaseError
 from towercrane.schema.fields import known_keys, tables
 from towercrane.schema.units import to_si
@@ -140,6 +141,9 @@ def test_scenes_methods_and_tolerances_may_vary_from_run_to_run():
     turning = assert_single_runs(case, vary)
     assert "slewing_torque" in json.loads(turning.attrs["outputs"])
     assert np.isnan(turning["slewing_torque_max"].values).tolist() == [True, False]
+    told = report(turning, 1.0)["notices"]
+    assert any("1 of 2 runs do not have" in said and "slewing torque" in said for said in told)
+    assert any(said.startswith("nothing turns the head") for said in told)
     # What both have is known of both.
     for name in ("base_moment_y", "trolley_force", "rope_tension"):
         assert np.isfinite(turning[f"{name}_max"].values).all(), name

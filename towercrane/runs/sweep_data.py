@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.accuracy.promise import targets_of
-from towercrane.cases.assumptions import as_notes, rests_on
+from towercrane.cases.assumptions import as_notes, left_out, rests_on
 from towercrane.cases.kinds import unit_of
 from towercrane.results.versions import versions
 from towercrane.simulation.methods.registry import method_of
@@ -75,6 +75,7 @@ class Found:
         solver = case.solver
         self.cranes[case.crane.name] = None
         self.assumed |= dict.fromkeys(as_notes(rests_on(case)))
+        self.notices |= dict.fromkeys(left_out(case))
         if not targets_of(case):
             self.solvers[solver.method, solver.rtol, solver.atol] = None
             if said := method_of(solver.method).notice(solver.rtol, solver.atol):

@@ -38,6 +38,8 @@ def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
     runs = len(data["run"])
     ended = int((data["outcome"] != INTERRUPTED).sum())
     notices = json.loads(data.attrs["notices"])
+    if told := _not_of_all(data):
+        notices.append(told)
     faults = data["fault"].values.tolist() if "fault" in data else []
     if "accuracy" in data:
         promised = Counter(data["accuracy"].values.tolist())
@@ -60,6 +62,20 @@ def report(data: xr.Dataset, seconds: float) -> dict[str, Any]:
         "seconds": seconds,
         "runs_per_second": ended / seconds,
     }
+
+
+def _not_of_all(data: xr.Dataset) -> str:
+    """Outputs that not every run has, as scenes in a plane have none across it; nothing where all have all."""
+    known = np.isfinite(data["end_time"].values)
+    lacking = {
+        name: int(np.isnan(data[f"{name}_max"].values[known]).sum()) for name in json.loads(data.attrs["outputs"])
+    }
+    names = ", ".join(name.replace("_", " ") for name, count in lacking.items() if count)
+    return (
+        f"{max(lacking.values())} of {known.sum()} runs do not have {names}: extremes are of the others"
+        if names
+        else ""
+    )
 
 
 def runs_csv(data: xr.Dataset) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cases.assumptions import as_entries, rests_on
+from towercrane.cases.assumptions import as_entries, left_out, rests_on
 from towercrane.cases.models import model_of, motions_of
 from towercrane.linear.chart import TURNING
 
@@ -43,7 +43,7 @@ def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
         ``eigenvalues`` (real, imaginary, frequency_hz, damping_ratio, dominant_state; the ratio of a zero is None),
         ``states``, ``inputs`` and ``outputs`` (name, units, value at the operating point), ``slope`` of
         the states there and ``equilibrium`` (whether it is zero), ``rope_inclination_rad``, ``A``, ``B``, ``C``,
-        ``D``, ``differentiation_error``, ``at_s``, ``assumed``.
+        ``D``, ``differentiation_error``, ``at_s``, ``left_out``, ``assumed``.
     """
     point = linear.point
     report: dict[str, Any] = {"case": case.name, "name": case.crane.name, "at_s": at}
@@ -70,5 +70,6 @@ def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
     for name in "ABCD":
         report[name] = getattr(linear, name.lower()).tolist()
     report["differentiation_error"] = linear.error
+    report["left_out"] = left_out(case)
     report["assumed"] = as_entries(rests_on(case))
     return report

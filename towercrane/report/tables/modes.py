@@ -231,6 +231,7 @@ def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
         console.print(f"there {state['name']} changes by {slope:.3g} {state['units']} per second")
     sizes = ", ".join(f"{len(report[kind])} {kind}" for kind in ("states", "inputs", "outputs"))
     console.print(f"{sizes}; inputs: {', '.join(signal['name'] for signal in report['inputs'])}")
+    said(console, report["left_out"])
     _assumed(console, report["assumed"])
 
 

@@ -32,7 +32,7 @@ def idle(tables: TowerCase, *, exact_crane: bool = False, all_modes: bool = Fals
         stated = beam_choice(crane.tower, crane.tower) == "stated"
         yield "crane.tower.lattice." if stated else "crane.tower.second_moment_of_area"
     if planar or not (model.torsion_modes or all_modes):
-        yield "crane.tower.torsional_"
+        yield from ("crane.tower.torsional_stiffness", "crane.tower.torsional_inertia_per_length")
     if planar or not (model.jib_lateral_modes or all_modes):
         yield "crane.jib.lateral_second_moment_of_area"
     if planar:
