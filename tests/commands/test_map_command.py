@@ -145,3 +145,11 @@ def test_pictures_name_units_branches_and_loads():
     tower, jib, rope = (line.get_xydata() for line in panels[1].lines[1:6:2])
     assert tower[-1] == pytest.approx(jib[0])
     assert jib[50][1] - rope[0][1] == pytest.approx(0.0, abs=0.5)
+
+
+def test_what_the_drives_do_is_nothing_to_a_map(tmp_path):
+    done = towercrane("map", "qtz5613/manoeuvre", "--positions", "3", "--json", "--out", str(tmp_path))
+    assert done.returncode == 0, done.stderr
+    keys = [entry["key"] for entry in json.loads(done.stdout)["assumed"]]
+    assert "crane.jib.second_moment_of_area" in keys
+    assert not any(key.startswith("motion.") for key in keys)
