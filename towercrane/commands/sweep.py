@@ -138,9 +138,9 @@ def _steps(option: str, parts: list[str], quantity: Any) -> list[Any]:
 
 def _number(text: str) -> Any:
     """A number if the text is one, else the text."""
-    for kind in (int, float):
+    for number in (int, float):
         try:
-            return kind(text)
+            return number(text)
         except ValueError:
             continue
     return text

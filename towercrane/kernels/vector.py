@@ -89,7 +89,7 @@ def _pairs(function: Any, build: Any) -> None:
     @type_callable(function)
     def typed(_context: Any) -> Any:
         def typer(a: Any, b: Any) -> Any:
-            if VECTOR in (a, b) and all(kind == VECTOR or _is_number(kind) for kind in (a, b)):
+            if VECTOR in (a, b) and all(operand == VECTOR or _is_number(operand) for operand in (a, b)):
                 return VECTOR
             return None
 

@@ -146,8 +146,8 @@ def _find(name: str, coordinates: Sequence[str], channels: tuple[str, ...], axes
 
 def _turn(turning: Turning, q: Floats, rate: Floats, acceleration: Floats, drives: Floats) -> Floats:
     """Angle, rate and acceleration of the turning frame."""
-    kind, index = turning
-    return np.array([q[index], rate[index], acceleration[index]]) if kind == "coordinate" else drives[:, index]
+    what, index = turning
+    return np.array([q[index], rate[index], acceleration[index]]) if what == "coordinate" else drives[:, index]
 
 
 def _rotation(angle: float) -> Floats:

@@ -169,10 +169,10 @@ class StateSpace:
 
     def _fields(self, text: type, assumed: Sequence[tuple[str, str, str]]) -> dict[str, Any]:
         fields: dict[str, Any] = {"A": self.a, "B": self.b, "C": self.c, "D": self.d}
-        for kind in ("states", "inputs", "outputs"):
-            signals: tuple[Signal, ...] = getattr(self, kind)
-            fields[kind] = np.array([signal.name for signal in signals], dtype=text)
-            fields[f"{kind[:-1]}_units"] = np.array([signal.units for signal in signals], dtype=text)
+        for group in ("states", "inputs", "outputs"):
+            signals: tuple[Signal, ...] = getattr(self, group)
+            fields[group] = np.array([signal.name for signal in signals], dtype=text)
+            fields[f"{group[:-1]}_units"] = np.array([signal.units for signal in signals], dtype=text)
         fields["assumed"] = np.array([f"{key} = {value}: {why}" for key, value, why in assumed], dtype=text)
         point = self.point
         fields |= {"x0": point.states, "u0": point.inputs, "y0": point.outputs, "slope": point.slope}

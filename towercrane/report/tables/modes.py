@@ -110,9 +110,9 @@ def _effects(console: Console, report: dict[str, Any]) -> None:
     count = max(len(row["predicted"]) for row in effects["changes"].values())
     table = _table(title, "effect", "in the results", *(f"f{i}" for i in range(1, count + 1)), left=2)
     for effect, rows in effects["changes"].items():
-        for kind, changes in rows.items():
-            name = effect if kind == "predicted" else f"  {kind}"
-            kept = ("yes" if effect in effects["kept"] else "no") if kind == "predicted" else ""
+        for found, changes in rows.items():
+            name = effect if found == "predicted" else f"  {found}"
+            kept = ("yes" if effect in effects["kept"] else "no") if found == "predicted" else ""
             table.add_row(name, kept, *(f"{100.0 * change:+.3g}" for change in changes))
     console.print(table)
     tolerance = effects["tolerance"]
