@@ -11,7 +11,20 @@ from towercrane.cranes.tower.file.plane import stays_in_plane
 
 SIDE = ["wind.speed=10 m/s", "wind.direction=90 deg"]
 TIGHT = ["run.duration=6 s", "solver.rtol=1e-11", "solver.atol=1e-13", "motion.slewing.shape=rest"]
+SPEED = "speed=0.05 rad/s", "acceleration=0.01 rad/s^2"
+STILL = '{shape = "smooth", speed = "0 rad/s", ramp = "2 s", hold = "8 s"}'
+GOES = '{shape = "minimum-jerk", end = "9 deg", duration = "30 s", delay = "%d s"}'
 ALONG = ["wind.speed=12 m/s", "wind.direction=180 deg", "wind.upward=2 m/s", "payload.drag_area=2 m^2"]
+
+
+def turn(shape, *keys):
+    return [f"motion.slewing.{key}" for key in (f"shape={shape}", *keys)]
+
+
+def steps(*written):
+    listed = ", ".join(step for step in written if step.startswith("{"))
+    keys = [key for key in written if not key.startswith("{")]
+    return turn("sequence", f"steps=[{listed}]", *keys)
 
 
 @pytest.mark.parametrize("kind", ["radial", "space"])
@@ -37,15 +50,36 @@ def test_renamed_keys_say_what_they_are_called_now(former, now):
 @pytest.mark.parametrize(("changes", "planar"), [
     ([], True),
     (["motion.slewing.shape=rest"], True),
-    (["motion.slewing.shape=rest", "motion.slewing.start=10 deg"], False),
-    (["motion.shaft.shape=rest", "motion.shaft.start=10 deg"], False),
+    (["motion.slewing.shape=rest", "motion.slewing.start=10 deg"], True),
+    (["motion.shaft.shape=rest", "motion.shaft.start=10 deg"], True),
+    (["motion.slewing.shape=rest", "motion.slewing.start=360 deg", "wind.speed=10 m/s"], True),
+    (["motion.slewing.shape=rest", "motion.slewing.start=90 deg", *SIDE], True),
+    (["motion.slewing.shape=rest", "motion.slewing.start=90 deg", *ALONG], False),
+    (turn("trapezoid", "end=10 deg", *SPEED), False),
+    (turn("trapezoid", "end=10 deg", *SPEED, "delay=119.9 s"), False),
+    (turn("trapezoid", "end=10 deg", *SPEED, "delay=120 s"), True),
+    (turn("trapezoid", "start=10 deg", "end=10 deg", *SPEED), True),
+    (turn("trapezoid", "start=10 deg", "end=0 deg", *SPEED), False),
+    (turn("zvd", "end=0 deg", *SPEED), True),
+    (turn("zvd", "end=1 deg", *SPEED, "delay=500 s"), True),
+    (turn("minimum-jerk", "end=0 deg", "duration=9 s"), True),
+    (turn("smooth", "speed=0 rad/s", "ramp=1 s", "hold=2 s"), True),
+    (turn("speed-trapezoid", "speed=-0.01 rad/s", "ramp=1 s", "hold=2 s"), False),
+    (steps('{shape = "rest", duration = "2 s"}'), True),
+    (steps(STILL, GOES % 50, "delay=58 s"), True),
+    (steps(STILL, GOES % 49, "delay=58 s"), False),
     (["wind.speed=10 m/s"], True),
     (ALONG, True),
     (SIDE, False),
+    (["wind.speed=0 m/s", "wind.direction=90 deg", "wind.upward=3 m/s"], True),
     (["wind.series=gusts.csv"], False),
 ])  # fmt: skip
-def test_a_scene_is_planar_unless_something_turns_or_blows_across(changes, planar):
-    assert stays_in_plane(load_case(RADIAL, changes).checked) is planar
+def test_a_scene_is_planar_unless_something_turns_or_blows_across_within_its_run(changes, planar):
+    case = load_case(RADIAL, changes)
+    assert stays_in_plane(case.checked) is planar
+    turns = case.plans.get("slewing", case.plans.get("shaft"))
+    if planar and turns:
+        assert np.ptp(turns.commanded(np.linspace(0.0, case.run.duration, 9999))) == 0.0
 
 
 def test_a_planar_scene_has_no_tangential_sway_to_promise():

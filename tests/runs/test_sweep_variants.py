@@ -21,6 +21,7 @@ from towercrane.runs.summary import accuracy, peaks
 from towercrane.runs.sweep import grid
 from towercrane.runs.sweep_data import BAD_INPUT
 from towercrane.runs.sweep_report import report
+from towercrane.runs.variants import Variants
 from towercrane.schema.faults import CaseError
 from towercrane.schema.fields import known_keys, tables
 from towercrane.schema.units import to_si
@@ -166,6 +167,13 @@ def test_another_load_shares_all_that_does_not_hang_on_it():
             assert np.array_equal(one, other)
         assert np.array_equal(shared.matrices[STIFFNESS], light.system.matrices[STIFFNESS]) is not softening
         assert shared.fastest() == own.fastest()
+
+
+def test_heads_that_stand_at_angles_of_their_own_keep_them_in_lanes():
+    variants = Variants(
+        load_case("qtz5613/condition-3", ["motion.slewing.shape=rest"]), {"motion.slewing.start": [0, 1]}
+    )
+    assert [variants[run].lane.model.heading for run in range(2)] == [0.0, 1.0]
 
 
 def leaf_keys(kind):

@@ -12,10 +12,10 @@ from towercrane.cranes.tower.crane_model import described, moving, tower_crane_m
 from towercrane.cranes.tower.file.build import described_scene
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import softened
-from towercrane.cranes.tower.file.plane import stays_in_plane
+from towercrane.cranes.tower.file.plane import heading_of, stays_in_plane
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.modal_crane import ModeCounts
-from towercrane.cranes.tower.targets import ALL, FORETOLD, OUT_OF_PLANE
+from towercrane.cranes.tower.targets import ALL, FORETOLD, absent
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import looks_per_row, record
 
@@ -51,7 +51,9 @@ class Scene:
     swing_angle : float
         At the start [rad].
     planar : bool
-        Whether nothing drives crane and load out of the plane in which the jib stands, along x.
+        Whether nothing drives crane and load out of the plane in which the jib stands.
+    heading : float
+        Angle of that plane from the fixed x axis [rad].
     damping : ModalDamping
     self_weight, rope_as_rod : bool
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
@@ -67,6 +69,7 @@ class Scene:
     state: str = "equilibrium"
     swing_angle: float = 0.0
     planar: bool = False
+    heading: float = 0.0
     damping: ModalDamping = field(default_factory=ModalDamping)
     self_weight: bool = True
     rope_as_rod: bool = False
@@ -77,7 +80,8 @@ class Scene:
     @property
     def outputs(self) -> dict[str, str]:
         """Outputs whose error can be measured, and their units."""
-        return {name: unit for name, unit in ALL.items() if not (self.planar and name in OUT_OF_PLANE)}
+        missing = absent(self.heading) if self.planar else ()
+        return {name: unit for name, unit in ALL.items() if name not in missing}
 
     @property
     def described(self) -> tuple[str, ...]:
@@ -95,6 +99,7 @@ class Scene:
             self.load,
             ModeCounts(*setting.counts.values()),
             planar=setting.planar,
+            heading=self.heading,
             drive=self.drive,
             drive_inertia=self.drive_inertia,
             areas=self.areas,
@@ -129,13 +134,15 @@ def scene_of(case: Case, run: Run | None = None) -> Scene:
     """The scene of a tower crane's case, of what was built for a run of it where there is one."""
     tables = case.tables(TowerCase)
     model: Any = run and run.model
+    heading = heading_of(tables)
     return Scene(
         motions=motions_of(case) if run is None else run.motions,
         duration=tables.run.duration,
         output_step=tables.run.output_step,
         state="equilibrium" if tables.start.state == "equilibrium" else "zero",
         swing_angle=tables.start.swing_angle,
-        planar=stays_in_plane(tables),
+        planar=heading is not None,
+        heading=heading or 0.0,
         **described_scene(tables, None if model is None else model.crane.written),
     )
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ValidationError
 
 from towercrane.cases.plausibility import FARTHEST_TURN, FASTEST
 from towercrane.cases.profiles import plan
@@ -14,12 +13,14 @@ from towercrane.cases.wind_file import CHANNELS, wind_motions
 from towercrane.cranes.registry import KINDS
 from towercrane.motions.plans import Move, Plan
 from towercrane.schema.faults import CaseError, Fault, shown
-from towercrane.schema.motions import HoistMotion, JointMotion, TrolleyMotion
+from towercrane.schema.motions import HoistMotion, JointMotion, TrolleyMotion, reader
 from towercrane.schema.ranges import at, si, si_at
 from towercrane.schema.text import leaves
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from pydantic import TypeAdapter
 
     from towercrane.cranes.kind import Drives, Track
 
@@ -29,12 +30,6 @@ ROUNDING = 1e-9
 
 RESTS = ("slew", "slewing")
 """Joints that rest at zero where the case does not name them."""
-
-
-@cache
-def _reader(described: Any) -> TypeAdapter[Any]:
-    """What reads a motion; making it takes as long as the rest of a case."""
-    return TypeAdapter(described)
 
 
 @dataclass(frozen=True)
@@ -101,7 +96,7 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
         most, hint = FARTHEST_TURN[joint], "the header names the units: slew [deg]"
         wanted = f"angles up to {most:g} rad"
         way = Way(f"motion.{joint}", most, False, wanted, hint, turns=True, fastest=drives.fastest_turn)
-        plans[joint], more = _motion(tree, way, _reader(JointMotion), folder, 0.0 if joint in RESTS else None)
+        plans[joint], more = _motion(tree, way, reader(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
     more, plans["rope"] = _rope(tree, folder, drives)
     faults += more
@@ -137,7 +132,7 @@ def _track(tree: dict[str, Any], track: Track, folder: Path) -> tuple[list[Fault
     known = f"from 0 to {length:g} m (the length of the {along})" if length else "from 0 on"
     way = Way(f"motion.{name}", length, False, f"positions on the {along}, {known}", f"the {name} leaves the {along}")
     faults = _out_of_way(tree, way, ("start", "end"))
-    motion, more = _motion(tree, way, _reader(TrolleyMotion), folder, None)
+    motion, more = _motion(tree, way, reader(TrolleyMotion), folder, None)
     for listed in (f"modes.{name}_positions", f"map.{name}_positions"):
         for key, value in leaves(at(tree, listed) or [], listed):
             position = si(value, "m")
@@ -160,7 +155,7 @@ def _rope(tree: dict[str, Any], folder: Path, drives: Drives) -> tuple[list[Faul
         length = si(value, "m")
         if length is not None and length > 0.0 and not in_air.keeps(length):
             faults.append(in_air.fault(key, shown(value)))
-    rope, more = _motion(tree, in_air, _reader(HoistMotion), folder, start)
+    rope, more = _motion(tree, in_air, reader(HoistMotion), folder, start)
     return faults or more, rope
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from functools import cache
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, TypeAdapter
 
 from towercrane.schema.fields import (
     MODEL,
@@ -265,3 +266,9 @@ JointMotion = Annotated[
     | Points,
     Field(discriminator="shape"),
 ]
+
+
+@cache
+def reader(described: Any) -> TypeAdapter[Any]:
+    """What reads one of these; making it takes as long as reading the rest of a case."""
+    return TypeAdapter(described)

@@ -48,6 +48,7 @@ def tower_crane_model(
     modes: ModeCounts,
     *,
     planar: bool = False,
+    heading: float = 0.0,
     drive: Drive | None = None,
     drive_inertia: float = 0.0,
     areas: WindAreas | None = None,
@@ -67,7 +68,9 @@ def tower_crane_model(
     modes : ModeCounts
         In the plane those of torsion and of the jib to its sides stand still, and are left out.
     planar : bool
-        Whether all stays in the jib's vertical plane, along x; then the head does not turn.
+        Whether all stays in the jib's vertical plane; then the head does not turn.
+    heading : float
+        Angle from the fixed x axis at which a head that does not turn stands [rad].
     drive : Drive, optional
         What turns the head in place of the motion "slewing".
     drive_inertia : float
@@ -84,6 +87,7 @@ def tower_crane_model(
         load,
         slewing="fixed" if planar else drive or "prescribed",
         drive_inertia=drive_inertia,
+        heading=heading if planar else 0.0,
         damping=damping or ModalDamping(),
         weight_softening=weight_softening,
         self_weight=self_weight,

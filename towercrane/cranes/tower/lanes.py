@@ -95,7 +95,7 @@ class _DrivenMotion(FlexibleMotion):
 
 def _alike(model: FlexibleModel) -> str:
     # Written out, floats to the last digit: equal text is equal data.
-    made_of = (model.crane.written, model.counts, model.damping, model.cap)
+    made_of = (model.crane.written, model.counts, model.damping, model.cap, model.heading)
     return repr((*made_of, model.weight_softening, model.self_weight, model.rope_as_rod))
 
 

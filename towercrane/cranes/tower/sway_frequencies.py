@@ -66,7 +66,7 @@ class SwayFrequencies:
     @cached_property
     def _scene(self) -> FlexibleModel:
         """The crane with a load that may swing to all sides."""
-        return self.model if self.model.axes == 3 else dataclasses.replace(self.model, axes=3)
+        return self.model if self.model.axes == 3 else dataclasses.replace(self.model, axes=3, heading=0.0)
 
 
 @dataclass(frozen=True, slots=True)

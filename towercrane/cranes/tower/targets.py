@@ -28,7 +28,6 @@ ALL = MOTIONS | {
 """Motions, forces and moments."""
 
 OUT_OF_PLANE = (
-    "slewing_angle",
     "slewing_speed",
     "slewing_torque",
     "sway_tangential",
@@ -37,7 +36,14 @@ OUT_OF_PLANE = (
     "tower_tip_twist",
     "jib_tip_deflection_sideways",
     "jib_root_moment_sideways",
-    "base_moment_x",
     "base_torque",
 )
-"""Outputs that stay zero in a scene in the jib's plane, which does not have them."""
+"""Outputs that stay zero in a scene in the jib's plane."""
+
+OUT_OF_X = ("slewing_angle", "base_moment_x", "payload_in_crane_axes", "tower_y_coordinate")
+"""Outputs that tell nothing where that plane is the one of the fixed x axis: they stay zero or say what others do."""
+
+
+def absent(heading: float) -> tuple[str, ...]:
+    """Outputs that a scene in a plane at this angle from the x axis [rad] does not have."""
+    return OUT_OF_PLANE if heading else OUT_OF_PLANE + OUT_OF_X

@@ -49,6 +49,7 @@ def numbers(model: Coordinates) -> Floats:
     values[layout.HINGE_DAMPING] = load.rope_damping
     values[layout.SLEWING_CHANNEL] = -1 if model.slewing == "fixed" else layout.SLEWING
     values[layout.WIND_CHANNEL] = len(model.channels) - 3 if model.wind else -1
+    values[layout.PLANE_COSINE], values[layout.PLANE_SINE] = np.cos(model.heading), np.sin(model.heading)
     values[layout.FRICTION_RATE] = 1.0
     if drive is not None:
         values[layout.SOFT], values[layout.STIFF] = drive.soft, drive.stiff

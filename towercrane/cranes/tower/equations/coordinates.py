@@ -33,8 +33,11 @@ class Coordinates:
         With as many modes as are to move; made by :func:`towercrane.cranes.tower.modes.modal_crane.flexible_crane`.
     load : Load
     slewing : {"prescribed", "fixed"} or Drive
-        The slewing angle of the head on the tower's top as a motion, at zero, or as a coordinate that a drive with an
+        The slewing angle of the head on the tower's top as a motion, fixed, or as a coordinate that a drive with an
         elastic coupling turns.
+    heading : float
+        Angle from the fixed x axis to a plane that the load swings in [rad]: the jib's, whose coordinates along x are
+        then along the jib. Zero for a load in space.
     drive_inertia : float
         Moment of inertia that turns with the slewing angle and does not tilt [kg m^2]; with a drive only.
     damping : ModalDamping
@@ -56,14 +59,16 @@ class Coordinates:
     Raises
     ------
     ValueError
-        If the cap is not positive, a crane that leaves the plane is asked to stay in it, the slewing is of no known
-        kind, the drive's friction is set-valued, or there is inertia of a drive without a drive.
+        If the cap is not positive, a crane that leaves the plane is asked to stay in it, a load in space is given a
+        heading, the slewing is of no known kind, the drive's friction is set-valued, or there is inertia of a drive
+        without a drive.
     """
 
     crane: FlexibleCrane
     load: Load
     slewing: Literal["prescribed", "fixed"] | Drive = "prescribed"
     drive_inertia: float = 0.0
+    heading: float = 0.0
     damping: ModalDamping = field(default_factory=ModalDamping)
     weight_softening: bool = False
     self_weight: bool = True
@@ -80,6 +85,8 @@ class Coordinates:
         leaves = crane.planes > 1 or crane.torsion.count or crane.lateral.count or self.slewing != "fixed"
         if self.axes == 2 and leaves:
             raise ValueError("FlexibleModel.axes: wanted 3 for a crane that moves out of its plane, got 2")
+        if self.axes == 3 and self.heading != 0.0:
+            raise ValueError(f"FlexibleModel.heading: wanted 0 for a load in space, got {self.heading!r}")
         if isinstance(self.slewing, str) and self.slewing not in ("prescribed", "fixed"):
             raise ValueError(f"FlexibleModel.slewing: wanted 'prescribed', 'fixed' or a Drive, got {self.slewing!r}")
         if self.drive is None and self.drive_inertia:

@@ -9,7 +9,7 @@ from modal import Beam, CraneFrame, EndBody
 from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.tower.file.effects import kept_tower, softened
 from towercrane.cranes.tower.file.members import as_chain, counter_jib_of, crane_on, with_end_body
-from towercrane.cranes.tower.file.plane import stays_in_plane
+from towercrane.cranes.tower.file.plane import heading_of
 
 if TYPE_CHECKING:
     from modal import Chain
@@ -85,10 +85,12 @@ def described_model(tables: TowerCase, **changes: Any) -> dict[str, Any]:
     from towercrane.cranes.tower.crane_model import MODE_KINDS
     from towercrane.cranes.tower.modes.modal_crane import ModeCounts
 
+    heading = heading_of(tables)
     chosen = {
         **{key: getattr(tables.model, key) for key in MODE_KINDS},
         "weight_softening": softened(tables),
-        "planar": stays_in_plane(tables),
+        "planar": heading is not None,
+        "heading": heading or 0.0,
     } | changes
     counts = ModeCounts(*(chosen.pop(key) for key in MODE_KINDS))
     return {**described_scene(tables), "modes": counts, **chosen}

@@ -2,56 +2,85 @@
 
 from __future__ import annotations
 
-from math import sin
-from typing import TYPE_CHECKING, Any, NamedTuple
+from math import inf, sin
+from typing import TYPE_CHECKING, Any
 
-from towercrane.schema.ranges import at, si, si_at
+from pydantic import ValidationError
+
+from towercrane.schema.motions import JointMotion, Points, Rest, Sequence, SmoothRamps, SpeedTrapezoid, reader
+from towercrane.schema.ranges import at, si_at
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.file.case_tables import TowerCase
+    from towercrane.schema.motions import TurnStep
 
-TURNS = ("slewing", "shaft")
-"""Motions that turn the head."""
-
-ALONG = 1e-12
-"""Sine of a wind's direction that is along the jib but for rounding."""
-
-
-class _Turn(NamedTuple):
-    """How a joint turns: shape, and the angles [rad] from and to which where the shape has them."""
-
-    shape: str
-    start: float | None
-    end: float | None
-
-    @property
-    def moves(self) -> bool:
-        """Whether it leaves the angle zero."""
-        return self.start != 0.0 or (self.shape != "rest" and self.end != 0.0)
+ACROSS = 1e-12
+"""Sine of the angle between wind and jib that is none but for rounding."""
 
 
 def stays_in_plane(tables: TowerCase) -> bool:
-    """Whether nothing drives or blows crane and load out of the plane in which the jib stands, along x.
+    """Whether nothing drives or blows crane and load out of the vertical plane in which the jib stands."""
+    return heading_of(tables) is not None
 
-    The head neither turns nor stands turned, and the wind, if any, is steady and blows along the jib.
+
+def heading_of(tables: TowerCase) -> float | None:
+    """Angle from the fixed x axis at which the jib stands all through a run [rad].
+
+    None where crane and load leave the jib's plane: where the head turns within the run, or a wind blows across the
+    jib. What a CSV file holds is not known here: its turn or its gusts leave the plane.
     """
-    turns = [turn for name in TURNS if (turn := getattr(tables.motion, name)) is not None]
-    if any(_Turn(t.shape, getattr(t, "start", None), getattr(t, "end", None)).moves for t in turns):
-        return False
-    return tables.wind is None or _along(tables.wind.series, tables.wind.direction)
+    turn, wind = tables.motion.slewing or tables.motion.shaft, tables.wind
+    blows = wind is not None and bool(wind.series or wind.speed)
+    direction = None if wind is None or wind.series else wind.direction
+    return _heading(turn, tables.run.duration, blows, direction)
 
 
-def written_in_plane(tree: dict[str, Any]) -> bool:
-    """The same of a case as written; what cannot be read moves out of it."""
-    for name in TURNS:
-        turn = at(tree, f"motion.{name}")
-        if isinstance(turn, dict):
-            start = si(turn["start"], "rad") if "start" in turn else 0.0
-            if _Turn(str(turn.get("shape")), start, si_at(turn, "end", "rad")).moves:
-                return False
-    wind = at(tree, "wind")
-    return not isinstance(wind, dict) or _along(wind.get("series"), si_at(wind, "direction", "rad", 0.0))
+def heading_written(tree: dict[str, Any]) -> float | None:
+    """The same of a case as written; what cannot be read leaves the plane."""
+    written = at(tree, "motion.slewing") or at(tree, "motion.shaft")
+    try:
+        turn = reader(JointMotion).validate_python(written) if isinstance(written, dict) else None
+    except ValidationError:
+        return None
+    series = at(tree, "wind.series")
+    blows = bool(series) or si_at(tree, "wind.speed", "m/s", 0.0) != 0.0
+    direction = None if series else si_at(tree, "wind.direction", "rad", 0.0)
+    return _heading(turn, si_at(tree, "run.duration", "s") or inf, blows, direction)
 
 
-def _along(series: object, direction: float | None) -> bool:
-    return not series and direction is not None and abs(sin(direction)) <= ALONG
+def _heading(turn: JointMotion | None, duration: float, blows: bool, direction: float | None) -> float | None:
+    """Of a turn and a wind, whose direction is not known where it varies."""
+    heading = float(getattr(turn, "start", 0.0))
+    if turn is not None and _departure(turn, heading) < duration:
+        return None
+    if blows and (direction is None or abs(sin(direction - heading)) > ACROSS):
+        return None
+    return heading
+
+
+def _departure(turn: JointMotion | TurnStep, start: float) -> float:
+    """When a turn leaves the angle at which it begins [s]; infinite if it never does."""
+    match turn:
+        case Points():
+            return 0.0
+        case Rest():
+            return inf
+        case Sequence():
+            now = turn.delay
+            for step in turn.steps:
+                if (departure := _departure(step, start)) < inf:
+                    return now + departure
+                now += step.delay + _pause(step)
+            return inf
+        case SpeedTrapezoid() | SmoothRamps():
+            goes = turn.speed != 0.0
+        case _:
+            goes = turn.end != start
+    return turn.delay if goes else inf
+
+
+def _pause(step: TurnStep) -> float:
+    """How long a step that goes nowhere takes after its delay [s]."""
+    if isinstance(step, SpeedTrapezoid | SmoothRamps):
+        return 2.0 * step.ramp + step.hold
+    return float(getattr(step, "duration", 0.0))

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.tower.file.case_tables import Model
-from towercrane.cranes.tower.file.plane import written_in_plane
-from towercrane.cranes.tower.targets import ALL, OUT_OF_PLANE
+from towercrane.cranes.tower.file.plane import heading_written
+from towercrane.cranes.tower.targets import ALL, absent
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.ranges import at, si, si_at
 from towercrane.schema.units import wanted
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
 MISSING = "nothing: the key is missing"
 
@@ -35,8 +35,9 @@ PRESSED = {
 
 def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
     """Faults of a scene as a whole. Keys that are wrong by themselves are for others to report."""
-    if written_in_plane(tree):
-        yield from _check_outputs(tree)
+    heading = heading_written(tree)
+    if heading is not None:
+        yield from _check_outputs(tree, absent(heading))
     else:
         yield from _check_members(tree)
         yield from _check_force(tree)
@@ -44,14 +45,14 @@ def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
     yield from _check_wind(tree)
 
 
-def _check_outputs(tree: dict[str, Any]) -> Iterator[Fault]:
-    """Errors that are asked for of outputs which stay zero."""
+def _check_outputs(tree: dict[str, Any], missing: Collection[str]) -> Iterator[Fault]:
+    """Errors that are asked for of outputs which the scene does not have."""
     outputs, target = at(tree, "accuracy.outputs"), at(tree, "accuracy.target")
     asked = [("outputs", name) for name in outputs] if isinstance(outputs, list) else []
     asked += [("target", name) for name in target] if isinstance(target, dict) else []
     for key, name in asked:
-        if name in OUT_OF_PLANE and name in ALL:
-            what = f"one of {', '.join(output for output in ALL if output not in OUT_OF_PLANE)}"
+        if name in missing and name in ALL:
+            what = f"one of {', '.join(output for output in ALL if output not in missing)}"
             hint = "nothing turns the head or blows across the jib: the scene stays in the jib's plane"
             yield Fault("", f"accuracy.{key}", what, shown(name), hint)
 

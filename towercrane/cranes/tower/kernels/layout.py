@@ -5,10 +5,11 @@ from __future__ import annotations
 (ALONG_Y, TORSION, DRIVEN, LATERAL, VERTICAL, COORDINATES, TROLLEY_MASS, GRAVITY, SELF_GRAVITY, SLEWING_MASS,
  STATIC_MOMENT, ROLL, PITCH, YAW, JIB_LENGTH, TILT_LIMIT, LOAD_MASS, DRAG, HINGE_DAMPING,
  SLEWING_CHANNEL, WIND_CHANNEL, SOFT, STIFF, CORNER, DRIVE_DAMPING, FRICTION_TORQUE, FRICTION_RATE,
- HEAD_AREA, HEAD_AREA_MOMENT, NUMBERS) = range(30)  # fmt: skip
+ HEAD_AREA, HEAD_AREA_MOMENT, PLANE_COSINE, PLANE_SINE, NUMBERS) = range(32)  # fmt: skip
 """Entries of ``numbers``, and how many they are. The coordinates of the tower along x come first; the first five
 say where the others begin, and COORDINATES how many there are. SELF_GRAVITY is zero where the structure's own weight
-is left out; a channel is -1 where there is none."""
+is left out; a channel is -1 where there is none; PLANE_COSINE and PLANE_SINE are those of the angle from the fixed
+x axis to the first axis of the coordinates, zero but in a plane."""
 
 SLIDE_X, SLIDE_Y, TILT_X, TILT_Y, TURN, JIB_MASS, JIB_MOMENT, DAMPING, EXPOSURE, CAP, VECTORS = range(11)
 """Rows of ``vectors``, and how many, zero where they do not apply: what a coordinate moves the head (u_x and u_y of

@@ -143,11 +143,9 @@ def press_wind(
     to_y, to_turn, to_jib = whole(numbers[at.ALONG_Y]), whole(numbers[at.TORSION]), whole(numbers[at.LATERAL])
     to_vertical = whole(numbers[at.VERTICAL])
     breeze = whole(numbers[at.WIND_CHANNEL])
-    wind = (
-        polynomial(inputs, breeze, t)[0],
-        polynomial(inputs, breeze + 1, t)[0],
-        polynomial(inputs, breeze + 2, t)[0],
-    )
+    east, north = polynomial(inputs, breeze, t)[0], polynomial(inputs, breeze + 1, t)[0]
+    c, s = numbers[at.PLANE_COSINE], numbers[at.PLANE_SINE]
+    wind = (c * east + s * north, c * north - s * east, polynomial(inputs, breeze + 2, t)[0])
     square, normal = blow(d - 1, wind, head, work)
     speed, press = np.sqrt(square), abs(normal) * normal
     power, rolling = 0.0, 0.0

@@ -62,7 +62,32 @@ class FlexibleMotion:
     def _in_space(self, first: int) -> Floats:
         vector = np.zeros((len(self.times), 3))
         vector[:, [0, 1, 2] if self.model.axes == 3 else [0, 2]] = self.states[:, first : first + self.model.axes]
+        vector[:, :2] = self.from_plane(vector[:, :2])
         return vector
+
+    def from_plane(self, vectors: Floats) -> Floats:
+        """Horizontal vectors along and across the plane that the load swings in, along the fixed axes; (p, 2)."""
+        c, s = np.cos(self.model.heading), np.sin(self.model.heading)
+        return np.asarray(vectors @ np.array([[c, s], [-s, c]]))
+
+    def of_tower(self, weights: Floats, values: Floats) -> Floats:
+        """Sums of the tower's ``values`` (p, n) of coordinates with weights, along the fixed axes x and y; (p, 2)."""
+        total = np.zeros((len(self.times), 2))
+        for axis, kind in enumerate(("tower_x", "tower_y")):
+            if self.model.counts[kind]:
+                total[:, axis] = values[:, self.model.parts[kind]] @ weights
+        return self.from_plane(total)
+
+    @property
+    def amplitudes(self) -> dict[str, Floats]:
+        """Coordinates of each kind of mode, the tower's along the fixed axes; shapes (p, modes)."""
+        model, kinds = self.model, [kind for kind, count in self.model.counts.items() if count and kind != "slewing"]
+        found = {kind: self.coordinates[:, model.parts[kind]] for kind in kinds}
+        if model.axes == 2 and "tower_x" in found:
+            along = found.pop("tower_x")
+            c, s = np.cos(model.heading), np.sin(model.heading)
+            found = {"tower_x": c * along, "tower_y": s * along, **found}
+        return found
 
     def drive(self, channel: str, derivative: int = 0) -> Floats:
         """Value or derivative of a channel, zero if the model has none of that name; shape (p,)."""
@@ -85,11 +110,9 @@ class FlexibleMotion:
 
     def top(self, values: Floats) -> tuple[Floats, Floats]:
         """Translation of the tower's top along x and y, and its tilt vector, of coordinates or their derivatives."""
-        tower = ("tower_x", "tower_y")
-        u_x, u_y, tilt_x, tilt_y = (
-            self.along(row, tower, values) for row in (layout.SLIDE_X, layout.SLIDE_Y, layout.TILT_X, layout.TILT_Y)
-        )
-        return np.stack([u_x, u_y], axis=1), np.stack([tilt_x, tilt_y], axis=1)
+        crane = self.model.crane
+        slope = self.of_tower(crane.top_slope, values)
+        return self.of_tower(crane.tower(crane.tower_height), values), np.stack([-slope[:, 1], slope[:, 0]], axis=1)
 
     @cached_property
     def twist(self) -> Floats:
@@ -99,6 +122,8 @@ class FlexibleMotion:
     @cached_property
     def slewing(self) -> tuple[Floats, Floats]:
         """Slewing angle relative to the tower's top, and its rate."""
+        if self.model.slewing == "fixed":
+            return np.full(len(self.times), self.model.heading), np.zeros(len(self.times))
         if self.model.drive is None:
             return self.drive("slewing"), self.drive("slewing", 1)
         at = self.model.parts["slewing"].start

@@ -10,7 +10,7 @@ from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.outputs.energy import total_energy
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.cranes.tower.outputs.sections import SectionLoads
-from towercrane.cranes.tower.targets import OUT_OF_PLANE
+from towercrane.cranes.tower.targets import absent
 from towercrane.results.recording import Quantity, load_places
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 def observe(
     model: Equations, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
 ) -> dict[str, Quantity]:
-    """Outputs of a run; where all stays in the jib's plane, without those that are zero there.
+    """Outputs of a run; where all stays in the jib's plane, without those that tell nothing there.
 
     Parameters
     ----------
@@ -54,21 +54,16 @@ def observe(
             ),
         }.items()
     }
-    places = load_places(motion.load_in_space[0], motion.heading, "the undeformed tower top")
-    if model.axes == 2:
-        # There the axes that turn with the crane are the fixed ones.
-        del places["payload_in_crane_axes"]
-        outputs = {name: quantity for name, quantity in outputs.items() if name not in OUT_OF_PLANE}
-    outputs |= places
-    for kind, part in model.parts.items():
-        if model.counts[kind] and kind != "slewing":
-            outputs[f"{kind}_coordinate"] = Quantity(
-                ("time", f"{kind}_mode"),
-                motion.coordinates[:, part],
-                "kg^0.5 m",
-                f"amplitude of the mass-normalised modes: {kind.replace('_', ' ')}",
-            )
-    return outputs
+    outputs |= load_places(motion.load_in_space[0], motion.heading, "the undeformed tower top")
+    for kind, amplitudes in motion.amplitudes.items():
+        outputs[f"{kind}_coordinate"] = Quantity(
+            ("time", f"{kind}_mode"),
+            amplitudes,
+            "kg^0.5 m",
+            f"amplitude of the mass-normalised modes: {kind.replace('_', ' ')}",
+        )
+    missing = absent(model.heading) if model.axes == 2 else ()
+    return {name: quantity for name, quantity in outputs.items() if name not in missing}
 
 
 Entries = dict[str, tuple["Floats", str, str]]

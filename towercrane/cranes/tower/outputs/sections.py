@@ -147,19 +147,16 @@ class SectionLoads:
         height = crane.tower_height
         q, qdd = motion.coordinates, self.accelerations
         force[:, 2] += weight * crane.tower_mass
-        bent, swayed = np.zeros((len(force), 2)), np.zeros((len(force), 2))
-        for axis, kind, sign in ((0, "tower_x", 1.0), (1, "tower_y", -1.0)):
-            if model.counts[kind]:
-                part = parts[kind]
-                bent[:, axis] = q[:, part] @ zeroth
-                swayed[:, axis] = q[:, part] @ crane.tower.deflection_integrals()
-                force[:, axis] += qdd[:, part] @ zeroth
-                moment[:, 1 - axis] += sign * (qdd[:, part] @ (first + spin) - weight * bent[:, axis])
+        force[:, :2] += motion.of_tower(zeroth, qdd)
+        tipping = motion.of_tower(first + spin, qdd) - weight * motion.of_tower(zeroth, q)
+        moment[:, 0] -= tipping[:, 1]
+        moment[:, 1] += tipping[:, 0]
         if model.counts["tower_y"]:
             x, y = parts["tower_x"], parts["tower_y"]
             moment[:, 2] += np.einsum("ti,ij,tj->t", q[:, x], mass[y, y], qdd[:, y])
             moment[:, 2] -= np.einsum("ti,ij,tj->t", q[:, y], mass[x, x], qdd[:, x])
         moment[:, 2] += qdd[:, parts["torsion"]] @ crane.torsion.mass_moment()
         press = crane.tower_drag * np.linalg.norm(self.wind, axis=1)[:, None] * self.wind
+        swayed = motion.of_tower(crane.tower.deflection_integrals(), q)
         swept = np.column_stack([swayed, np.full(len(force), 0.5 * height**2)])
         return force - height * press, moment - np.cross(swept, press)
