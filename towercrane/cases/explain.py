@@ -7,16 +7,13 @@ from typing import TYPE_CHECKING, Any, Literal, Union, get_args, get_origin
 
 from towercrane.cases.kinds import known_to, of_kinds, plain_key
 from towercrane.cranes.registry import KINDS
-from towercrane.schema.faults import Fault, closest, shown
+from towercrane.schema.faults import Fault, closest, now_called, shown
 from towercrane.schema.fields import Quantity, Table, known_keys, tables
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
     from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
-
-FORMER = {"model.jib_modes": "jib_vertical_modes", "model.jib_damping_ratio": "jib_vertical_damping_ratio"}
-"""Keys that had other names, and what they are called."""
 
 SHOWS_KEYS = 12
 """At most so many known keys are listed in one message."""
@@ -67,9 +64,8 @@ def _unknown(key: str, detail: ErrorDetails, kind: str) -> tuple[Fault, str]:
     names = list(dict.fromkeys(n for t in _resolve(detail["loc"], kind)[1] for n in t.model_fields))
     elsewhere = known_to(plain_key(key))
     meant = closest(name, names) if kind in elsewhere or not elsewhere else None
-    if plain_key(key) in FORMER:
-        meant = FORMER[plain_key(key)]
-        hint = f'now called "{meant}"'
+    if former := now_called(name, names):
+        meant, hint = former, f'now called "{former}"'
     elif meant:
         hint = f'closest known key: "{meant}"'
     elif elsewhere and kind not in elsewhere:

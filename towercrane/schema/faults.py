@@ -11,6 +11,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
+FORMER = {
+    "jib_modes": "jib_vertical_modes",
+    "jib_damping_ratio": "jib_vertical_damping_ratio",
+    "swing_angle": "sway_radial",
+    "swing_angle_sideways": "sway_tangential",
+    "tower_coordinate": "tower_x_coordinate",
+    "jib_coordinate": "jib_vertical_coordinate",
+}
+"""What keys and outputs were called, and what they are called now."""
+
 LONGEST_LINE = 1000
 """Letters of a line of a message; paths may be long, what somebody sets longer."""
 
@@ -68,8 +78,16 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     return by_lower[found[0]] if found else None
 
 
+def now_called(word: str, known: Iterable[str]) -> str | None:
+    """The known word that a former name stands for, if it is one."""
+    return next((name for name in known if name == FORMER.get(word)), None)
+
+
 def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:
-    """Hint that names the closest known word, or ``otherwise`` if none is near."""
+    """Hint that names the new name of a former one, the closest known word, or ``otherwise`` if none is near."""
+    known = list(known)
+    if name := now_called(word, known):
+        return f'now called "{name}"'
     near = closest(word, known)
     return f'did you mean "{near}"?' if near else otherwise
 
