@@ -6,12 +6,14 @@ import json
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from samples.case_files import write_case
 from samples.program import towercrane
 
 from towercrane import load_case, run_case, sweep
 from towercrane.results import files as results
 from towercrane.runs.summary import peaks
 from towercrane.runs.sweep import grid
+from towercrane.schema.faults import CaseError
 
 SHORT = [
     "run.duration=8 s",
@@ -121,6 +123,23 @@ def test_series_on_demand(case):
 def test_values_that_do_not_fit_are_named(case, vary, words):
     with pytest.raises(ValueError, match="(?s)" + words):
         sweep(case, vary)
+
+
+def test_what_a_case_lacks_by_itself_may_vary(tmp_path):
+    path = write_case(tmp_path, ('mass = "800 kg"\n', ""), ("60 s", "2 s"))
+    data = sweep(path, {"payload.mass": [500.0, 900.0], "rope.length": [5.0, 99.0]})
+    assert (list(data["outcome"].values), data.attrs["changes"]) == (["finished", "bad input"], "[]")
+    assert_run(data, 0, load_case(path, ["payload.mass=500", "rope.length=5"]))
+    with pytest.raises(CaseError, match=r"^1 fault.*\n\n.*\n  wanted: a mass, .*\n  got:    \"5 m\""):
+        sweep(path, {"payload.mass": ["5 m"]})
+
+
+def test_the_command_varies_what_a_table_needs_that_another_option_makes(tmp_path):
+    options = ["--vary", "wind.speed=1,2", "--set", "wind.direction=180deg", "--set", "run.duration=1 s"]
+    done = towercrane("sweep", "qtz5613/condition-3", *options, "--out", str(tmp_path / "x"), "--json")
+    assert json.loads(done.stdout)["outcomes"] == {"finished": 2}
+    done = towercrane("sweep", "qtz5613/condition-3", *options, "--vary", "wind.upwards=1")
+    assert (done.returncode, done.stderr.count("got:")) == (2, 1)
 
 
 def test_grid_takes_all_combinations_the_last_key_fastest():

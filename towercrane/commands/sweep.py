@@ -54,9 +54,17 @@ def sweep(
 
     Writes sweep.nc, sweep.csv and a picture.
     """
-    task = begin(case, changes, as_json=as_json, notices=True)
+    written = _written(vary)
+    first = [f"{key}={text.partition(':')[0].partition(',')[0].strip()}" for key, text in written.items()]
+
+    def read(name: str, changes: list[str]) -> Case:
+        from towercrane.runs.variants import varied_case
+
+        return varied_case(name, changes, first)
+
+    task = begin(case, changes, as_json=as_json, notices=True, read=read)
     task.into(out, "sweep")
-    values = _values(task.case, vary)
+    values = _values(task.case, written, first)
     from towercrane.runs.sweep import grid
     from towercrane.runs.variants import lane_of
 
@@ -83,7 +91,21 @@ def sweep(
         raise typer.Exit(NOT_AS_EXPECTED)
 
 
-def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
+def _written(vary: list[str]) -> dict[str, str]:
+    """What is written of every key that is varied."""
+    found: dict[str, str] = {}
+    for option in vary:
+        key, sign, written = option.partition("=")
+        key = key.strip()
+        if not (key and sign and written.strip()):
+            fail(f"--vary {option}: wanted KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,..., such as rope.length=5m:20m:16")
+        if key in found:
+            fail(f"--vary {option}: the key stands in two options")
+        found[key] = written
+    return found
+
+
+def _values(case: Case, vary: dict[str, str], first: list[str]) -> dict[str, list[Any]]:
     """The values of every key that is varied."""
     from math import prod
 
@@ -92,17 +114,12 @@ def _values(case: Case, vary: list[str]) -> dict[str, list[Any]]:
     from towercrane.schema.units import UnitError, to_si
 
     values: dict[str, list[Any]] = {}
-    for option in vary:
-        key, sign, written = option.partition("=")
-        key = key.strip()
-        if not (key and sign and written.strip()):
-            fail(f"--vary {option}: wanted KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,..., such as rope.length=5m:20m:16")
-        if key in values:
-            fail(f"--vary {option}: the key stands in two options")
-        unit, parts = unit_of(case.kind, key), [part.strip() for part in written.split(":")]
+    for key, written in vary.items():
+        option, unit = f"{key}={written}", unit_of(case.kind, key)
+        parts = [part.strip() for part in written.split(":")]
         if not knows(case.kind, key):
             # The case itself tells best what is wrong with a key.
-            load_case(case.path, [*case.changes, f"{key}={parts[0].partition(',')[0]}"])
+            load_case(case.path, [*case.changes, *first])
         try:
             if len(parts) == 1:
                 given = [part.strip() for part in written.split(",")]

@@ -17,7 +17,7 @@ from towercrane.cranes.registry import KINDS
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import accuracy, peaks
 from towercrane.runs.sweep_data import Found, dataset
-from towercrane.runs.variants import Variants, change
+from towercrane.runs.variants import Variants, change, varied_case
 from towercrane.schema.faults import CaseError
 from towercrane.schema.units import UnitError, to_si
 from towercrane.simulation.outcomes import INTERRUPTED
@@ -84,8 +84,10 @@ def sweep(
     """
     if threads is not None and threads < 1:
         raise ValueError(f"threads: wanted one or more, got {threads!r}")
-    loaded = case if isinstance(case, Case) else load_case(case)
-    values = _read(loaded, vary)
+    given = _given(vary)
+    first = {key: change(key, values[0]) for key, values in given.items()}
+    loaded = case if isinstance(case, Case) else varied_case(case, (), list(first.values()))
+    values = {key: _read(loaded, key, column, first) for key, column in given.items()}
     found = Found(len(next(iter(values.values()))))
     variants = Variants(loaded, values)
     waiting = _one_by_one(variants, found, series, progress)
@@ -98,30 +100,34 @@ def sweep(
     return dataset(loaded, values, found)
 
 
-def _read(case: Case, vary: Mapping[str, Sequence[Value] | Floats]) -> dict[str, list[Value]]:
-    """The varied values in SI, all keys known."""
+def _given(vary: Mapping[str, Sequence[Value] | Floats]) -> dict[str, list[Value]]:
+    """The varied values as plain ones, equally many of each key."""
     counts = {key: len(given) for key, given in vary.items()}
     if not counts or len(set(counts.values())) != 1 or 0 in counts.values():
         raise ValueError(f"vary: wanted keys with equally many values, one or more, got {counts}")
-    values: dict[str, list[Value]] = {}
-    for key, given in vary.items():
-        plain = [value.item() if isinstance(value, np.generic) else value for value in given]
-        if not knows(case.kind, key):
-            # The message is the case's own.
-            load_case(case.path, [*case.changes, change(key, plain[0])])
-        unit = unit_of(case.kind, key)
-        values[key] = plain if unit is None else [_in_si(case, key, value, unit) for value in plain]
-    return values
+    return {
+        key: [value.item() if isinstance(value, np.generic) else value for value in given]
+        for key, given in vary.items()
+    }
 
 
-def _in_si(case: Case, key: str, value: Value, unit: str) -> float:
+def _read(case: Case, key: str, given: list[Value], first: dict[str, str]) -> list[Value]:
+    """The values of a key in SI; ``first`` are the overrides of the first run by key."""
+    unit = unit_of(case.kind, key)
+    if not knows(case.kind, key):
+        # The message is the case's own.
+        load_case(case.path, [*case.changes, *first.values()])
+    return given if unit is None else [_in_si(case, key, value, unit, first) for value in given]
+
+
+def _in_si(case: Case, key: str, value: Value, unit: str, first: dict[str, str]) -> float:
     """A value in SI; what is no number of a float is the fault of its run alone."""
     if isinstance(value, float) and not np.isfinite(value):
         return value
     try:
         return to_si(value, unit)
     except UnitError:
-        load_case(case.path, [*case.changes, change(key, value)])
+        load_case(case.path, [*case.changes, *(first | {key: change(key, value)}).values()])
         raise
 
 

@@ -19,6 +19,7 @@ from towercrane.schema.faults import CaseError
 from towercrane.simulation.methods.registry import METHODS
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Mapping, Sequence
 
     from towercrane.cases.case import Case
@@ -156,6 +157,29 @@ class Variants:
         if ROPE in self._quick:
             cut = cut.moved(model.channels.index("rope"), float(self._values[ROPE][run]))
         return dataclasses.replace(plain, lane=dataclasses.replace(lane, model=model, phases=cut))
+
+
+def varied_case(path: str | os.PathLike[str], changes: Sequence[str], varied: Sequence[str]) -> Case:
+    """The case whose values vary; what it lacks by itself it may take from the first run.
+
+    Parameters
+    ----------
+    path : path-like
+        What :func:`towercrane.load_case` takes.
+    changes : sequence of str
+        Its own overrides.
+    varied : sequence of str
+        Overrides of the first run.
+
+    Raises
+    ------
+    CaseError
+        If neither the case nor its first run can be read.
+    """
+    try:
+        return load_case(path, changes)
+    except CaseError:
+        return dataclasses.replace(load_case(path, [*changes, *varied]), changes=tuple(changes))
 
 
 def change(key: str, value: Value) -> str:

@@ -102,9 +102,17 @@ class Task:
         finish(report, tables, following, files, folder=self.folder, as_json=self.as_json, written=written)
 
 
-def begin(name: str, changes: list[str] | None, *, as_json: bool = False, notices: bool = False) -> Task:
+def begin(
+    name: str,
+    changes: list[str] | None,
+    *,
+    as_json: bool = False,
+    notices: bool = False,
+    read: Callable[[str, list[str]], Case] = load,
+) -> Task:
     """Load and check a case; say its notices where no report does."""
-    task = Task(name, changes or [], load(name, changes), as_json)
+    changes = changes or []
+    task = Task(name, changes, read(name, changes), as_json)
     if notices:
         task.say_notices()
     return task
