@@ -65,6 +65,15 @@ def is_near(lowest: float, highest: float, floor: float, part: float) -> bool:
     return bool(lowest < floor or lowest - floor < part * (highest - lowest))
 
 
+@kernel()
+def any_near(lowest: Any, highest: Any, floors: Any, part: float) -> bool:
+    """Whether one of the guards with these ranges in a step is that near to its floor."""
+    found = False
+    for g in range(floors.size):
+        found = found or is_near(lowest[g], highest[g], floors[g], part)
+    return found
+
+
 def first_fall(
     begin: float, end: float, dense: Callable[[Any], Floats], margins: Callable[[float, Floats], Floats]
 ) -> tuple[float, int] | None:

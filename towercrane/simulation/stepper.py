@@ -13,7 +13,7 @@ from numba import types
 
 from modal.compiler.compiled import kernel
 from towercrane.simulation.directions import longest_turn, restore
-from towercrane.simulation.guards import CLOSE, FEW_LOOKS, LOOKS, NARROWEST, NEAR, fallen, is_near, widen
+from towercrane.simulation.guards import CLOSE, FEW_LOOKS, LOOKS, NARROWEST, NEAR, any_near, fallen, widen
 from towercrane.simulation.system import rhs_signature
 
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
@@ -49,29 +49,20 @@ def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, ato
             continue
         active += 1
         scale = atol[m] + rtol * max(abs(y[m]), abs(new[m]))
-        estimate = 0.0
-        for i in range(stages):
-            estimate += error[0, i] * k[i, m]
-        first += (estimate / scale) * (estimate / scale)
-        if rows == 2:
+        for row in range(rows):
             estimate = 0.0
             for i in range(stages):
-                estimate += error[1, i] * k[i, m]
-            second += (estimate / scale) * (estimate / scale)
+                estimate += error[row, i] * k[i, m]
+            square = (estimate / scale) * (estimate / scale)
+            if row == 0:
+                first += square
+            else:
+                second += square
     if first == 0.0:
         return 0.0
     if rows == 2:
         return h * first / np.sqrt((first + 0.01 * second) * active)
     return h * np.sqrt(first / active)
-
-
-@kernel()
-def _near(lowest: Any, highest: Any, floors: Any, part: float) -> bool:
-    """Whether one of the guards with these ranges in a step is closer to its floor than that part of its range."""
-    found = False
-    for g in range(floors.size):
-        found = found or is_near(lowest[g], highest[g], floors[g], part)
-    return found
 
 
 @kernel()
@@ -214,7 +205,7 @@ def advance(
                 for m in range(y.size):
                     new[m] = trial[m]
                 norm = _error_norm(error, k, y, new, step, rtol, atol)
-                suspect = _near(lowest, highest, floors, NEAR)
+                suspect = any_near(lowest, highest, floors, NEAR)
                 wanted = counts[WRITTEN] < sample_times.size and sample_times[counts[WRITTEN]] <= t_new
                 # The stages beyond are for the dense output alone.
                 if not (norm <= 1.0 and (suspect or wanted)):
@@ -235,7 +226,7 @@ def advance(
                 rhs(t + x * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
                 counts[EVALUATIONS] += 1
                 widen(lowest, highest, guards)
-            suspect = _near(lowest, highest, floors, CLOSE)
+            suspect = any_near(lowest, highest, floors, CLOSE)
         low, high, crossed, anew = 0.0, 1.0 / LOOKS, -1, False
         while suspect:
             x = high if crossed < 0 else 0.5 * (low + high)
@@ -302,7 +293,4 @@ def evaluate(
 ) -> None:
     """Right-hand side and guards at many states of one phase; slopes and guards have a row per state."""
     for row in range(times.size):
-        rhs(
-            times[row], states[row], slopes[row], inputs,
-            numbers, vectors, matrices, tables, work, guards[row],
-        )  # fmt: skip
+        rhs(times[row], states[row], slopes[row], inputs, numbers, vectors, matrices, tables, work, guards[row])
