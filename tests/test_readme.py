@@ -14,7 +14,7 @@ from towercrane.results.measures import gap
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import summarise
 from towercrane.studies.lattice import lattice_report
-from towercrane.studies.sensitivity import OUTPUTS, study
+from towercrane.studies.sensitivity import STUDIED_OUTPUTS, study
 
 TOP = Path(__file__).parents[1]
 PAGES = (
@@ -148,7 +148,7 @@ def test_what_hardly_matters_to_the_laboratory_crane():
     says(cells("tower extension, jib")[1], 100.0 * rigid["rope"], 100.0 * rigid["jib_radial"])
     plain = record_case(case)
     moved = [record_case(load_case(case.path, [f"payload.drag={drag} kg/m"])) for drag in (0.04, 0.12)]
-    drag = {n: max(gap(plain, other, n) for other in moved) / largest(plain, n) for n in OUTPUTS}
+    drag = {n: max(gap(plain, other, n) for other in moved) / largest(plain, n) for n in STUDIED_OUTPUTS}
     damping = max(most[name] for name in vary[1:4])
     figures = (damping, most["drag_jib_tip"], max(drag.values()), drag["sway_radial"], most["drive_damping"])
     text = cells("damping and air drag")[1].partition("any output: ")[2]

@@ -19,7 +19,7 @@ def test_each_run_ends_as_a_second_method_says_and_keeps_its_energy(sample):
     found = [(scene, events.judged(scene)) for scene in sample]
     assert [record["why"] for _, record in found if record["why"]] == []
     assert {record["outcome"] for _, record in found} == {"finished", "slack rope"}
-    assert {scene.kind for scene in sample} == set(drawn_events.KINDS)
+    assert {scene.kind for scene in sample} == set(drawn_events.SCENE_KINDS)
     assert max(record["gap"] for _, record in found) < 1e-5
     assert max(record["difference"] for _, record in found) < 1e-4
 
@@ -53,5 +53,5 @@ def test_what_goes_wrong_is_named(sample, monkeypatch):
 def test_the_table_has_a_row_for_each_kind(monkeypatch):
     monkeypatch.setattr(events, "QUICK_RUNS", 7)
     subject = events.event_runs(quick=True)
-    assert [row[:2] for row in subject["rows"]] == [[kind, "1"] for kind in drawn_events.KINDS]
+    assert [row[:2] for row in subject["rows"]] == [[kind, "1"] for kind in drawn_events.SCENE_KINDS]
     assert subject["records"] == []

@@ -15,7 +15,7 @@ from towercrane.cases.plausibility import ranges_in
 from towercrane.cranes.registry import KINDS
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.kernels.layout import STIFFNESS
-from towercrane.cranes.tower.lanes import OUTPUTS
+from towercrane.cranes.tower.lanes import LANE_OUTPUTS
 from towercrane.results import files as results
 from towercrane.runs.summary import accuracy, peaks
 from towercrane.runs.sweep import grid
@@ -63,7 +63,7 @@ def assert_single_runs(case, vary):
         promised = accuracy(single)
         assert "accuracy" not in data or row["accuracy"].item() == (promised["outcome"] if promised else "")
         found_alone = peaks(single)
-        for name in OUTPUTS if "base_moment_y" in single and "slewing_torque" not in single else found_alone:
+        for name in LANE_OUTPUTS if "base_moment_y" in single and "slewing_torque" not in single else found_alone:
             found = found_alone[name]
             size = max(abs(found["maximum"]), abs(found["minimum"]), 1e-300)
             assert_allclose(row[f"{name}_max"], found["maximum"], rtol=0, atol=1e-12 * size)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from towercrane.schema.faults import shown
-from towercrane.schema.units import COMMON, KINDS, UnitError, registry, split, to_si, wanted
+from towercrane.schema.units import COMMON, QUANTITIES, UnitError, registry, split, to_si, wanted
 
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3, "in": 0.0254, "ft": 0.3048, "µm": 1e-6, "metre": 1.0}
 
@@ -61,13 +61,13 @@ def test_any_length_round_trips(metres, unit, space):
     assert to_si(text, "m") == pytest.approx(metres, rel=1e-14, abs=1e-300)
 
 
-@pytest.mark.parametrize("unit", KINDS)
+@pytest.mark.parametrize("unit", QUANTITIES)
 def test_each_kind_reads_its_own_example_and_a_plain_number(unit):
-    example = KINDS[unit][1]
+    example = QUANTITIES[unit][1]
     assert to_si(example, unit) > 0.0
     assert to_si(2, unit) == 2.0
     assert to_si(f"2 {unit}", unit) == 2.0 if unit != "1" else to_si("2", unit) == 2.0
-    assert KINDS[unit][0] in wanted(unit)
+    assert QUANTITIES[unit][0] in wanted(unit)
 
 
 def test_every_offered_unit_is_known():
@@ -111,7 +111,7 @@ WRONG = [
 def test_refuses_with_a_reason(value, unit, got, hint):
     with pytest.raises(UnitError) as caught:
         to_si(value, unit)
-    assert KINDS[unit][0] in caught.value.wanted
+    assert QUANTITIES[unit][0] in caught.value.wanted
     assert got in caught.value.got
     assert hint in caught.value.hint
     assert caught.value.wanted in str(caught.value)
@@ -154,7 +154,7 @@ def test_malformed_units_are_refused_at_once(unit):
 
 @given(
     st.one_of(st.text(max_size=40), st.text("0123456789.eE+-_ m/^*()kgs°%", max_size=30)),
-    st.sampled_from(sorted(KINDS)),
+    st.sampled_from(sorted(QUANTITIES)),
 )
 def test_any_text_is_read_or_refused(text, unit):
     try:

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from samples.qtz5613 import CRANE, in_plane, model, motions
 
 from modal import Chain, Foundation, Segment
-from towercrane.cranes.tower.lanes import OUTPUTS, PLANE_CRANES
+from towercrane.cranes.tower.lanes import LANE_OUTPUTS, PLANE_CRANES
 from towercrane.kernels.payload import Load
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases, rest, sequence
@@ -46,7 +46,7 @@ def assert_same(found, scenes, **options):
         assert found.accepted[number] == single.attrs["steps_accepted"]
         assert found.rejected[number] == single.attrs["steps_rejected"]
         assert np.array_equal(found.end_states[number], single.attrs["end_state"])
-        for output, name in zip(found.extremes[number], OUTPUTS, strict=True):
+        for output, name in zip(found.extremes[number], LANE_OUTPUTS, strict=True):
             values, times = single[name].values, single["time"].values
             size = max(np.max(abs(values)), 1e-300)
             assert_allclose(output[[0, 2]], [values.max(), values.min()], rtol=0, atol=1e-12 * size)
@@ -151,7 +151,7 @@ def test_series_are_those_of_single_runs():
         single = alone(*scene)
         rows = np.count_nonzero(np.isin(ROWS, single["time"].values))
         assert np.all(np.isnan(series[rows:]))
-        for column, name in zip(series[:rows].T, OUTPUTS, strict=True):
+        for column, name in zip(series[:rows].T, LANE_OUTPUTS, strict=True):
             values = single[name].values
             assert_allclose(column, values[:rows], rtol=0, atol=1e-12 * np.max(abs(values)))
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from samples.plane_crane import BENDING, FRAME, HEIGHT, REACH, TOWER
 
 from modal import Chain, EndBody, Foundation, Segment
-from towercrane.studies.plane_modes import LOADS, MEMBERS, OUTPUTS, PlaneCrane
+from towercrane.studies.plane_modes import LOADS, MEMBERS, STATIC_OUTPUTS, PlaneCrane
 
 COUNTER = Chain((Segment(12.0, 160.0, 5e8),), {1: EndBody(15000.0)})
 SPRUNG = replace(
@@ -24,7 +24,7 @@ SPRUNG = replace(
 
 
 def static(modes, load, output):
-    return modes.static[LOADS.index(load), OUTPUTS.index(output)]
+    return modes.static[LOADS.index(load), STATIC_OUTPUTS.index(output)]
 
 
 @pytest.mark.parametrize("position", [0.0, 5.0, 31.0, REACH])

@@ -52,7 +52,7 @@ def test_a_rigid_rope_is_the_limit_of_a_stiff_one():
 
 
 def test_what_is_read_off_a_rigid_member_is_gone():
-    assert "jib_moment_vertical" not in make_rigid(crane("enhanced").crane, ["jib_vertical"]).readings
+    assert "jib_moment_vertical" not in make_rigid(crane("enhanced").crane, ["jib_vertical"]).linear_outputs
     with pytest.raises(ValueError, match=r"wanted springs among tower_x.*got 'boom'"):
         make_rigid(crane("enhanced").crane, ["boom"])
 

@@ -119,10 +119,10 @@ def dataset(case: Case, values: Mapping[str, Sequence[Value]], found: Found) -> 
     for name, (units, words) in found.outputs.items():
         columns = np.array([of_run.get(name, unknown) for of_run in extremes])
         for column, ending in zip(columns.T, EXTREMES, strict=True):
-            kind = "largest" if ending.startswith("max") else "smallest"
-            about = {"units": units, "long_name": f"{kind} {words}"}
+            extreme = "largest" if ending.startswith("max") else "smallest"
+            about = {"units": units, "long_name": f"{extreme} {words}"}
             if ending.endswith("time"):
-                about = {"units": "s", "long_name": f"time of the {kind} {words}"}
+                about = {"units": "s", "long_name": f"time of the {extreme} {words}"}
             variables[f"{name}_{ending}"] = ("run", column, about)
     coordinates: dict[str, Any] = {"run": ("run", np.arange(1, count + 1))}
     if found.series:

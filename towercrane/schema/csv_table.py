@@ -52,7 +52,8 @@ class Column:
     name : str
         What messages call it.
     unit : str
-        SI unit, in which numbers are where the header states none; a key of :data:`towercrane.schema.units.KINDS`.
+        SI unit, in which numbers are where the header states none; a key of
+        :data:`towercrane.schema.units.QUANTITIES`.
     words : tuple of str
         Names in a header that mean this column wherever it stands; others stand in their order.
     """

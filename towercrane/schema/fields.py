@@ -22,7 +22,7 @@ class Quantity:
     Parameters
     ----------
     unit : str
-        SI unit, a key of :data:`towercrane.schema.units.KINDS`.
+        SI unit, a key of :data:`towercrane.schema.units.QUANTITIES`.
     above, least, most : float, optional
         Bounds that no physical or numerical sense survives beyond; ``above`` is itself excluded.
     """

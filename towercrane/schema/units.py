@@ -58,7 +58,7 @@ COMMON = (
 )
 """Units offered when one is unknown."""
 
-KINDS = {
+QUANTITIES = {
     "m": ("a length", "18 m"),
     "m^2": ("an area", "8 cm^2"),
     "m^4": ("a second moment of area", "0.014 m^4"),
@@ -148,9 +148,9 @@ def registry() -> pint.UnitRegistry[float]:
 
 def wanted(unit: str) -> str:
     """What a quantity in the SI unit ``unit`` is called, with an example."""
-    kind, example = KINDS[unit]
+    name, example = QUANTITIES[unit]
     return (
-        f"{kind}, such as {example}" if unit == "1" else f'{kind}, such as "{example}" (a plain number is in {unit})'
+        f"{name}, such as {example}" if unit == "1" else f'{name}, such as "{example}" (a plain number is in {unit})'
     )
 
 
@@ -189,7 +189,7 @@ def to_si(value: object, unit: str) -> float:
     value : str or float
         Text with a unit, such as ``"18 m"``, or a number that is in SI already.
     unit : str
-        One of `KINDS`.
+        One of `QUANTITIES`.
 
     Raises
     ------
@@ -249,9 +249,9 @@ def _parse(value: str, text: str, unit: str) -> pint.Unit:
 
 def _kind(unit: pint.Unit) -> str:
     """A unit's dimension in words."""
-    for known, (kind, _) in KINDS.items():
+    for known, (name, _) in QUANTITIES.items():
         if known != "1" and registry().Unit(known).dimensionality == unit.dimensionality:
-            return kind
+            return name
     if unit.dimensionless:
         return "a ratio"
     return "a quantity in " + format(registry().get_base_units(unit)[1], "~C").replace("**", "^")

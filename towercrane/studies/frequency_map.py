@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.studies.branches import Branches, follow
-from towercrane.studies.plane_modes import LOADS, MEMBERS, OUTPUTS, PlaneCrane, PlaneModes
+from towercrane.studies.plane_modes import LOADS, MEMBERS, STATIC_OUTPUTS, PlaneCrane, PlaneModes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -35,7 +35,7 @@ DOUBTFUL = 0.5
 
 FINISHED, TOWER_BUCKLED = "finished", "tower buckled"
 
-KINDS = {
+MODE_NAMES = {
     "tower": "tower bending",
     "jib": "jib bending",
     "counter-jib": "counter-jib bending",
@@ -212,9 +212,9 @@ def _dataset(places: Floats, masses: Floats, modes: int, scans: dict[int, _Scan]
             {"units": "1", "long_name": "modal assurance criterion with the position before"},
         ),
     }  # fmt: skip
-    modal = stacked(lambda s: s.table(lambda m: m.modal_static, modes), modes, len(LOADS), len(OUTPUTS))
-    static = stacked(lambda s: np.array([m.static for m in s.branches.spectra]), len(LOADS), len(OUTPUTS))
-    for k, name in enumerate(OUTPUTS):
+    modal = stacked(lambda s: s.table(lambda m: m.modal_static, modes), modes, len(LOADS), len(STATIC_OUTPUTS))
+    static = stacked(lambda s: np.array([m.static for m in s.branches.spectra]), len(LOADS), len(STATIC_OUTPUTS))
+    for k, name in enumerate(STATIC_OUTPUTS):
         words = f"{LONG_NAMES[name]} under a unit force on the trolley"
         variables[f"modal_{name}"] = (
             (*along, "load"), modal[..., k], {"units": UNITS[name], "long_name": f"the mode's part in the {words}"},
@@ -256,7 +256,7 @@ def branch_names(frequency: Floats, shares: Floats) -> list[str]:
     names = []
     for k in range(count):
         rank = int(((most == most[k]) & (height < height[k])).sum())
-        kind = KINDS[MEMBERS[most[k]]]
+        name = MODE_NAMES[MEMBERS[most[k]]]
         ordinal = ORDINALS[rank] if rank < len(ORDINALS) else f"{rank + 1}th"
-        names.append(kind if kind == KINDS["load"] and rank == 0 else f"{ordinal} {kind}")
+        names.append(name if name == MODE_NAMES["load"] and rank == 0 else f"{ordinal} {name}")
     return names

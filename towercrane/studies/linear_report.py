@@ -57,14 +57,14 @@ def linear_report(case: Case, at: float, linear: StateSpace) -> dict[str, Any]:
         }
         for value, frequency, ratio, state in linear.eigenvalues()
     ]
-    kinds = {
+    listed = {
         "states": (linear.states, point.states),
         "inputs": (linear.inputs, point.inputs),
         "outputs": (linear.outputs, point.outputs),
     }
-    for kind, (signals, values) in kinds.items():
+    for name, (signals, values) in listed.items():
         pairs = zip(signals, values.tolist(), strict=True)
-        report[kind] = [{"name": signal.name, "units": signal.units, "value": value} for signal, value in pairs]
+        report[name] = [{"name": signal.name, "units": signal.units, "value": value} for signal, value in pairs]
     report["slope"] = point.slope.tolist()
     report["equilibrium"], report["rope_inclination_rad"] = linear.at_equilibrium, point.inclination
     for name in "ABCD":

@@ -13,7 +13,7 @@ from towercrane.cranes.tower.file.requests import left_out_in_plane
 from towercrane.results.versions import versions
 from towercrane.runs.summary import assumed
 from towercrane.studies.frequency_map import FINISHED, doubtful_steps
-from towercrane.studies.plane_modes import LOADS, OUTPUTS
+from towercrane.studies.plane_modes import LOADS, STATIC_OUTPUTS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -92,7 +92,7 @@ def _contribution(mode: xr.Dataset) -> dict[str, dict[str, float | None]]:
     shares: dict[str, dict[str, float | None]] = {}
     for load in LOADS:
         one = mode.sel(load=load)
-        totals = {name: float(one[f"static_{name}"]) for name in OUTPUTS}
+        totals = {name: float(one[f"static_{name}"]) for name in STATIC_OUTPUTS}
         shares[load] = {
             name: float(one[f"modal_{name}"]) / total if total != 0.0 else None for name, total in totals.items()
         }
@@ -111,7 +111,7 @@ def csv_text(data: xr.Dataset) -> str:
     scalars = ["frequency", "shape_agreement"]
     split = [
         ("energy_share", "member"),
-        *((f"{kind}_{name}", "load") for name in OUTPUTS for kind in ("modal", "static")),
+        *((f"{part}_{name}", "load") for name in STATIC_OUTPUTS for part in ("modal", "static")),
     ]
     header = ["payload [kg]", "position [m]", "mode", "branch"]
     header += [f"{name} [{data[name].attrs['units']}]" for name in scalars]

@@ -35,7 +35,7 @@ MEMBERS = ("tower", "jib", "counter-jib", "foundation", "load")
 LOADS = ("vertical", "horizontal")
 """Unit forces on the trolley, down and outward."""
 
-OUTPUTS = ("tower_tip", "jib_tip", "base_moment")
+STATIC_OUTPUTS = ("tower_tip", "jib_tip", "base_moment")
 """Tower top outward [m], jib end down [m], bending moment at the tower's foot [N m], positive like the moment of an
 outward force at the top."""
 
@@ -256,7 +256,7 @@ class PlaneModes:
 
     @cached_property
     def outputs(self) -> Floats:
-        """`OUTPUTS` per modal coordinate [kg^-1/2], [kg^-1/2], [N m/(kg^1/2 m)]; shape (n, 3)."""
+        """`STATIC_OUTPUTS` per modal coordinate [kg^-1/2], [kg^-1/2], [N m/(kg^1/2 m)]; shape (n, 3)."""
         parts = self.modes.parts
         tip = -parts["jib"].evaluate(self.crane.jib.length)
         return np.stack([self._top, tip, parts["tower"].evaluate(0.0, MOMENT)], axis=1)

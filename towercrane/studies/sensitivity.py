@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-OUTPUTS = ("sway_tangential", "sway_radial", "jib_moment_horizontal", "jib_moment_vertical", "drive_torque")
+STUDIED_OUTPUTS = ("sway_tangential", "sway_radial", "jib_moment_horizontal", "jib_moment_vertical", "drive_torque")
 """What the study looks at."""
 
 PERCENT = tuple(range(0, 201, 20))
@@ -107,7 +107,7 @@ def study(
     duration: float,
     *,
     vary: Sequence[str] | None = None,
-    outputs: Sequence[str] = OUTPUTS,
+    outputs: Sequence[str] = STUDIED_OUTPUTS,
     percent: Sequence[float] = PERCENT,
     tolerance: float = TOLERANCE,
     output_step: float = 0.1,

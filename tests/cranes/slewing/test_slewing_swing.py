@@ -78,7 +78,7 @@ def arm_alone(inertia: float, stiffness: float) -> LumpedModel:
             inertias={"platform_angle": inertia},
             suspension="tip",
             jib_angle="platform_angle",
-            readings={},
+            linear_outputs={},
         ),
         Load(50.5),
     )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.bench.clock import short
-from towercrane.bench.scenes.drawn_events import KINDS, TICK, event_scenes
+from towercrane.bench.scenes.drawn_events import SCENE_KINDS, TICK, event_scenes
 from towercrane.runs.summary import energy_balance
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED, SLACK_ROPE
 from towercrane.simulation.simulate import record
@@ -42,7 +42,7 @@ def event_runs(quick: bool) -> dict[str, Any]:
         ``why``.
     """
     count = QUICK_RUNS if quick else RUNS
-    found: dict[str, list[dict[str, Any]]] = {kind: [] for kind in KINDS}
+    found: dict[str, list[dict[str, Any]]] = {kind: [] for kind in SCENE_KINDS}
     began = time.process_time()
     for number, scene in enumerate(event_scenes(count, SEED)):
         found[scene.kind].append({"number": number, "kind": scene.kind, **judged(scene)})

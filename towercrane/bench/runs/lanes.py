@@ -13,7 +13,7 @@ from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
-from towercrane.cranes.tower.lanes import OUTPUTS, PLANE_CRANES
+from towercrane.cranes.tower.lanes import LANE_OUTPUTS, PLANE_CRANES
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import evaluate, integrate
@@ -84,7 +84,7 @@ def many_runs(repeats: int) -> dict[str, Any]:
             f"{LANES} lanes; every way finds the extremes of four outputs among 2401 rows, start included",
             f"lanes beside the loop: extremes differ by {same:.0e} of the largest",
             "off runs at rtol 1e-11, lanes as loop: " + ", ".join(
-                f"{name.replace('_', ' ')} {short(error)}" for name, error in zip(OUTPUTS, errors, strict=True)
+                f"{name.replace('_', ' ')} {short(error)}" for name, error in zip(LANE_OUTPUTS, errors, strict=True)
             ),
         ],
     }  # fmt: skip

@@ -55,7 +55,7 @@ def event_scenes(count: int, seed: int) -> Iterator[EventScene]:
     """As many scenes as wanted, all kinds in turn; the same seed gives the same."""
     rng = np.random.default_rng(seed)
     for number in range(count):
-        kind = KINDS[number % len(KINDS)]
+        kind = SCENE_KINDS[number % len(SCENE_KINDS)]
         model, motions = _MAKERS[kind](rng)
         state = "zero" if rng.random() < 0.2 else "equilibrium"
         swing = float(rng.uniform(-1.7, 1.7)) if rng.random() < 0.3 else 0.0
@@ -183,5 +183,5 @@ _MAKERS: dict[str, Callable[[np.random.Generator], tuple[Model, dict[str, Motion
     "jib": _jib,
 }
 
-KINDS = tuple(_MAKERS)
+SCENE_KINDS = tuple(_MAKERS)
 """Kinds of scenes, in the order in which they are drawn."""

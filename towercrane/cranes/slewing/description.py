@@ -127,7 +127,7 @@ class Drive:
 
 
 @dataclass(frozen=True)
-class Reading:
+class LinearOutput:
     """Output that is linear in coordinates and rates.
 
     Parameters
@@ -164,7 +164,7 @@ class LumpedCrane:
         Point that the rope hangs from.
     jib_angle : str
         Coordinate that turns with the jib: sway is measured along and across it.
-    readings : mapping of str to Reading
+    linear_outputs : mapping of str to LinearOutput
     rope_stiffness, rope_damping : float
         Of an elastic rope [N/m, N s/m]; zero: inextensible.
     gravity : float
@@ -179,7 +179,7 @@ class LumpedCrane:
     inertias: Row
     suspension: str
     jib_angle: str
-    readings: Mapping[str, Reading]
+    linear_outputs: Mapping[str, LinearOutput]
     steady_force: Row = field(default_factory=dict)
     rope_stiffness: float = 0.0
     rope_damping: float = 0.0

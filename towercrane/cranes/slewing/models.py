@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from towercrane.cranes.slewing.description import Drive, Link, LumpedCrane, Point, Reading, Spring
+from towercrane.cranes.slewing.description import Drive, LinearOutput, Link, LumpedCrane, Point, Spring
 
 if TYPE_CHECKING:
     from towercrane.cranes.slewing.parameters import BasicParameters, EnhancedParameters, MultiMassParameters
@@ -67,11 +67,11 @@ def enhanced(p: EnhancedParameters | MultiMassParameters) -> LumpedCrane:
         steady_force={TOWER_X: -slope * p.gravity * counter_moment},
         suspension="jib tip",
         jib_angle=JIB,
-        readings={
-            "jib_moment_horizontal": Reading(
+        linear_outputs={
+            "jib_moment_horizontal": LinearOutput(
                 "N m", "moment of the jib's lateral spring", {JIB: lateral, TOWER: -lateral}
             ),
-            "jib_moment_vertical": Reading(
+            "jib_moment_vertical": LinearOutput(
                 "N m", "moment of the jib's vertical spring, positive under load", {JIB_Z: -reach * vertical}
             ),
         },
@@ -140,9 +140,9 @@ def basic(p: BasicParameters) -> LumpedCrane:
         inertias={PLATFORM: p.inertia_platform},
         suspension="jib tip",
         jib_angle=PLATFORM,
-        readings={
-            "jib_moment_horizontal": Reading("N m", "moment of the jib's lateral spring", {y: reach * lateral}),
-            "jib_moment_vertical": Reading(
+        linear_outputs={
+            "jib_moment_horizontal": LinearOutput("N m", "moment of the jib's lateral spring", {y: reach * lateral}),
+            "jib_moment_vertical": LinearOutput(
                 "N m", "moment of the jib's vertical spring, positive under load", {z: -reach * vertical}
             ),
         },

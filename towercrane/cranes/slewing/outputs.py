@@ -68,9 +68,9 @@ def observe(
         "rope_length": over_time(length, "m", "length of the unstretched rope"),
         "rope_tension": over_time(tension, "N", "rope tension"),
     }
-    for name, reading in crane.readings.items():
-        values = q @ crane.row(reading.of)[:-1] + qd @ crane.row(reading.of_rates)[:-1]
-        outputs[name] = over_time(values, reading.units, reading.long_name)
+    for name, output in crane.linear_outputs.items():
+        values = q @ crane.row(output.of)[:-1] + qd @ crane.row(output.of_rates)[:-1]
+        outputs[name] = over_time(values, output.units, output.long_name)
     for i, name in enumerate(crane.coordinates):
         unit = "rad" if name in crane.angles else "m"
         outputs[name] = over_time(q[:, i], unit, f"coordinate: {name.replace('_', ' ')}")

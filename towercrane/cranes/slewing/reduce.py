@@ -71,9 +71,9 @@ def _without(crane: LumpedCrane, stretch: Row) -> LumpedCrane:
         )
         for label, point in crane.points.items()
     }
-    readings = {
-        label: replace(reading, of=row(reading.of), of_rates=row(reading.of_rates))
-        for label, reading in crane.readings.items()
+    linear_outputs = {
+        label: replace(output, of=row(output.of), of_rates=row(output.of_rates))
+        for label, output in crane.linear_outputs.items()
     }
     return replace(
         crane,
@@ -84,6 +84,8 @@ def _without(crane: LumpedCrane, stretch: Row) -> LumpedCrane:
         inertias=row(crane.inertias),
         steady_force=row(crane.steady_force),
         jib_angle=name_of(crane.jib_angle),
-        # What was read off the stretch of a member that is rigid now has no reading any more.
-        readings={label: r for label, r in readings.items() if any(r.of.values()) or any(r.of_rates.values())},
+        # What was read off the stretch of a member that is rigid now has no output any more.
+        linear_outputs={
+            label: r for label, r in linear_outputs.items() if any(r.of.values()) or any(r.of_rates.values())
+        },
     )

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-OUTPUTS = {
+LANE_OUTPUTS = {
     "tower_tip_displacement": ("m", "horizontal displacement of the tower top, positive outward"),
     "jib_tip_deflection": ("m", "deflection of the jib tip from the tilted straight jib, positive up"),
     "sway_radial": ("rad", "sway along the jib, positive outward"),
@@ -38,7 +38,7 @@ OUTPUTS = {
 def observed(watched: Floats, states: Floats, guards: Floats) -> Floats:
     """The same outputs in rows of states; shape (rows, outputs)."""
     n = watched.shape[2]
-    values = np.empty((len(states), len(OUTPUTS)))
+    values = np.empty((len(states), len(LANE_OUTPUTS)))
     values[:, [TOWER_TIP, JIB_TIP]] = np.einsum("roi,ri->ro", watched, states[:, :n])
     values[:, SWING] = np.arctan2(states[:, n], -states[:, n + 1])
     values[:, TENSION] = guards[:, layout.TENSION]
@@ -102,7 +102,7 @@ def _alike(model: FlexibleModel) -> str:
 PLANE_CRANES = LaneCrane(
     rhs=rhs,
     observe=observe,
-    outputs=OUTPUTS,
+    outputs=LANE_OUTPUTS,
     watched=_tips,
     observed=observed,
     energy=energy,

@@ -103,10 +103,10 @@ def sweep_tables(report: dict[str, Any]) -> None:
         "output", "", "value", "unit", *(f"{key} [{units[key]}]" for key in keys), left=2,
     )  # fmt: skip
     for name, found in report["extremes"].items():
-        for kind in ("largest", "smallest"):
-            value = found[kind]
+        for extreme in ("largest", "smallest"):
+            value = found[extreme]
             at = [f"{v:.5g}" if isinstance(v, float) else str(v) for v in value["at"].values()]
-            table.add_row(name.replace("_", " "), kind, f"{value['value']:.5g}", found["units"], *at)
+            table.add_row(name.replace("_", " "), extreme, f"{value['value']:.5g}", found["units"], *at)
     console.print(table)
     console.print(f"{report['seconds']:.2f} s, {report['runs_per_second']:.3g} runs per second")
     for bad in report["faults"][:MOST_FAULTS]:

@@ -58,9 +58,9 @@ def _lines(axes: Axes, data: xr.Dataset, key: str, name: str) -> None:
     order = np.argsort(data[key.replace(".", "_")].values)
     x, early = data[key.replace(".", "_")].values[order], _early(data)[order]
     factor, unit = _shown(data, name)
-    for colour, dash, kind in zip(COLOURS, ("-", "--"), ("max", "min"), strict=False):
-        values = factor * data[f"{name}_{kind}"].values[order]
-        label = {"max": "largest", "min": "smallest"}[kind]
+    for colour, dash, end in zip(COLOURS, ("-", "--"), ("max", "min"), strict=False):
+        values = factor * data[f"{name}_{end}"].values[order]
+        label = {"max": "largest", "min": "smallest"}[end]
         axes.plot(x, values, dash, color=colour, lw=1.2, label=label)
         axes.plot(x[early], values[early], "x", color=colour, ms=5)
     axes.set(xlabel=_label(data, key), ylabel=f"{name.replace('_', ' ')} [{unit}]")
