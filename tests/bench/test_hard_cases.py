@@ -1,10 +1,9 @@
 """Hard cases: each comes to what it expects, and what does not is never silent."""
 
 import json
-import subprocess
-import sys
 
 import pytest
+from samples.program import towercrane
 
 from towercrane.bench.runs import hard
 from towercrane.cases.case import CaseError, list_cases, load_case
@@ -108,10 +107,8 @@ def test_expect_is_a_checked_table():
 @pytest.mark.parametrize(("changes", "code"), [((), 3), (("expect.outcome=finished",), 1)])
 def test_run_ends_with_the_code_of_what_it_came_to(tmp_path, changes, code):
     options = [part for change in changes for part in ("--set", change)]
-    command = [sys.executable, "-m", "towercrane.cli", "run", "hard/slack-while-lowering", "--no-pictures", "--json"]
-    done = subprocess.run(
-        [*command, "--out", str(tmp_path), *options], capture_output=True, encoding="utf-8", check=False
-    )
+    command = ("run", "hard/slack-while-lowering", "--no-pictures", "--json", "--out", str(tmp_path))
+    done = towercrane(*command, *options)
     assert done.returncode == code, done.stderr
     assert json.loads(done.stdout)["expected"]["met"] is (code == 3)
     assert ("expected the outcome" in done.stderr) is (code == 1)

@@ -1,13 +1,11 @@
 """Linear models as files and on the command line, and the differences that they are made of."""
 
 import json
-import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from samples.program import towercrane
 from samples.qtz5613 import model, standing
 from scipy.io import loadmat
 
@@ -112,14 +110,8 @@ def test_wrong_arguments_are_named(change, message):
 # --- the command ---------------------------------------------------------------------------------------
 
 
-def towercrane(*arguments, cwd):
-    command = [sys.executable, "-m", "towercrane.cli", "linearise", *arguments]
-    environment = {**os.environ, "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"}
-    return subprocess.run(command, capture_output=True, encoding="utf-8", cwd=cwd, env=environment, check=False)
-
-
 def test_command_prints_writes_and_says_what_is_next(tmp_path):
-    done = towercrane("qtz5613/condition-3", "--at", "20", "--out", "out/crane.mat", cwd=tmp_path)
+    done = towercrane("linearise", "qtz5613/condition-3", "--at", "20", "--out", "out/crane.mat", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     linear = linear_model(load_case("qtz5613/condition-3"), 20.0)
     assert "trolley 17.8 m, rope 18 m" in done.stdout
@@ -133,7 +125,7 @@ def test_command_prints_writes_and_says_what_is_next(tmp_path):
 
 
 def test_command_in_json(tmp_path):
-    done = towercrane("qtz5613/condition-3", "--json", cwd=tmp_path)
+    done = towercrane("linearise", "qtz5613/condition-3", "--json", cwd=tmp_path)
     report = json.loads(done.stdout)
     assert report["states"][0] == {
         "name": "tower_x_mode_1",
@@ -147,10 +139,10 @@ def test_command_in_json(tmp_path):
 
 
 def test_command_refuses_what_it_cannot_do(tmp_path):
-    done = towercrane("qtz5613/condition-3", "--out", "crane.txt", cwd=tmp_path)
+    done = towercrane("linearise", "qtz5613/condition-3", "--out", "crane.txt", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (2, "--out crane.txt: wanted a file that ends in .mat or .npz\n")
-    assert towercrane("qtz5613/condition-3", "--at", "nan", cwd=tmp_path).returncode == 2
+    assert towercrane("linearise", "qtz5613/condition-3", "--at", "nan", cwd=tmp_path).returncode == 2
     soft = ("--set", "model.weight_softening=true", "--set", "crane.tower.second_moment_of_area=0.0002 m^4")
-    done = towercrane("qtz5613/condition-3", *soft, cwd=tmp_path)
+    done = towercrane("linearise", "qtz5613/condition-3", *soft, cwd=tmp_path)
     assert done.returncode == 3, done.stderr
     assert "tower buckled" in done.stderr

@@ -1,13 +1,12 @@
 """General towers behind the door: frequencies, runs, linear models and reports of what case files describe."""
 
 import json
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from samples.program import towercrane
 from samples.qtz5613 import in_plane
 from samples.tower_files import ONE_SEGMENT, SEGMENTS, UNIFORM, write_case
 
@@ -167,8 +166,7 @@ def test_small_slopes_are_judged_by_the_whole_tower():
 
 
 def test_a_segmented_tower_on_the_command_line(tmp_path):
-    command = [sys.executable, "-m", "towercrane.cli", "run", "towers/stepped", "--set", "run.duration=3 s"]
-    done = subprocess.run([*command, "--out", str(tmp_path)], capture_output=True, text=True, check=False)
+    done = towercrane("run", "towers/stepped", "--set", "run.duration=3 s", "--out", str(tmp_path))
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "modes.png").stat().st_size > 10_000
     assert json.loads((tmp_path / "summary.json").read_text("utf-8"))["outcome"] == "finished"
