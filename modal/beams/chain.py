@@ -191,10 +191,7 @@ class Chain:
 
     def section(self, positions: Floats, name: str) -> Floats:
         """A property of the section, by the name of the segments' field, at positions along the chain."""
-        power = {"mass_per_length": "mass_power", "shear_stiffness": "shear_power"}.get(name, "bending_power")
-        return self._each(
-            positions, lambda one, distance: getattr(one, name) * one.breadth(distance) ** getattr(one, power)
-        )
+        return self._each(positions, lambda one, distance: one.section(name, distance))
 
     def incline(self, positions: Floats) -> Floats:
         """Change of the breadth over the breadth where chords are inclined, else 0, at positions [1/m]."""

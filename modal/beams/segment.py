@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,6 +43,9 @@ class Segment:
     inclined_chords : bool
         Whether the moment is carried by chords the breadth apart. Where they draw together they carry a part of the
         shear as well: the shear stiffness S strains under ``V + M b'/b`` with the breadth b.
+    mass_flexibility : float
+        How far the mass is moved from the axis per inertia force per length on it, c at the near end [m^2/N]; it goes
+        with the breadth. With the frequency w the mass m moves as the deflection does, times ``1 / (1 - c m w^2)``.
 
     Raises
     ------
@@ -60,12 +63,13 @@ class Segment:
     bending_power: float = 2.0
     shear_power: float = 0.0
     inclined_chords: bool = False
+    mass_flexibility: float = 0.0
 
     def __post_init__(self) -> None:
         check_fields(
             self,
             positive=("length", "mass_per_length", "bending_stiffness", "end_ratio"),
-            not_negative=("rotary_inertia", "mass_power", "bending_power"),
+            not_negative=("rotary_inertia", "mass_power", "bending_power", "mass_flexibility"),
         )
         number_in("Segment.shear_stiffness", self.shear_stiffness, "a positive number", least=SMALLEST, most=inf)
         number_in("Segment.shear_power", self.shear_power, "a finite number")
@@ -75,9 +79,23 @@ class Segment:
         """Total mass [kg]."""
         return float(self.mass_within(np.asarray(self.length)))
 
+    @property
+    def mass_frequency(self) -> float:
+        """Angular frequency of the mass on its flexibility alone [rad/s], the lowest; no mode of bending has more."""
+        if self.mass_flexibility == 0.0:
+            return inf
+        broadest = max(1.0, self.end_ratio) ** (1.0 + self.mass_power)
+        return 1.0 / sqrt(self.mass_flexibility * self.mass_per_length * broadest)
+
     def breadth(self, distance: Floats) -> Floats:
         """Breadth at distances from the near end over that at the near end [1]."""
         return 1.0 + (self.end_ratio - 1.0) * distance / self.length
+
+    def section(self, name: str, distance: Floats) -> Floats:
+        """A property of the section, by the name of its field, at distances from the near end."""
+        powers = {"mass_per_length": self.mass_power, "shear_stiffness": self.shear_power, "mass_flexibility": 1.0}
+        value: Floats = getattr(self, name) * self.breadth(distance) ** powers.get(name, self.bending_power)
+        return value
 
     def mass_within(self, distance: Floats) -> Floats:
         """Mass between the near end and distances from it [kg]."""
@@ -102,7 +120,7 @@ class Segment:
         powers = self.mass_power, self.bending_power, self.shear_power, self.inclined_chords
         near = Segment(
             distance, self.mass_per_length, self.bending_stiffness, self.shear_stiffness, self.rotary_inertia,
-            breadth, *powers,
+            breadth, *powers, self.mass_flexibility,
         )  # fmt: skip
         far = Segment(
             self.length - distance,
@@ -112,5 +130,6 @@ class Segment:
             self.rotary_inertia * breadth**self.bending_power,
             self.end_ratio / breadth,
             *powers,
+            self.mass_flexibility * breadth,
         )
         return near, far

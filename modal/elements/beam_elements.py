@@ -89,10 +89,21 @@ class Elements:
     shear: bool
     shear_theory: ShearTheory
 
+    def __post_init__(self) -> None:
+        if self._moved and not self.shear:
+            raise ValueError("members: wanted shear strain where mass moves beyond the axis, got none")
+
     @property
     def inner(self) -> int:
         """Unknowns inside an element."""
-        return 2 * DEFLECTION_DEGREE - 3 if self.shear else 0
+        if not self.shear:
+            return 0
+        return 2 * DEFLECTION_DEGREE - 3 + (DEFLECTION_DEGREE + 1) * self._moved
+
+    @cached_property
+    def _moved(self) -> bool:
+        """Whether the mass moves beyond the axis; the force on it is then a third field, which may jump."""
+        return any(member.segment.mass_flexibility > 0.0 for member in self.members)
 
     @cached_property
     def _length(self) -> Floats:
@@ -101,14 +112,17 @@ class Elements:
 
     @cached_property
     def _basis(self) -> Any:
-        from skfem import Basis, ElementLineHermite, ElementLinePp, MeshLine
+        from skfem import Basis, ElementDG, ElementLineHermite, ElementLinePp, MeshLine
         from skfem.element import ElementComposite
 
         n = len(self.members)
         mesh = MeshLine(np.tile([0.0, 1.0], n)[np.newaxis], np.arange(2 * n).reshape(n, 2).T)
         element = ElementLineHermite()
         if self.shear:
-            element = ElementComposite(ElementLinePp(DEFLECTION_DEGREE), ElementLinePp(DEFLECTION_DEGREE - 1))
+            fields = [ElementLinePp(DEFLECTION_DEGREE), ElementLinePp(DEFLECTION_DEGREE - 1)]
+            if self._moved:
+                fields.append(ElementDG(ElementLinePp(DEFLECTION_DEGREE)))
+            element = ElementComposite(*fields)
         return Basis(mesh, element, intorder=QUADRATURE_ORDER)
 
     @cached_property
@@ -120,12 +134,9 @@ class Elements:
     def _column(self, values: Callable[[Member], float]) -> Floats:
         return np.array([values(member) for member in self.members])[:, np.newaxis]
 
-    def _property(self, name: str, power: str) -> Floats:
+    def _property(self, name: str) -> Floats:
         """A property of the section at the quadrature points, shape (n, q)."""
-        ratio = self._column(lambda member: member.segment.end_ratio)
-        breadth = 1.0 + (ratio - 1.0) * self._depth / self._length
-        powers = self._column(lambda member: float(getattr(member.segment, power)))
-        return self._column(lambda member: float(getattr(member.segment, name))) * breadth**powers
+        return np.array([m.segment.section(name, z) for m, z in zip(self.members, self._depth, strict=True)])
 
     @cached_property
     def _incline(self) -> Floats:
@@ -164,34 +175,47 @@ class Elements:
         from skfem.helpers import dd
 
         h = self._length
-        bending = self._property("bending_stiffness", "bending_power")
+        bending = self._property("bending_stiffness")
         if not self.shear:
             return self._matrices(lambda u, v, _: bending / h**3 * dd(u)[0, 0] * dd(v)[0, 0])
-        stiffness = self._property("shear_stiffness", "shear_power")
-
-        incline = self._incline
+        stiffness = self._property("shear_stiffness")
+        incline, moved = self._incline, self._property("mass_flexibility")
 
         def energy(u: Any, theta: Any, v: Any, tau: Any, _: Any) -> Any:
             strain, other = u.grad[0] / h - theta, v.grad[0] / h - tau
             curvature, second = theta.grad[0] / h - incline * strain, tau.grad[0] / h - incline * other
             return bending * h * curvature * second + stiffness * h * strain * other
 
-        return self._matrices(energy)
+        if not self._moved:
+            return self._matrices(energy)
+        # A force that moves no mass is held at zero.
+        held = np.where(moved > 0.0, moved, 1.0)
+        return self._matrices(lambda u, t, q, v, s, p, w: energy(u, t, v, s, w) + h * held * q * p)
 
     def geometric(self) -> Floats:
         """What unit load takes from the stiffness, shape (n, k, k): Haringx or Engesser."""
         h, P = self._length, self._compression
         if not self.shear:
             return self._matrices(lambda u, v, _: P / h * u.grad[0] * v.grad[0])
-        if self.shear_theory == "engesser":
-            return self._matrices(lambda u, theta, v, tau, _: P / h * u.grad[0] * v.grad[0] + 0.0 * theta * tau)
-        return self._matrices(lambda u, theta, v, tau, _: P * (theta * v.grad[0] + u.grad[0] * tau - h * theta * tau))
+
+        def taken(u: Any, theta: Any, v: Any, tau: Any, _: Any) -> Any:
+            if self.shear_theory == "engesser":
+                return P / h * u.grad[0] * v.grad[0] + 0.0 * theta * tau
+            return P * (theta * v.grad[0] + u.grad[0] * tau - h * theta * tau)
+
+        if not self._moved:
+            return self._matrices(taken)
+        return self._matrices(lambda u, t, q, v, s, p, w: taken(u, t, v, s, w) + 0.0 * q * p)
 
     def mass(self) -> Floats:
         """Mass with rotary inertia, shape (n, k, k)."""
         h = self._length
-        mass = self._property("mass_per_length", "mass_power")
-        rotary = self._property("rotary_inertia", "bending_power")
+        mass, rotary = self._property("mass_per_length"), self._property("rotary_inertia")
         if not self.shear:
             return self._matrices(lambda u, v, _: mass * h * u * v + rotary / h * u.grad[0] * v.grad[0])
-        return self._matrices(lambda u, theta, v, tau, _: h * (mass * u * v + rotary * theta * tau))
+        if not self._moved:
+            return self._matrices(lambda u, theta, v, tau, _: h * (mass * u * v + rotary * theta * tau))
+        moved = self._property("mass_flexibility")
+        return self._matrices(
+            lambda u, t, q, v, s, p, _: h * (mass * (u + moved * q) * (v + moved * p) + rotary * t * s)
+        )

@@ -208,7 +208,7 @@ def units_of(structure: Members) -> tuple[float, float, float]:
 
 
 def row_of(member: Member, structure: Members, units: tuple[float, float, float]) -> Floats:
-    """Row of `modal.structures.kernels.piece` for a member, shape (13,)."""
+    """Row of `modal.structures.kernels.piece` for a member, shape (14,)."""
     s, (length, force, frequency) = member.segment, units
     mass = force / (length * frequency**2)
     flexibility = 0.0 if isinf(s.shear_stiffness) else force / s.shear_stiffness
@@ -217,6 +217,7 @@ def row_of(member: Member, structure: Members, units: tuple[float, float, float]
         flexibility, s.rotary_inertia / (mass * length), s.end_ratio,
         s.mass_power, s.bending_power, s.shear_power, member.compression / force, member.gravity * mass / force,
         float(structure.shear_theory == "engesser"), float(s.inclined_chords),
+        s.mass_flexibility * force / length**2,
     ])  # fmt: skip
 
 

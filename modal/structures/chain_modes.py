@@ -122,6 +122,9 @@ class ChainModes:
         for stiffness, motion in zip((foot.translation_stiffness, foot.rotation_stiffness), self._nodes, strict=True):
             if np.isfinite(stiffness):
                 total += stiffness * np.outer(motion[:, 0], motion[:, 0])
+        moved = _moved(self.chain, self.shapes)
+        if moved.any():
+            total = np.asarray(np.linalg.inv(np.linalg.inv(total) + moved))
         return total
 
     def slope_matrix(self) -> Floats:
@@ -139,6 +142,9 @@ class ChainModes:
 
 def chain_modes(chain: Chain, count: int, end_body: EndBody = EndBody()) -> ChainModes:  # noqa: B008  frozen
     """Natural modes of a chain with a rigid body at its end.
+
+    Where the mass moves beyond the axis, the modes are those of as many without that flexibility: the shapes then are
+    motions of the mass, and flexibilities add, ``1 / omega^2 + int c m^2 phi phi dx``.
 
     Parameters
     ----------
@@ -160,11 +166,24 @@ def chain_modes(chain: Chain, count: int, end_body: EndBody = EndBody()) -> Chai
         raise ValueError(f"end_body: wanted finite mass and inertia, got {end_body!r}")
     count = whole_number("count", count)
     weight = chain.gravity * end_body.mass
-    loaded = replace(chain, axial_load=chain.axial_load + weight, pendulum=None)
+    stiff = tuple(replace(segment, mass_flexibility=0.0) for segment in chain.segments)
+    loaded = replace(chain, segments=stiff, axial_load=chain.axial_load + weight, pendulum=None)
     structure = chain_structure(loaded)
     last = structure.members[-1].unknowns
     structure.add_body(end_body, last[2], last[3], weight)
     modes = structure_modes(structure, max(count, 1))
     shapes = modes.parts["tower"]
-    kept = replace(shapes, coefficients=shapes.coefficients[:count])
-    return ChainModes(chain, modes.angular_frequencies[:count], kept)
+    kept, omega = replace(shapes, coefficients=shapes.coefficients[:count]), modes.angular_frequencies[:count]
+    moved = _moved(chain, kept)
+    if moved.any():
+        values, mix = np.linalg.eigh(np.diag(omega**-2.0) + moved)
+        omega, mix = values[::-1] ** -0.5, mix[:, ::-1].T
+        mix *= np.sign(np.diag(mix))[:, None]
+        kept = replace(kept, coefficients=np.tensordot(mix, kept.coefficients, 1))
+    return ChainModes(chain, omega, kept)
+
+
+def _moved(chain: Chain, shapes: PartShapes) -> Floats:
+    """Flexibility of the mass against the axis in the shapes that it moves with [s^2], shape (n, n)."""
+    flexibility = chain.section(shapes.points, "mass_flexibility")
+    return shapes.product(flexibility * shapes.mass_per_length**2, DEFLECTION, DEFLECTION)

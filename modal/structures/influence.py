@@ -45,7 +45,7 @@ def keeping(tower: Chain, effects: Collection[Effect]) -> Chain:
     """The same tower with no more than the given effects."""
     segments = tower.segments
     if "shear" not in effects:
-        segments = tuple(replace(segment, shear_stiffness=inf) for segment in segments)
+        segments = tuple(replace(segment, shear_stiffness=inf, mass_flexibility=0.0) for segment in segments)
     if "rotary inertia" not in effects:
         segments = tuple(replace(segment, rotary_inertia=0.0) for segment in segments)
     kept = replace(tower, segments=segments)
@@ -101,7 +101,8 @@ def influence(plain: StructureModes, tower: Chain, above: float = 0.0) -> Influe
     -------
     Influence
         Frequency ratios ``(1 + U_x/U)^-1/2`` with ``U = omega^2`` times the modal mass and ``U_x = int (V + M b'/b)^2
-        /S`` (shear, the second term where chords are inclined), ``omega^2 int rho I v'^2`` (rotary inertia),
+        /S + c V'^2`` (shear, with the moment where chords are inclined and c where mass is moved from the axis),
+        ``omega^2 int rho I v'^2`` (rotary inertia),
         ``f^T (K - omega^2 M)^-1 f`` with the force and moment ``f = (V(0), M(0))`` on the springs ``K`` under the
         foot and the inertia ``M`` of a body there (foundation);
         and ``(1 - U_g/U)^1/2`` with ``U_g = int N v'^2`` and the moment of bodies above their node (weight). Where
@@ -119,6 +120,7 @@ def influence(plain: StructureModes, tower: Chain, above: float = 0.0) -> Influe
             # Inclined chords carry a part of the shear, M b'/b of the moment.
             strained = part.at_points(FORCE) + tower.incline(part.points) * part.at_points(MOMENT)
             energy = np.tensordot(strained**2, part.weights / tower.section(part.points, "shear_stiffness"), 2)
+            energy += np.tensordot(part.inertia**2, part.weights * tower.section(part.points, "mass_flexibility"), 2)
         elif effect == "rotary inertia":
             energy = squared * part.energies(tower.section(part.points, "rotary_inertia"), SLOPE)
         else:

@@ -176,6 +176,11 @@ class Members:
         self.bodies[load, load] += mass
 
     @property
+    def mass_frequency(self) -> float:
+        """Angular frequency that no mode of bending reaches [rad/s], see `modal.beams.segment.Segment`."""
+        return min(member.segment.mass_frequency for member in self.members)
+
+    @property
     def is_loaded(self) -> bool:
         """Whether there is any weight or axial load that a factor could raise."""
         return bool(self.geometric) or any(member.compression or member.gravity for member in self.members)

@@ -29,8 +29,8 @@ class PartShapes:
         Distances from the part's foot between which the shapes are polynomials [m].
     coefficients : ndarray, shape (n, p, terms, 5)
         Taylor coefficients of deflection, rotation, transverse force, moment and slope in the fraction of a piece.
-    mass_per_length, rotary_inertia, bending_stiffness, shear_flexibility : ndarray, shape (p, g)
-        Properties at the Gauss points of every piece [kg/m], [kg m], [N m^2], [1/N].
+    mass_per_length, rotary_inertia, bending_stiffness, shear_flexibility, mass_flexibility : ndarray, shape (p, g)
+        Properties at the Gauss points of every piece [kg/m], [kg m], [N m^2], [1/N], [m^2/N].
     """
 
     ends: Floats
@@ -39,6 +39,7 @@ class PartShapes:
     rotary_inertia: Floats
     bending_stiffness: Floats
     shear_flexibility: Floats
+    mass_flexibility: Floats
 
     def evaluate(self, position: ArrayLike, quantity: int = DEFLECTION, derivative: int = 0) -> Floats:
         """A quantity of all modes, or its derivative, at positions along the part [m]; shape (n, *positions).
@@ -81,6 +82,19 @@ class PartShapes:
         values: Floats = self.coefficients[..., quantity] @ powers
         return values
 
+    @cached_property
+    def inertia(self) -> Floats:
+        """Inertia force per length of all modes at the Gauss points, ``-V'``, shape (n, p, g)."""
+        order = np.arange(1, self.coefficients.shape[2])
+        powers = order[:, None] * gauss()[0] ** (order - 1)[:, None]
+        slopes: Floats = self.coefficients[:, :, 1:, FORCE] @ powers
+        return -slopes / np.diff(self.ends)[:, None]
+
+    @cached_property
+    def motion(self) -> Floats:
+        """Motion of the mass of all modes at the Gauss points, which its flexibility moves beyond the axis."""
+        return self.at_points(DEFLECTION) + self.mass_flexibility * self.inertia
+
     def product(self, density: Floats | float, left: int, right: int) -> Floats:
         """Integrals of density times two quantities of all pairs of modes, shape (n, n)."""
         weighted = self.at_points(left) * (density * self.weights)
@@ -91,19 +105,22 @@ class PartShapes:
         return np.tensordot(self.at_points(quantity) ** 2, density * self.weights, 2)
 
     def mass_matrix(self) -> Floats:
-        """Mass along the part, ``int m v v + rho I theta theta dx``, shape (n, n)."""
-        return self.product(self.mass_per_length, DEFLECTION, DEFLECTION) + self.product(
-            self.rotary_inertia, ROTATION, ROTATION
-        )
+        """Mass along the part, ``int m u u + rho I theta theta dx`` with the mass's motion u, shape (n, n)."""
+        along = np.tensordot(self.motion * (self.mass_per_length * self.weights), self.motion, ((1, 2), (1, 2)))
+        return along + self.product(self.rotary_inertia, ROTATION, ROTATION)
 
     def strain_matrix(self) -> Floats:
-        """Stiffness along the part, ``int EI theta' theta' + S (v' - theta) (v' - theta) dx``, shape (n, n)."""
+        """Stiffness along the part, shape (n, n).
+
+        ``int EI theta' theta' + S (v' - theta) (v' - theta) + c V' V' dx`` with the flexibility c of the mass.
+        """
         # From moments and shear strains, not from differences: with S infinite there is no strain.
         with np.errstate(divide="ignore"):
             stiff = np.where(self.shear_flexibility > 0.0, 1.0 / self.shear_flexibility, 0.0)
         strain = self.at_points(SLOPE) - self.at_points(ROTATION)
         shear = np.tensordot(strain * (stiff * self.weights), strain, ((1, 2), (1, 2)))
-        return self.product(1.0 / self.bending_stiffness, MOMENT, MOMENT) + shear
+        moved = np.tensordot(self.inertia * (self.mass_flexibility * self.weights), self.inertia, ((1, 2), (1, 2)))
+        return self.product(1.0 / self.bending_stiffness, MOMENT, MOMENT) + shear + moved
 
     def softening_matrix(self, compression: Floats | float, shear_theory: str = "haringx") -> Floats:
         """What an axial force takes from the stiffness, ``int P (v' theta + theta v' - theta theta) dx`` (Haringx).

@@ -28,6 +28,10 @@ CROWDED = 300.0
 """Waves in a segment [rad] from which on critical loads are looked for from far below: cut for the full load it
 would fall into very many pieces, and as a rule it has buckled long before."""
 
+CLOSEST = 0.999
+"""Part of the frequency at which masses vibrate on their own flexibility, up to which modes are looked for: there
+they crowd, or end."""
+
 _FREE = "structure: wanted one that no motion leaves unstrained, got one without support"
 
 
@@ -87,7 +91,8 @@ def _lowest(structure: Members, count: int, start: float, most: float, *, by_loa
         return limit, ready, ready.count(limit)
 
     # Arrays made for high frequencies would cost digits of low ones.
-    levels = [below(start)]
+    highest = inf if by_load else CLOSEST * structure.mass_frequency
+    levels = [below(min(start, highest))]
     while levels[-1][2] > 0:
         if levels[-1][0] < SMALLEST * start:
             raise ValueError(_FREE)
@@ -95,7 +100,12 @@ def _lowest(structure: Members, count: int, start: float, most: float, *, by_loa
     above, _, known = levels.pop()
     found: list[Floats] = []
     while known < count and above < most:
-        limit, ready, number = levels.pop() if levels else below(2.0 * above)
+        if above == highest:
+            raise ValueError(
+                f"count: wanted at most {known} frequencies, as many as there are below {highest:.6g} rad/s, where "
+                f"masses vibrate on their own flexibility; got {count!r}"
+            )
+        limit, ready, number = levels.pop() if levels else below(min(2.0 * above, highest))
         if number > known:
             found.append(ready.roots(above, limit, known, min(number, count) - known, by_load=by_load))
             known = number

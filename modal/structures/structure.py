@@ -30,6 +30,11 @@ class Structure(Members):
         from modal.structures.assembly import assembly, refined
 
         check_not_negative("angular_frequency", angular_frequency)
+        if angular_frequency >= self.mass_frequency:
+            raise ValueError(
+                f"angular_frequency: wanted less than {self.mass_frequency:.6g} rad/s, where masses vibrate on their "
+                f"own flexibility, got {angular_frequency:.6g}"
+            )
         return assembly(refined(self, angular_frequency), angular_frequency).count(angular_frequency)
 
     def angular_frequencies(self, count: int) -> Floats:
@@ -43,7 +48,8 @@ class Structure(Members):
         Raises
         ------
         ValueError
-            If the count is no whole number, zero or more, or the structure can move without strain.
+            If the count is no whole number, zero or more, or more than there are below the frequency of masses on
+            their own flexibility, or the structure can move without strain.
         Unstable
             If the structure buckles under its weights and loads.
         """

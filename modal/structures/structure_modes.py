@@ -97,7 +97,7 @@ def structure_modes(structure: Structure, count: int) -> StructureModes:
     mixed = {
         name: PartShapes(
             part.ends, np.tensordot(mix, part.coefficients, 1), part.mass_per_length, part.rotary_inertia,
-            part.bending_stiffness, part.shear_flexibility,
+            part.bending_stiffness, part.shear_flexibility, part.mass_flexibility,
         )
         for name, part in parts.items()
     }  # fmt: skip
@@ -163,7 +163,7 @@ def _part(fine: Members, part: str, shapes: list[Floats], highest: float) -> Par
 
     units = units_of(fine)
     along, found = [np.zeros(1)], []
-    properties: list[list[Floats]] = [[], [], [], []]
+    properties: list[list[Floats]] = [[], [], [], [], []]
     for member, shape in zip(fine.members, shapes, strict=True):
         if member.part != part:
             continue
@@ -176,13 +176,13 @@ def _part(fine: Members, part: str, shapes: list[Floats], highest: float) -> Par
     return PartShapes(np.concatenate(along), np.concatenate(found, axis=1), *map(np.concatenate, properties))
 
 
-def _properties(member: Member, ends: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Mass, rotary inertia, bending stiffness and shear flexibility at the Gauss points of a segment's pieces."""
-    s = member.segment
-    breadth = s.breadth(ends[:-1, None] + np.diff(ends)[:, None] * gauss()[0])
+def _properties(member: Member, ends: Floats) -> tuple[Floats, ...]:
+    """Properties of the section at the Gauss points of a segment's pieces, as `PartShapes` lists them."""
+    s, distance = member.segment, ends[:-1, None] + np.diff(ends)[:, None] * gauss()[0]
     return (
-        s.mass_per_length * breadth**s.mass_power,
-        s.rotary_inertia * breadth**s.bending_power,
-        s.bending_stiffness * breadth**s.bending_power,
-        1.0 / (s.shear_stiffness * breadth**s.shear_power),
+        s.section("mass_per_length", distance),
+        s.section("rotary_inertia", distance),
+        s.section("bending_stiffness", distance),
+        1.0 / s.section("shear_stiffness", distance),
+        s.section("mass_flexibility", distance),
     )

@@ -118,7 +118,7 @@ def test_the_shipped_laced_tower_is_the_published_crane_on_its_lattice():
     # Lacing as soft as this costs the first mode, which the slewing part's inertia governs, next to nothing.
     stated = crane_of(load_case("qtz5613/condition-3").checked).tower_modes(4).frequencies_hz
     loss = crane_of(laced.checked).tower_modes(4).frequencies_hz / stated - 1.0
-    assert_allclose(loss, [-0.0065, -0.1728, -0.4261, -0.5699], atol=1e-4)
+    assert_allclose(loss, [-0.00665, -0.17462, -0.42957, -0.57459], atol=1e-4)
 
 
 RIGID = ["crane.counter_jib={length=11, mass_per_length=180, counterweight=10300}"]
@@ -131,8 +131,8 @@ def test_many_modes_of_a_shipped_tower_reach_the_exact_crane(name, rigid):
     exact = hertz(crane_frame(case.checked, weight=case.checked.model.weight_softening), position, 5)
     found = [plane_modes(tower_model(case.checked, **modes), position, case.rope.length)[0][:5] / (2 * np.pi)
              for modes in ({}, {"tower_modes": 10, "jib_vertical_modes": 12})]  # fmt: skip
-    # Modes that are left out make a crane too stiff, never too soft.
-    assert np.all(found[1] / exact > 1.0 - 1e-9)
+    # Modes that are left out make a crane too stiff; mass on horizontals, a flexibility in few shapes, a little soft.
+    assert np.all(found[1] / exact > 1.0 - 1e-6)
     assert np.all(found[0] / found[1] > 1.0 - 1e-9)
     assert_allclose(found[1], exact, rtol=6e-6)
     assert_allclose(found[0], exact, rtol=6e-4)

@@ -22,7 +22,7 @@ def tapered():
 
 def test_mode_of_a_counter_jib_that_bends_is_missing_from_a_model_that_keeps_it_rigid(tapered):
     crane = PlaneCrane(crane_frame(load_case(TAPERED).checked))
-    for row, frequency in zip(tapered["crane"], (1.104686, 1.100135), strict=True):
+    for row, frequency in zip(tapered["crane"], (1.104559, 1.099980), strict=True):
         (missing,) = row["missing_from_the_model"]
         assert missing["member"] == "counter-jib"
         assert_allclose(missing["frequency_hz"], frequency, atol=1e-6)
@@ -53,7 +53,7 @@ def test_the_stiffer_the_counter_jib_the_nearer_is_every_mode_of_the_model():
 
 @pytest.mark.parametrize(
     ("tower", "jib", "without", "missing"),
-    [(1, 5, 3, [(2.134, "tower")]), (5, 1, 4, [(2.941, "jib"), (7.614, "jib")])],
+    [(1, 5, 3, [(2.130, "tower")]), (5, 1, 4, [(2.941, "jib"), (7.614, "jib")])],
 )
 def test_modes_beyond_one_that_the_model_lacks_keep_their_partners(tower, jib, without, missing):
     counts = (f"model.tower_modes={tower}", f"model.jib_vertical_modes={jib}", "modes.trolley_positions=[5]")
@@ -83,6 +83,6 @@ def test_table_names_the_modes_without_a_partner(tapered, capsys, monkeypatch):
         line.strip("│ ").split("│")[1:] for line in said.splitlines() if "difference from exact crane" in line
     ]
     assert [[cell.strip() for cell in row[3:]] for row in differences] == [["-", "-"]] * 2
-    assert "trolley at 4 m: the exact crane's counter-jib mode at 1.104686 Hz is missing from the model" in said
-    assert "trolley at 4 m: no mode of the model is like the exact crane's at 4.418861 Hz" in said
+    assert "trolley at 4 m: the exact crane's counter-jib mode at 1.104559 Hz is missing from the model" in said
+    assert "trolley at 4 m: no mode of the model is like the exact crane's at 4.417182 Hz" in said
     assert "- the exact crane has no mode of that shape" in said

@@ -177,6 +177,7 @@ def _lattice(column: LacedColumn, height: float) -> dict[str, dict[str, Any]]:
         "stiffening_factor": column.stiffening_factor,
         "bending_stiffness": column.bending_stiffness,
         "shear_stiffness": column.shear_stiffness,
+        "mass_flexibility": column.mass_flexibility,
         "equivalent_slenderness": column.equivalent_slenderness(height),
         "equivalent_second_moment_of_area": column.equivalent_second_moment_of_area(height),
     }

@@ -10,7 +10,7 @@ import numpy as np
 
 from modal import crane_structure
 from modal.structures.members import HELD
-from modal.structures.part_shapes import DEFLECTION, MOMENT, ROTATION, SLOPE
+from modal.structures.part_shapes import DEFLECTION, FORCE, MOMENT, ROTATION, SLOPE
 from modal.structures.structure import Structure
 from modal.structures.structure_modes import structure_modes
 
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 POINTS = 24
 """Gauss points along a segment: enough for shapes of some twelve half-waves."""
+
+PROPERTIES = "mass_per_length", "rotary_inertia", "bending_stiffness", "shear_stiffness", "mass_flexibility"
+"""Of a section, as `Points` has them."""
 
 MEMBERS = ("tower", "jib", "counter-jib", "foundation", "load")
 """Where the potential energy of a mode is; that of the load is its height as it swings."""
@@ -55,8 +58,8 @@ class Points:
     ----------
     positions, weights : ndarray, shape (p,)
         Gauss points of every segment and their weights [m].
-    mass_per_length, rotary_inertia, bending_stiffness, shear_stiffness : ndarray, shape (p,)
-        [kg/m], [kg m], [N m^2], [N].
+    mass_per_length, rotary_inertia, bending_stiffness, shear_stiffness, mass_flexibility : ndarray, shape (p,)
+        [kg/m], [kg m], [N m^2], [N], [m^2/N].
     """
 
     positions: Floats
@@ -65,6 +68,7 @@ class Points:
     rotary_inertia: Floats
     bending_stiffness: Floats
     shear_stiffness: Floats
+    mass_flexibility: Floats
 
     @classmethod
     def along(cls, chain: Chain) -> Points:
@@ -73,17 +77,8 @@ class Points:
         rows = []
         for segment, start in zip(chain.segments, chain.nodes[:-1], strict=True):
             z = 0.5 * segment.length * (abscissae + 1.0)
-            breadth = 1.0 + (segment.end_ratio - 1.0) * z / segment.length
-            rows.append(
-                [
-                    start + z,
-                    0.5 * segment.length * gauss,
-                    segment.mass_per_length * breadth**segment.mass_power,
-                    segment.rotary_inertia * breadth**segment.bending_power,
-                    segment.bending_stiffness * breadth**segment.bending_power,
-                    segment.shear_stiffness * breadth**segment.shear_power,
-                ]
-            )
+            sections = [segment.section(name, z) for name in PROPERTIES]
+            rows.append([start + z, 0.5 * segment.length * gauss, *sections])
         return cls(*np.concatenate(rows, axis=1))
 
     def motion(self, chain: Chain, shapes: Shapes) -> Floats:
@@ -107,6 +102,8 @@ class Points:
             where = self.positions[soft]
             shear = shapes.evaluate(where, SLOPE) - shapes.evaluate(where, ROTATION)
             total = total + shear**2 @ (self.weights * self.shear_stiffness)[soft]
+        if self.mass_flexibility.any():
+            total = total + shapes.evaluate(self.positions, FORCE, 1) ** 2 @ (self.weights * self.mass_flexibility)
         return total
 
 

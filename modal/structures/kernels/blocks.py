@@ -34,7 +34,7 @@ def _strained(sizes: Any, omega2: float) -> float:
 @kernel()
 def grown(sizes: Any, segment: Any, ends: Any, omega2: float, load: float) -> bool:
     """Add a piece to the measure of a block; False where that needs a block of its own, which then begins with it."""
-    bending, mass, flexibility, rotary, force, _ = bounds(segment, ends, load)
+    bending, mass, flexibility, rotary, force, _ = bounds(segment, ends, omega2, load)
     length, turn, before = ends[2], ends[2] / bending, sizes[0]
     for attempt in range(2):
         # Integrals over the piece of the flexibilities of its sections.

@@ -5,7 +5,8 @@ The state (v, theta, V, M), deflection, section rotation, transverse force and m
     v' = a theta + b (V + g M),  theta' = M / EI + g (v' - theta),  V' = -m w^2 v,  M' = -V - P v' - rho I w^2 theta
 
 with a = 1 + P/S, b = 1/S (Haringx) or a = 1/(1 - P/S), b = a/S (Engesser). Inclined chords at the breadth B, which
-carry a part of the shear, have g = B'/B; all else has g = 0. A segment is cut into pieces so short that none with its
+carry a part of the shear, have g = B'/B; all else has g = 0. Mass m on a flexibility c of its own counts for
+m = m / (1 - c m w^2). A segment is cut into pieces so short that none with its
 ends held can vibrate or buckle at the frequency asked for, and each is solved by the Taylor series of its state,
 whatever the change of section and compression along it.
 """
@@ -19,7 +20,7 @@ import numpy as np
 from modal.compiler.compiled import kernel
 
 (LENGTH, MASS, BENDING, SHEAR_FLEXIBILITY, ROTARY, RATIO, MASS_POWER, BENDING_POWER, SHEAR_POWER,
- COMPRESSION, WEIGHT, ENGESSER, INCLINED) = range(13)  # fmt: skip
+ COMPRESSION, WEIGHT, ENGESSER, INCLINED, MASS_FLEXIBILITY) = range(14)  # fmt: skip
 """Properties of a segment, those of the section at its near end. COMPRESSION is that at the far end, to which WEIGHT
 times the mass beyond is added along the segment; both are multiplied by the load factor."""
 
@@ -90,7 +91,14 @@ def piece_of(ends: Any, i: int, pieces: int) -> Any:
 
 
 @kernel()
-def bounds(segment: Any, ends: Any, load: float) -> Any:
+def beyond(segment: Any, ends: Any, omega2: float) -> float:
+    """Largest part of the mass's motion that is beyond the axis along a piece or cell, c m w^2."""
+    wide = max(ends[0], ends[1])
+    return float(omega2 * segment[MASS_FLEXIBILITY] * segment[MASS] * wide ** (1.0 + segment[MASS_POWER]))
+
+
+@kernel()
+def bounds(segment: Any, ends: Any, omega2: float, load: float) -> Any:
     """Least bending stiffness, most mass, shear flexibility, rotary inertia, force along a piece or cell; shear left.
 
     The force is ``P (1 + 5 P/S)`` with the largest compression P: with shear strain g it takes
@@ -104,7 +112,7 @@ def bounds(segment: Any, ends: Any, load: float) -> Any:
     near, far, length, left = ends
     wide, thin = max(near, far), min(near, far)
     bending = segment[BENDING] * thin ** segment[BENDING_POWER]
-    mass = segment[MASS] * wide ** segment[MASS_POWER]
+    mass = segment[MASS] * wide ** segment[MASS_POWER] / (1.0 - beyond(segment, ends, omega2))
     power = segment[SHEAR_POWER]
     flexibility = segment[SHEAR_FLEXIBILITY] * (thin if power > 0.0 else wide) ** -power
     rotary = segment[ROTARY] * wide ** segment[BENDING_POWER]
@@ -139,13 +147,18 @@ def pieces_within(segment: Any, ends: Any, omega2: float, load: float) -> int:
     With the near end held and strain energy U, ``v^2 <= 2 U (x^3 / 3 EI + x / S)`` and ``theta^2 <= 2 U x / EI`` at
     the distance x; what inertia and compression take follows.
     """
-    bending, mass, flexibility, rotary, force, shear_left = bounds(segment, ends, load)
+    bending, mass, flexibility, rotary, force, shear_left = bounds(segment, ends, omega2, load)
     if shear_left < LEAST_SHEAR:
         return 0
     length, pieces = ends[2], 0.0
+    moved = beyond(segment, ends, omega2)
+    if moved != 0.0:
+        # The series of 1 / (1 - c m w^2) must converge as well.
+        growth = abs(np.log(ends[1] / ends[0])) * (1.0 + segment[MASS_POWER])
+        pieces = 5.0 * growth * moved / (1.0 - moved)
     if segment[ENGESSER] != 0.0:
         # 1 / (1 - P/S) must vary little along a piece as well.
-        pieces = 0.5 * abs(load) * segment[WEIGHT] * mass * length * flexibility / TAPER
+        pieces = max(pieces, 0.5 * abs(load) * segment[WEIGHT] * mass * length * flexibility / TAPER)
     quartic = omega2 * mass / (12.0 * bending)
     half = 0.25 * omega2 * (mass * flexibility + rotary / bending) + 0.5 * force / bending
     squared = (half + np.sqrt(half * half + quartic * PIECE)) / PIECE
@@ -194,6 +207,13 @@ def coefficients(segment: Any, ends: Any, omega2: float, load: float, out: Any) 
     for i in range(terms):
         out[0, i] *= omega2 * length**4 / bending
         out[5, i] *= omega2 * length**2 / bending
+    taken = omega2 * segment[MASS_FLEXIBILITY] * near * mass
+    if taken != 0.0:
+        _power_series(taken, change, 1.0 + segment[MASS_POWER], out[6], terms)
+        for i in range(terms):
+            for j in range(1, i + 1):
+                out[0, i] += out[6, j] * out[0, i - j]
+            out[0, i] /= 1.0 - taken
     # P/S first, then a and b from it.
     for i in range(terms):
         product = 0.0

@@ -1,6 +1,6 @@
 """Compiled assembly of runs of segments and bodies into a dynamic stiffness, the count of its modes and their search.
 
-Kernels take a structure as five arrays: ``segments`` (s, 13) and ``nodes`` (s, 3, 3), see
+Kernels take a structure as five arrays: ``segments`` (s, 14) and ``nodes`` (s, 3, 3), see
 `modal.structures.kernels.stiffness`; ``runs`` (r, 3), the first segment of each run, the first after it, and whether
 it is a single block; ``motions`` (r, 4, n), how (v, theta) of a run's near and far end follow the n unknowns;
 ``points`` (3, n, n), stiffness of springs, geometric stiffness of bodies under unit load (to be taken away), mass of

@@ -154,12 +154,13 @@ def transfer_matrices(chain: Chain, near: Floats) -> tuple[Floats | None, str]:
     def closing(omega: Any) -> Any:
         state = mp.matrix([[0, 0], [0, 0], [1, 0], [0, 1]])
         for s in chain.segments:
+            mass = s.mass_per_length / (1 - s.mass_flexibility * s.mass_per_length * omega**2)
             # Deflection, rotation, transverse force and moment along a Timoshenko beam.
             slopes = mp.matrix(
                 [
                     [0, 1, 1 / mp.mpf(s.shear_stiffness), 0],
                     [0, 0, 0, 1 / mp.mpf(s.bending_stiffness)],
-                    [-s.mass_per_length * omega**2, 0, 0, 0],
+                    [-mass * omega**2, 0, 0, 0],
                     [0, -s.rotary_inertia * omega**2, -1, 0],
                 ]
             )

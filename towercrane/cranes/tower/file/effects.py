@@ -144,7 +144,7 @@ def kept_tower(tables: TowerCase) -> Beam | Chain:
 
 
 def _with_lattice(crane: Crane, tower: Chain) -> Chain:
-    """The tower with shear and rotary inertia of a lattice that stands beside its stated beam."""
+    """The tower with what shears and turns in a lattice that stands beside its stated beam."""
     segment, *others = tower.segments
     lattice, modulus = crane.tower.lattice, crane.tower.youngs_modulus
     if others or lattice is None or modulus is None:
@@ -152,7 +152,8 @@ def _with_lattice(crane: Crane, tower: Chain) -> Chain:
     laced = laced_column(lattice, modulus).segment(segment.length, segment.mass_per_length)
     shear = laced.shear_stiffness if isinf(segment.shear_stiffness) else segment.shear_stiffness
     rotary = segment.rotary_inertia or laced.rotary_inertia
-    return replace(tower, segments=(replace(segment, shear_stiffness=shear, rotary_inertia=rotary),))
+    known = replace(segment, shear_stiffness=shear, rotary_inertia=rotary, mass_flexibility=laced.mass_flexibility)
+    return replace(tower, segments=(known,))
 
 
 def effects_report(effects: Effects, *, actual: bool = False) -> dict[str, Any]:
