@@ -19,7 +19,7 @@ from towercrane.accuracy.choice import choose
 from towercrane.accuracy.foretold import Indicators
 from towercrane.accuracy.indicators import _slip_by_swing, drift, vibration
 from towercrane.accuracy.instants import OUTPUTS, RICHEST, SWING, nodes_of
-from towercrane.accuracy.mode_convergence import measured_choice
+from towercrane.accuracy.mode_choice import measured_choice
 from towercrane.accuracy.promise import (
     AS_ASKED,
     BROKEN,

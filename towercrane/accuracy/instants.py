@@ -111,7 +111,7 @@ class Nodes:
         """Trolley's way, rope's length and all their derivatives and two more; shape (times, 2, orders)."""
         cut = self.motions
         phase = np.clip(np.searchsorted(cut.times, times, side="right") - 1, 0, len(cut.inputs) - 1)
-        return _derivatives(cut.inputs[phase], (times - cut.times[phase])[:, None])[:, 0]
+        return derivatives_of(cut.inputs[phase], (times - cut.times[phase])[:, None])[:, 0]
 
 
 def nodes_of(scene: Scene, richest: Setting = RICHEST) -> Nodes:
@@ -190,7 +190,7 @@ def nodes_of(scene: Scene, richest: Setting = RICHEST) -> Nodes:
 def _instants(scene: Scene, cut: Phases) -> tuple[Floats, Floats, NDArray[np.int64], Floats]:
     """Times of the nodes, derivatives of the drives there, which nodes are switch points, jumps at these."""
     since = np.diff(cut.times)[:, None] * (0.0, *INSIDE, 1.0)
-    states = _derivatives(cut.inputs, since)
+    states = derivatives_of(cut.inputs, since)
     damped = scene.damping.tower > 0.0 or scene.damping.vertical > 0.0
     known = np.ones(since.shape, dtype=bool)
     moving = np.any(cut.inputs[:, :, 1:], axis=(1, 2))
@@ -203,7 +203,7 @@ def _instants(scene: Scene, cut: Phases) -> tuple[Floats, Floats, NDArray[np.int
     return (cut.times[:-1, None] + since)[known], states[known], events, states[:, 0] - before
 
 
-def _derivatives(pieces: Floats, since: Floats) -> Floats:
+def derivatives_of(pieces: Floats, since: Floats) -> Floats:
     """Derivatives of polynomials (p, channels, k), two orders beyond the last; shape (p, s, channels, k + 2)."""
     orders = [polyder(pieces, order, axis=2) for order in range(pieces.shape[2] + 2)]
     return np.stack([polyval(since[:, :, None], order.transpose(2, 0, 1)[:, :, None], False) for order in orders], -1)

@@ -12,7 +12,7 @@ from towercrane.accuracy.choice import choose
 from towercrane.accuracy.estimate import Choice, Estimate, limits
 from towercrane.accuracy.foretold import Indicators
 from towercrane.accuracy.instants import BEYOND
-from towercrane.accuracy.mode_convergence import measured_choice
+from towercrane.accuracy.mode_choice import measured_choice
 from towercrane.accuracy.scene import Scene, scene_of, setting_of
 from towercrane.accuracy.setting import Setting, setting_from
 from towercrane.cranes.registry import KINDS
@@ -162,7 +162,7 @@ def verification(case: Case, result: Run) -> dict[str, Any]:
         estimate, doubts = indicators.estimate(setting), indicators.doubts(setting.weight_softening)
     else:
         anything = dict.fromkeys(scene.outputs, Tolerance(1e-3, relative=True))
-        checked, _ = measured_choice(scene, anything, vars(setting))
+        checked, _ = measured_choice(scene, anything, vars(setting), known=result)
         estimate, doubts = checked.estimate, checked.doubts
     better = finer(setting, scene, foretold=foretold)
     richer = scene.run(better)

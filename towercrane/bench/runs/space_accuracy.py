@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.accuracy.estimate import SMALLEST_PEAK
-from towercrane.accuracy.mode_convergence import measured_choice
+from towercrane.accuracy.mode_choice import measured_choice
 from towercrane.accuracy.promise import KEPT, OUT_OF_REACH, finer
 from towercrane.bench.runs.accuracy import promises
 from towercrane.bench.scenes.drawn import space_scenes

@@ -11,10 +11,9 @@ from samples.space_crane import CRANE, manoeuvre, standing
 from typer.testing import CliRunner
 
 from towercrane import load_case
-from towercrane.accuracy.mode_convergence import ModeConvergence, measured_choice
+from towercrane.accuracy.mode_choice import measured_choice
 from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, targets_of, verification
 from towercrane.accuracy.scene import Scene, scene_of
-from towercrane.accuracy.setting import Setting
 from towercrane.cli import app
 from towercrane.cranes.parts.wind import WindAreas, gusts
 from towercrane.cranes.tower.modes.damping import ModalDamping
@@ -22,7 +21,7 @@ from towercrane.cranes.tower.targets import MOTIONS
 from towercrane.kernels.payload import Load
 from towercrane.motions.profiles import trapezoid
 from towercrane.report.tables.runs import run_tables, verification_tables
-from towercrane.results.measures import departures, gap, peak
+from towercrane.results.measures import gap, peak
 from towercrane.runs.run import record_case, run_case
 from towercrane.runs.summary import summarise
 from towercrane.schema.faults import CaseError
@@ -90,7 +89,7 @@ def test_a_scene_that_stays_in_the_plane_is_integrated_there():
     assert choice.setting.planar
     assert (choice.setting.torsion_modes, choice.setting.jib_lateral_modes) == (0, 0)
     assert any("out of it" in part for part in choice.left_out)
-    planar = choice.setting.tightened(1e-4)
+    planar = choice.setting.tightened(1e-5)
     runs = [PLANE.run(replace(planar, planar=flat)) for flat in (True, False)]
     for output in PLANE.outputs:
         assert gap(*runs, output) < 1e-10 * max(peak(runs[0], output), 1.0)
@@ -113,17 +112,8 @@ def test_what_is_stated_is_kept_and_judged():
     assert not choice.kept
     found = actual(SLEW, choice.setting, result)
     estimated = dict(zip(SLEW.outputs, choice.estimate.errors(choice.peaks), strict=True))
-    assert 0.5 < estimated["payload_position"] / found["payload_position"] < 4.0
-
-
-def test_a_rung_is_the_difference_of_two_runs():
-    base = Setting(1, 1, 1, 1, rtol=1e-6, atol=1e-8)
-    ladders = ModeConvergence(SLEW, base)
-    runs = SLEW.run(base), SLEW.run(replace(base, jib_lateral_modes=2))
-    place = np.linalg.norm(runs[0]["payload_position"].values - runs[1]["payload_position"].values, axis=1)
-    assert ladders.step("jib_lateral_modes", 1)[0] == place.max()
-    assert ladders.peaks(base)[0] == np.linalg.norm(departures(runs[0]), axis=1).max()
-    assert len(ladders.runs) == 2
+    # A jib that is rigid to its sides is far from what small motions are about.
+    assert 1.0 < estimated["payload_position"] / found["payload_position"] < 12.0
 
 
 def test_an_unknown_output():
