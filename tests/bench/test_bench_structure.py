@@ -50,8 +50,8 @@ def test_beams_in_place_of_a_lattice():
         for row in elements:
             assert row["errors"]["flexibility"] == pytest.approx(exact["errors"]["flexibility"], rel=1e-4, abs=1e-10)
     shear, euler = (rows[0]["errors"] for rows in by_beam.values())
-    assert 1e-3 < shear["loaded"] < 3e-3 < 0.1 < euler["loaded"] < 0.3
-    assert 1e-3 < shear["flexibility"] < 2e-3 < 0.1 < euler["flexibility"] < 0.12
+    assert 4e-5 < shear["loaded"] < 6e-5 < 0.1 < euler["loaded"] < 0.3
+    assert shear["flexibility"] < 1e-11 < 0.1 < euler["flexibility"] < 0.12
     assert set(pictures({"subjects": [table]})) == {"lattice.png"}
 
 
