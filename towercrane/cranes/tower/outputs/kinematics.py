@@ -67,6 +67,8 @@ class FlexibleMotion:
 
     def from_plane(self, vectors: Floats) -> Floats:
         """Horizontal vectors along and across the plane that the load swings in, along the fixed axes; (p, 2)."""
+        if self.model.heading == 0.0:
+            return vectors
         c, s = np.cos(self.model.heading), np.sin(self.model.heading)
         return np.asarray(vectors @ np.array([[c, s], [-s, c]]))
 
@@ -110,9 +112,11 @@ class FlexibleMotion:
 
     def top(self, values: Floats) -> tuple[Floats, Floats]:
         """Translation of the tower's top along x and y, and its tilt vector, of coordinates or their derivatives."""
-        crane = self.model.crane
-        slope = self.of_tower(crane.top_slope, values)
-        return self.of_tower(crane.tower(crane.tower_height), values), np.stack([-slope[:, 1], slope[:, 0]], axis=1)
+        tower = ("tower_x", "tower_y")
+        u_x, u_y, tilt_x, tilt_y = (
+            self.along(row, tower, values) for row in (layout.SLIDE_X, layout.SLIDE_Y, layout.TILT_X, layout.TILT_Y)
+        )
+        return self.from_plane(np.stack([u_x, u_y], axis=1)), self.from_plane(np.stack([tilt_x, tilt_y], axis=1))
 
     @cached_property
     def twist(self) -> Floats:
