@@ -47,7 +47,9 @@ def modes_tables(report: dict[str, Any]) -> None:
                 "  difference from exact crane", *(_signed(d) for d in row["relative_difference"]), style="dim"
             )
             table.add_row(
-                "  predicted: jib modes left out", *(f"{d:+.1e}" for d in row["predicted_difference"]), style="dim"
+                "  predicted, as jib modes are left out",
+                *(f"{d:+.1e}" for d in row["predicted_difference"]),
+                style="dim",
             )
     console.print(table)
     for row in report["crane"]:
@@ -194,7 +196,7 @@ def map_tables(report: dict[str, Any]) -> None:
         console.print(text + ("" if row["outcome"] == "finished" else f": {row['outcome']}, no frequencies"))
     for step in report["doubtful"]:
         where = f"load {step['payload_kg']:g} kg, just before {step['position_m']:.4g} m"
-        console.print(f"doubtful {step['branch']}: its shape changes at once with {where}")
+        console.print(f"doubtful {step['branch']}: its shape changes abruptly at {where}")
     said(console, report["left_out"])
     _assumed(console, report["assumed"])
 

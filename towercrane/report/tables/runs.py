@@ -36,7 +36,7 @@ def run_tables(summary: dict[str, Any]) -> None:
             peak["units"],
         )
     console.print(table)
-    console.print(f"extremes are those of looks every {summary['look_step_s']:g} s")
+    console.print(f"largest and smallest of values every {summary['look_step_s']:g} s")
     for change in summary["changes"]:
         console.print(f"changed               {change}")
     period = summary["swing_period_s"]
@@ -54,7 +54,7 @@ def run_tables(summary: dict[str, Any]) -> None:
     )
     console.print(
         f"solver                {solver['method']}, rtol {solver['rtol']:g}, {solver['evaluations']} evaluations, "
-        f"{solver['solver_wall_seconds']:.3f} s of {summary['wall_seconds']:.3f} s wall"
+        f"{solver['solver_wall_seconds']:.3f} s in the solver, {summary['wall_seconds']:.3f} s in all"
     )
     if expected := summary["expected"]:
         for miss in expected["misses"] or ["met"]:
@@ -82,12 +82,12 @@ def _spectrum(console: Console, summary: dict[str, Any]) -> None:
     console.print(f"spectrum peaks        {peaks} Hz in {summary['spectrum_of'].replace('_', ' ')}{reach}")
     if summary["spectrum_other_hz"]:
         console.print(
-            f"                      {listed('spectrum_other_hz')} Hz as well, none of the crane's own: "
-            "lines of drives, wind or a wide swing"
+            f"                      {listed('spectrum_other_hz')} Hz too: no natural frequencies, "
+            "they come from drives, wind or a wide swing"
         )
     if highest and (beyond := summary["spectrum_beyond_hz"]):
         last = f" to {beyond[-1]:.4g}" if len(beyond) > 1 else ""
-        console.print(f"                      out of its sight: the crane's {beyond[0]:.4g}{last} Hz")
+        console.print(f"                      too fast to be seen: natural frequencies of {beyond[0]:.4g}{last} Hz")
 
 
 def _accuracy(console: Console, promised: dict[str, Any]) -> None:
@@ -123,10 +123,10 @@ def setting_words(setting: dict[str, Any]) -> str:
     modes = ", ".join(f"{count} {kind}" for kind, count in counts.items())
     cap = f" capped at {setting['cap']:.3g} Hz" if setting.get("cap") else ""
     planar = " in the plane," if setting.get("planar") else ""
-    softening = "with" if setting["weight_softening"] else "without"
+    softened = "softened" if setting["weight_softening"] else "not softened"
     return (
-        f"{modes} modes{cap},{planar} {softening} the weight's "
-        f"softening, {setting['method']} at rtol {setting['rtol']:.1e}, atol {setting['atol']:.1e}"
+        f"{modes} modes{cap},{planar} the tower {softened} by "
+        f"the weight, {setting['method']} at rtol {setting['rtol']:.1e}, atol {setting['atol']:.1e}"
     )
 
 
