@@ -10,7 +10,7 @@ import warnings
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
-from numba.core import caching
+from numba.core import caching, config
 
 from modal.compiler.folder import CacheWarning, obstacle
 
@@ -22,16 +22,25 @@ DIGEST = hashlib.sha256().digest_size
 """Bytes at the beginning of each file that tell whether the rest is what was written."""
 
 
-# Numba's own classes carry no types.
+# Numba's own classes carry no types, and its settings too narrow ones.
 _caching: Any = caching
+_config: Any = config
 
 
-def keep(dispatcher: Any, function: Callable[..., Any], folder: Path) -> None:
-    """Let a dispatcher keep its machine code in a folder; it goes without, and says so, where that cannot be."""
+def keep(dispatcher: Any, function: Callable[..., Any], folder: Path, content: str = "") -> None:
+    """Let a dispatcher keep its machine code in a folder; it goes without, and says so, where that cannot be.
+
+    Code that a function does not tell by itself, since it is written as it is compiled, is told by its content: a
+    text that is equal for equal code.
+    """
     if reason := obstacle(folder):
         _say(f"kernels are compiled each time, for {folder} cannot keep them: {reason}")
         return
-    kept = KernelCache(function)
+    before, _config.CACHE_DIR = _config.CACHE_DIR, str(folder)
+    try:
+        kept = KernelCache(function, content)
+    finally:
+        _config.CACHE_DIR = before
     # Where its own subfolder cannot be written numba would turn to the folder of the source.
     if kept.cache_path.startswith(str(folder)):
         dispatcher._cache = kept
@@ -42,10 +51,16 @@ def keep(dispatcher: Any, function: Callable[..., Any], folder: Path) -> None:
 class KernelCache(_caching.FunctionCache):  # type: ignore[misc]
     """Cache of one kernel that takes a file which cannot be read for none."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
+    def __init__(self, function: Callable[..., Any], content: str = "") -> None:
         super().__init__(function)
+        self._content = content
         source_stamp = self._impl.locator.get_source_stamp()
         self._cache_file = KernelFile(self._cache_path, self._impl.filename_base, source_stamp)
+
+    def _index_key(self, signature: Any, codegen: Any) -> Any:
+        if self._content:
+            return signature, codegen.magic_tuple(), self._content
+        return super()._index_key(signature, codegen)
 
     def load_overload(self, signature: Any, context: Any) -> Any:
         """Machine code for a signature, None if there is none that can be used."""

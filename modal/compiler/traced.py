@@ -166,6 +166,15 @@ def traced(function: Callable[..., Any]) -> Any:
     parameters = inspect.signature(function).parameters.values()
     typed.__signature__ = inspect.Signature([asked, *parameters])  # type: ignore[attr-defined]
     typed.__name__, typed.__doc__ = function.__name__, function.__doc__
-    made = _intrinsic(typed)
+    return spoken(_intrinsic(typed), function)
+
+
+def spoken(made: Any, function: Callable[..., Any]) -> Any:
+    """An intrinsic that Python can call: it is then the function as it stands."""
+
+    def call(_self: Any, *arguments: Any) -> Any:
+        return function(*arguments)
+
+    made.__class__ = type("Spoken", (type(made),), {"__call__": call})
     made.py_func = function
     return made

@@ -44,8 +44,8 @@ def test_a_change_of_a_source_names_another_cache(tmp_path, monkeypatch):
     assert folder.cache_folder.__wrapped__() == found[-1]
 
 
-RUN, STEPPER = ["towercrane.cranes.tower.kernels.rhs", "modal.beams.roots"], "towercrane.simulation.stepper"
-REST = ["towercrane.cranes.tower.kernels.structure", "modal.beams.roots"]
+REST = RUN = ["towercrane.cranes.tower.kernels.structure", "modal.beams.roots"]
+STEPPER = "towercrane.simulation.stepper"
 STRUCTURE = ["modal.structures.kernels.structure", "modal.structures.kernels.shapes"]
 
 

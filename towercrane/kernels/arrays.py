@@ -16,9 +16,13 @@ _intrinsic: Any = intrinsic
 
 
 def lane_rhs_signature() -> Any:
-    """:func:`towercrane.simulation.system.rhs_signature` for lane vectors; the tables are the same for all lanes."""
-    one, two, three = (lane_array(axes) for axes in (1, 2, 3))
-    return types.void(VECTOR, one, one, two, one, two, three, TABLE, two, one)
+    """Numba signature of right-hand sides written out for lane vectors.
+
+    ``rhs(t, y, dy, inputs, numbers, tables, guards)``, as :func:`towercrane.simulation.system.rhs_signature` has
+    them; the tables are the same for all lanes.
+    """
+    one, two = (lane_array(axes) for axes in (1, 2))
+    return types.void(VECTOR, one, one, two, one, TABLE, one)
 
 
 def lane_observer_signature() -> Any:

@@ -150,7 +150,7 @@ def hang_load(
     mass, gravity, drag, hinge : float
         Load [kg], gravity [m/s^2], drag per squared speed [kg/m], hinge damping [N m s/rad].
     stiffness, loss : float
-        Of an elastic rope [N/m, N s/m]; a stiffness of zero means inextensible.
+        Of an elastic rope [N/m, N s/m], which the state has a stretch of.
     work : ndarray
         FORCE, VELOCITY, BIAS, JACOBIAN and MASS filled by the structure, WIND where there is any; ACCELERATION,
         DIRECTION and HINGE are left for it.
@@ -167,8 +167,8 @@ def hang_load(
     is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration. An elastic
     rope pulls with k e + c e' whatever the structure does: then nothing of the load is in the matrix, and the stretch
     has an equation of its own."""
-    elastic = stiffness > 0.0
     rates = (y.size - 1) // 2
+    elastic = rates > n + d
     direction, sway = n, rates + n
     winding = rate
     bound = mass

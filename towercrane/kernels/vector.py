@@ -7,7 +7,6 @@ numbers compile for lane vectors as they stand and give every lane the bits that
 
 from __future__ import annotations
 
-import math
 import operator
 from typing import Any
 
@@ -17,7 +16,6 @@ from numba import types
 from numba.core import cgutils
 from numba.core.typeconv.castgraph import Conversion
 from numba.extending import lower_builtin, lower_cast, models, register_model, type_callable
-from numba.np.arrayobj import make_array
 
 LANES = 8
 """Runs side by side; eight doubles fill a register of AVX-512."""
@@ -34,16 +32,9 @@ class LaneVector(types.Type):
         return Conversion.safe if isinstance(other, types.Float | types.Integer) else None
 
 
-class LaneIndex(types.Type):
-    """An index in every lane."""
+VECTOR = LaneVector()
 
-    def __init__(self) -> None:
-        super().__init__(name=f"LaneIndex[{LANES}]")
-
-
-VECTOR, INDEX = LaneVector(), LaneIndex()
-
-DOUBLES, INTEGERS = ir.VectorType(ir.DoubleType(), LANES), ir.VectorType(ir.IntType(64), LANES)
+DOUBLES = ir.VectorType(ir.DoubleType(), LANES)
 TABLE = types.Array(types.float64, 3, "C")
 
 
@@ -51,12 +42,6 @@ TABLE = types.Array(types.float64, 3, "C")
 class _LaneVectorModel(models.PrimitiveModel):
     def __init__(self, manager: Any, kind: Any) -> None:
         super().__init__(manager, kind, DOUBLES)
-
-
-@register_model(LaneIndex)
-class _LaneIndexModel(models.PrimitiveModel):
-    def __init__(self, manager: Any, kind: Any) -> None:
-        super().__init__(manager, kind, INTEGERS)
 
 
 def spread(builder: Any, value: Any, kind: Any) -> Any:
@@ -147,69 +132,8 @@ for _function, _name in (
         _pairs(_form, lambda builder, a, b, name=_name: getattr(builder, name)(a, b))
 
 
-def _signed(_context: Any, builder: Any, value: Any) -> Any:
-    """Build -1, 0 or 1."""
-    zero, one = (ir.Constant(DOUBLES, [number] * LANES) for number in (0.0, 1.0))
-    positive = builder.select(builder.fcmp_ordered(">", value, zero), one, value)
-    return builder.select(builder.fcmp_ordered("<", value, zero), builder.fneg(one), positive)
-
-
-def _lane_by_lane(function: Any) -> Any:
-    """Build the calls of a function of one number for every lane."""
-
-    def build(context: Any, builder: Any, value: Any) -> Any:
-        called = context.get_function(function, types.float64(types.float64))
-        found = ir.Constant(DOUBLES, ir.Undefined)
-        for lane in range(LANES):
-            place = ir.Constant(ir.IntType(32), lane)
-            found = builder.insert_element(found, called(builder, [builder.extract_element(value, place)]), place)
-        return found
-
-    return build
-
-
 _pairs(min, _chosen("<"))
 _pairs(max, _chosen(">"))
 _single(operator.neg, lambda _context, builder, a: builder.fneg(a))
 _single(abs, _called("fabs"))
 _single(np.sqrt, _called("sqrt"))
-_single(np.sin, _called("sin"))
-_single(np.cos, _called("cos"))
-_single(np.sign, _signed)
-_single(np.tanh, _lane_by_lane(math.tanh))
-
-
-@type_callable(operator.add)
-def _type_of_sum(_context: Any) -> Any:
-    return lambda a, b: VECTOR if a == INDEX and isinstance(b, types.Float) else None
-
-
-@lower_builtin(operator.add, INDEX, types.Float)
-def _sum(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    number = _doubles(context, builder, arguments[1], signature.args[1])
-    return builder.fadd(builder.sitofp(arguments[0], DOUBLES), number)
-
-
-_PLACE = types.Tuple([INDEX, types.int64, types.int64])
-
-
-@type_callable(operator.getitem)
-def _type_of_item(_context: Any) -> Any:
-    return lambda table, place: VECTOR if table == TABLE and place == _PLACE else None
-
-
-@lower_builtin(operator.getitem, TABLE, _PLACE)
-def _item(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
-    """In every lane table[cell, i, j] with the lane's own cell."""
-    table = make_array(TABLE)(context, builder, arguments[0])
-    cells, i, j = cgutils.unpack_tuple(builder, arguments[1])
-    _, rows, columns = cgutils.unpack_tuple(builder, table.shape)
-    offset = builder.add(builder.mul(i, columns), j)
-    stride = spread(builder, builder.mul(rows, columns), INTEGERS)
-    offsets = builder.add(builder.mul(cells, stride), spread(builder, offset, INTEGERS))
-    found = ir.Constant(DOUBLES, ir.Undefined)
-    for lane in range(LANES):
-        place = ir.Constant(ir.IntType(32), lane)
-        value = builder.load(builder.gep(table.data, [builder.extract_element(offsets, place)]))
-        found = builder.insert_element(found, value, place)
-    return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -119,37 +119,36 @@ def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> t
     slopes, guards : ndarray, shapes (p, size) and (p, len(system.guards))
     """
     slopes, guards = np.empty_like(states), np.empty((len(times), len(system.guards)))
-    owner = phase_of(times, phases)
+    owner, work = phase_of(times, phases), np.zeros(system.work_shape)
     for phase in np.unique(owner):
         mine = np.flatnonzero(owner == phase)
         part = slice(mine[0], mine[-1] + 1)
         inputs = phases.inputs[phase] if phase < len(phases.inputs) else phases.after
-        under = partial(_under, system, times[part] - phases.times[phase], states[part], inputs)
+        rhs, constants = system.code(inputs)
+        under = partial(_under, rhs, times[part] - phases.times[phase], states[part], inputs, constants[1:], work)
         if system.switch is not None and system.switch.changes_equations:
-            slopes[part], guards[part] = _switched(system, system.switch, states[part], under)
+            slopes[part], guards[part] = _switched(system, system.switch, states[part], constants[0], under)
         else:
-            under(system.numbers, slopes[part], guards[part])
+            under(constants[0], slopes[part], guards[part])
     return slopes, guards
 
 
 def _under(
-    system: System, times: Floats, states: Floats, inputs: Floats, numbers: Floats, slopes: Floats, guards: Floats
-) -> None:
+    rhs: Any, times: Floats, states: Floats, inputs: Floats, others: tuple[Floats, ...], work: Floats,
+    numbers: Floats, slopes: Floats, guards: Floats,
+) -> None:  # fmt: skip
     """Write slopes and guards of one phase, with these numbers in place of the system's own."""
     from towercrane.simulation import stepper
 
-    work = np.zeros(system.work_shape)
-    stepper.evaluate(
-        system.rhs, times, states, slopes, guards, inputs, numbers, *system.constants[1:], work
-    )  # fmt: skip
+    stepper.evaluate(rhs, times, states, slopes, guards, inputs, numbers, *others, work)
 
 
 def _switched(
-    system: System, switch: Switch, states: Floats, under: Callable[[Floats, Floats, Floats], None]
+    system: System, switch: Switch, states: Floats, own: Floats, under: Callable[[Floats, Floats, Floats], None]
 ) -> tuple[Floats, Floats]:
     """Slopes and guards where equations switch: each state has its own, but few of them differ."""
     slopes, guards = np.empty_like(states), np.empty((len(states), len(system.guards)))
-    numbers, floors = system.numbers.copy(), system.floors.copy()
+    numbers, floors = own.copy(), system.floors.copy()
     found: dict[bytes, tuple[Floats, Floats]] = {}
 
     def of_all() -> tuple[Floats, Floats]:

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from towercrane.kernels.straight.written import Known, Written, written
+
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -18,6 +20,10 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
     Integers = NDArray[np.int64]
+
+
+MOST_WRITTEN = 60
+"""States of the largest system whose equations are written out: compiling takes longer than it saves beyond."""
 
 
 def rhs_signature() -> Any:
@@ -73,6 +79,8 @@ class System:
         Constants of the model, with 1, 2, 3 and 3 dimensions.
     work_shape : tuple of int
         Shape of the scratch array.
+    known : Known, optional
+        What is known of the data when the equations are written out for them; without, they are not.
     directions : ndarray of int, shape (ropes, 3)
         Unit vectors among the states, see :mod:`towercrane.simulation.directions`: where each begins, where its rate
         begins, and how many components it has. All slopes but that of the vector, which is its rate, must be the same
@@ -93,19 +101,42 @@ class System:
     matrices: Floats
     tables: Floats
     work_shape: tuple[int, int]
+    known: Known | None = None
     directions: Integers = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))
     switch: Switch | None = None
     fastest: Callable[[], float] | None = None
 
-    @cached_property
-    def rhs(self) -> Any:
-        """Compiled right-hand side."""
-        return self.equations()
-
     @property
     def constants(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """The model's constants in the order of the right-hand side's arguments."""
+        """The model's constants in the order of the equations' arguments."""
         return self.numbers, self.vectors, self.matrices, self.tables
+
+    @property
+    def data(self) -> dict[str, Floats]:
+        """The model's constants by name."""
+        return {"numbers": self.numbers, "vectors": self.vectors, "matrices": self.matrices, "tables": self.tables}
+
+    @cached_property
+    def _codes(self) -> dict[tuple[int, ...], tuple[Any, tuple[Floats, Floats, Floats, Floats]]]:
+        return {}
+
+    def code(self, inputs: Floats) -> tuple[Any, tuple[Floats, Floats, Floats, Floats]]:
+        """Compiled right-hand side for inputs of this shape, and the constants that it wants.
+
+        Where equations are written out, what follows from constants alone stands behind the numbers.
+        """
+        shape = inputs.shape
+        if shape not in self._codes:
+            equations, others = self.equations(), (self.vectors, self.matrices, self.tables)
+            if self.known is None or self.size > MOST_WRITTEN:
+                # Equations in Python serve as well, only slowly.
+                if not getattr(equations, "signatures", True):
+                    equations.compile(rhs_signature())
+                self._codes[shape] = equations, (self.numbers, *others)
+            else:
+                code = written_of([self], shape)
+                self._codes[shape] = code.rhs(rhs_signature()), (code.numbers(self.data), *others)
+        return self._codes[shape]
 
     def slope(self, time: float, state: Floats, inputs: Floats) -> tuple[Floats, Floats]:
         """Right-hand side and guards at a time since the phase with these inputs began.
@@ -117,8 +148,25 @@ class System:
         """
         slope, guards = np.empty(self.size), np.empty(len(self.guards))
         work = np.zeros(self.work_shape)
-        self.rhs(time, np.ascontiguousarray(state), slope, inputs, *self.constants, work, guards)
+        rhs, constants = self.code(inputs)
+        rhs(time, np.ascontiguousarray(state), slope, inputs, *constants, work, guards)
         return slope, guards
+
+
+def written_of(systems: Sequence[System], inputs: tuple[int, ...]) -> Written:
+    """Equations of systems of one kind and size, written out for all of them.
+
+    Parameters
+    ----------
+    systems : sequence of System
+    inputs : tuple of int
+        Shape of a phase's inputs.
+    """
+    first = systems[0]
+    sizes, data = (first.size, len(first.guards)), [system.data for system in systems]
+    return written(
+        first.equations().py_func, sizes, first.known or Known(), data, (inputs[-2], inputs[-1]), first.work_shape
+    )
 
 
 class NoEquilibrium(ArithmeticError):

@@ -55,19 +55,18 @@ def test_friction_never_exceeds_its_limit_and_opposes_sliding(sticking, kind):
 
 
 def test_a_breakaway_is_no_reversal_though_rounding_turns_its_first_rates():
-    model, drive = crane("enhanced", friction_law="stick-slip"), motions()
+    # With a soft stiffness of 750 N m/rad the coupling, wound up by 0.2 rad, pulls more than friction can hold.
+    model, drive = crane("enhanced", friction_law="stick-slip", drive_soft_stiffness=750.0), motions()
     cut = phases((drive["shaft"], drive["rope"]), 1.0)
-    switch, numbers, floors = model.system.switch, model.system.numbers.copy(), model.system.floors.copy()
+    rhs, (numbers, *others) = model.system.code(cut.inputs[0])
+    switch, numbers, floors = model.system.switch, numbers.copy(), model.system.floors.copy()
     state = model.start(cut.inputs[0])
     driven = (model.size - 1) // 2 + model.crane.coordinates.index("platform_angle")
-    # Wound up by 0.2 rad with a soft stiffness of 750 N m/rad: more than friction can hold.
     state[model.crane.coordinates.index("platform_angle")] = -0.2
-    numbers[kernel.SOFT] = 750.0
 
     def guards_at():
-        constants = (numbers, *model.system.constants[1:])
         slope, guards, work = np.empty(model.size), np.empty(6), np.zeros(model.system.work_shape)
-        model.system.rhs(0.0, state, slope, cut.inputs[0], *constants, work, guards)
+        rhs(0.0, state, slope, cut.inputs[0], numbers, *others, work, guards)
         return guards
 
     switch.begin(state, numbers, floors, guards_at)

@@ -200,7 +200,8 @@ def _compiled_rhs(scene: Scene) -> Counted:
     slope, guards, work = np.empty(system.size), np.empty(len(system.guards)), np.zeros(system.work_shape)
 
     def rhs(t: float, y: Floats, inputs: Floats) -> Floats:
-        system.rhs(t, np.ascontiguousarray(y).copy(), slope, inputs, *system.constants, work, guards)
+        compiled, constants = system.code(inputs)
+        compiled(t, np.ascontiguousarray(y).copy(), slope, inputs, *constants, work, guards)
         return slope.copy()
 
     return Counted(rhs)

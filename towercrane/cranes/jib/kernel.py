@@ -170,7 +170,7 @@ def driven(t: float, y: Any, dy: Any, inputs: Any, numbers: Any, work: Any) -> f
     return tension
 
 
-@kernel(rhs_signature())
+@kernel(rhs_signature(), at_once=False)
 def planned_rhs(
     t: float,
     y: Any,
@@ -190,7 +190,7 @@ def planned_rhs(
         guards[TORQUE + i] = work[TORQUES, i]
 
 
-@kernel(rhs_signature())
+@kernel(rhs_signature(), at_once=False)
 def driven_rhs(
     t: float,
     y: Any,
@@ -210,7 +210,7 @@ def driven_rhs(
     guards[TENSION] = driven(t, y, dy, inputs, numbers, work)
 
 
-@kernel(rhs_signature())
+@kernel(rhs_signature(), at_once=False)
 def tracking_rhs(
     t: float,
     y: Any,
@@ -234,7 +234,7 @@ def tracking_rhs(
     guards[TENSION] = driven(t, y, dy, inputs, numbers, work)
 
 
-@kernel(rhs_signature())
+@kernel(rhs_signature(), at_once=False)
 def linear_sway_rhs(
     t: float,
     y: Any,

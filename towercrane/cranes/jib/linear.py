@@ -15,6 +15,7 @@ import numpy as np
 from towercrane.cranes.jib import kernel
 from towercrane.cranes.jib.model import PlannedJibCrane
 from towercrane.kernels.payload import FORCE, JACOBIAN, MASS
+from towercrane.kernels.straight.written import Known
 from towercrane.results.recording import Quantity
 from towercrane.simulation.system import System
 
@@ -73,6 +74,7 @@ class LinearSway:
             matrices=np.empty((0, 0, 0)),
             tables=np.empty((0, 0, 0)),
             work_shape=(kernel.ROWS, kernel.JOINTS),
+            known=Known(),
         )
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:

@@ -18,6 +18,7 @@ import numpy as np
 from modal.checks import check_fields
 from towercrane.cranes.jib import kernel
 from towercrane.kernels.payload import SLACK
+from towercrane.kernels.straight.written import Known
 from towercrane.simulation.outcomes import SLACK_ROPE
 from towercrane.simulation.system import System
 
@@ -146,6 +147,7 @@ class JibModel:
             matrices=np.empty((0, 0, 0)),
             tables=np.empty((0, 0, 0)),
             work_shape=(kernel.ROWS, kernel.JOINTS),
+            known=Known(),
             directions=np.array([(*rope, kernel.AXES) for rope in ropes]),
         )
 

@@ -89,7 +89,7 @@ def structure(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> float:
     return tilt * q
 
 
-@kernel(rhs_signature())
+@kernel(rhs_signature(), at_once=False)
 def rhs(
     t: float,
     y: Any,

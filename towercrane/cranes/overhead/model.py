@@ -10,6 +10,7 @@ import numpy as np
 
 from towercrane.cranes.overhead import kernel
 from towercrane.kernels.payload import SLACK, work_shape
+from towercrane.kernels.straight.written import Known
 from towercrane.simulation.outcomes import SLACK_ROPE
 from towercrane.simulation.system import System
 
@@ -81,6 +82,7 @@ class OverheadModel:
             matrices=np.empty((0, 0, 0)),
             tables=np.empty((0, 0, 0)),
             work_shape=work_shape(1),
+            known=Known(),
             directions=np.array([[kernel.ROPE_DIRECTION, kernel.SWAY, kernel.AXES]]),
             # A trolley on it only adds inertia.
             fastest=lambda: crane.frequency,

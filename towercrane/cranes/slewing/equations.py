@@ -11,6 +11,7 @@ import numpy as np
 from towercrane.cranes.slewing import kernel
 from towercrane.cranes.slewing.friction import Transitions
 from towercrane.kernels.payload import FORCE, JACOBIAN, MASS, SLACK, Load, work_shape
+from towercrane.kernels.straight.written import Known
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, UNSTABLE
 from towercrane.simulation.system import NoEquilibrium, System
@@ -115,6 +116,7 @@ class Equations:
         reach = sum(abs(link.ahead.get("", 0.0)) for link in crane.points[crane.suspension].links)
         scale[-1] = self.load.work_scale(crane.gravity, reach)
         rows, width = work_shape(n)
+        owners = tuple((link, kernel.OWNER, k) for link in range(len(links)) for k in range(2))
         return System(
             equations=lambda: kernel.rhs,
             size=self.size,
@@ -127,6 +129,7 @@ class Equations:
             tables=tables,
             # Three rows more for the point that is being added, or for the row of a coordinate that sticks.
             work_shape=(rows + 3, max(width, 4)),
+            known=Known(kernel.KNOWN, owners, (kernel.FRICTION_STATE,)),
             directions=np.array([[self.rope, (self.size - 1) // 2 + self.rope, 3]]),
             switch=Transitions(
                 driven=crane.coordinates.index(drive.on),

@@ -15,6 +15,7 @@ from numba import types
 
 from modal.compiler.compiled import kernel
 from towercrane.cranes.tower.kernels.drive import coupling_torque
+from towercrane.kernels.choices import below, choose
 from towercrane.kernels.payload import BIAS, DIRECTION, FORCE, HINGE, JACOBIAN, MASS, VELOCITY, hang_load
 from towercrane.kernels.polynomial import polynomial
 from towercrane.simulation.system import rhs_signature
@@ -26,6 +27,9 @@ from towercrane.simulation.system import rhs_signature
 
 NO_FRICTION, TANH, STICK_SLIP = 0.0, 1.0, 2.0
 """Friction laws: none, regularised, set-valued."""
+
+KNOWN = (LINKS, POINTS, SUSPENSION, DRIVEN, FRICTION_LAW)
+"""Entries of ``numbers`` that the equations count and choose with."""
 
 SLIP_BACK, STICK, SLIP_AHEAD, BY_RATE = -1.0, 0.0, 1.0, 2.0
 """States of set-valued friction; BY_RATE reads it off the rate, which is exactly zero while it sticks."""
@@ -160,7 +164,7 @@ def structure(
     return power + torque * shaft_rate - numbers[DRIVE_DAMPING] * slip * slip
 
 
-@kernel(rhs_signature())
+@kernel(rhs_signature(), at_once=False)
 def rhs(
     t: float,
     y: Any,
@@ -178,29 +182,29 @@ def rhs(
     rates = (y.size - 1) // 2
     power = structure(t, y, inputs, numbers, vectors, matrices, tables, work)
     driven = int(numbers[DRIVEN])
-    rate, limit = y[rates + driven], numbers[FRICTION_TORQUE]
-    friction, state = 0.0, numbers[FRICTION_STATE]
-    if numbers[FRICTION_LAW] == TANH:
+    rate, limit, law = y[rates + driven], numbers[FRICTION_TORQUE], numbers[FRICTION_LAW]
+    friction, state, sticks = 0.0, 0.0, 0.0
+    if law == TANH:
         friction = -limit * np.tanh(rate / numbers[FRICTION_RATE])
-    elif numbers[FRICTION_LAW] == STICK_SLIP:
-        if state == BY_RATE:
-            state = np.sign(rate)
+    if law == STICK_SLIP:
+        state = numbers[FRICTION_STATE]
+        state = choose(below(SLIP_AHEAD, state), np.sign(rate), state)
         friction = -limit * state
-    sticks = numbers[FRICTION_LAW] == STICK_SLIP and state == STICK
+        sticks = below(abs(state), SLIP_AHEAD)
     work[FORCE, driven] += friction
     held, held_force = MASS + n, 0.0
-    if sticks:
-        # The row of the coordinate at rest is taken out of the equations and kept: it gives the torque that holds it.
+    if law == STICK_SLIP:
+        # The row of a coordinate at rest is taken out of the equations and kept: it gives the torque that holds it.
         for i in range(n):
             row, column = max(i, driven), min(i, driven)
             work[held, i] = work[MASS + row, column]
-            work[MASS + row, column] = 0.0
-        work[MASS + driven, driven] = 1.0
+            work[MASS + row, column] = choose(sticks, 0.0, work[MASS + row, column])
+        work[MASS + driven, driven] = choose(sticks, 1.0, work[MASS + driven, driven])
         held_force = work[FORCE, driven]
-        work[FORCE, driven] = 0.0
+        work[FORCE, driven] = choose(sticks, 0.0, held_force)
         for k in range(3):
             work[held + 1, k] = work[JACOBIAN + k, driven]
-            work[JACOBIAN + k, driven] = 0.0
+            work[JACOBIAN + k, driven] = choose(sticks, 0.0, work[JACOBIAN + k, driven])
     length, haul, acceleration = polynomial(inputs, ROPE, t)
     tension = hang_load(
         y, dy, n, 3, length, haul, acceleration, numbers[LOAD_MASS], numbers[GRAVITY], numbers[DRAG],
@@ -208,19 +212,20 @@ def rhs(
     )  # fmt: skip
     dy[y.size - 1] += power + friction * rate
 
-    holding, needed = np.inf, 0.0
-    if sticks:
+    sliding, holding, needed = np.inf, np.inf, 0.0
+    if law == STICK_SLIP:
         needed = -held_force
         for i in range(n):
             needed += work[held, i] * dy[rates + i]
         for k in range(3):
             needed -= work[held + 1, k] * (tension * work[DIRECTION, k] - work[HINGE, k])
-        holding = limit - abs(needed)
+        sliding = state * rate
+        holding, needed = choose(sticks, limit - abs(needed), np.inf), choose(sticks, needed, 0.0)
     shaft, _, _ = polynomial(inputs, SHAFT, t)
     beyond = abs(y[driven] - shaft) - numbers[CORNER]
     guards[TENSION] = tension
     guards[INSIDE] = -beyond
     guards[OUTSIDE] = beyond
-    guards[SLIDING] = state * rate if numbers[FRICTION_LAW] == STICK_SLIP else np.inf
+    guards[SLIDING] = sliding
     guards[HOLDING] = holding
     guards[NEEDED] = needed

@@ -10,7 +10,7 @@ import numpy as np
 from towercrane.cranes.kind import Lane
 from towercrane.cranes.tower.file.plane import stays_in_plane
 from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.kernels.lane_rhs import JIB_TIP, SWING, TENSION, TOWER_TIP, observe, rhs
+from towercrane.cranes.tower.kernels.lane_outputs import JIB_TIP, SWING, TENSION, TOWER_TIP, observe
 from towercrane.cranes.tower.outputs.energy import total_energy
 from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.simulation.lanes.crane import LaneCrane
@@ -100,7 +100,6 @@ def _alike(model: FlexibleModel) -> str:
 
 
 PLANE_CRANES = LaneCrane(
-    rhs=rhs,
     observe=observe,
     outputs=LANE_OUTPUTS,
     watched=_tips,

@@ -47,13 +47,13 @@ from towercrane.simulation.stepper import stage_state
 @kernel()
 def _take_stages(
     rhs: Any, first: int, last: int, a: Any, c: Any, y: Any, trial: Any, slope: Any, k: Any, clocks: Any, inputs: Any,
-    numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any, guards: Any, lowest: Any, highest: Any,
+    numbers: Any, tables: Any, guards: Any, lowest: Any, highest: Any,
 ) -> None:  # fmt: skip
     """Slopes of the stages from first to last in every lane, and the range of every guard."""
     step, time = clocks[TRIAL], clocks[TIME]
     for i in range(first, last + 1):
         stage_state(y, a, i, k, step, trial)
-        rhs(time + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+        rhs(time + c[i] * step, trial, slope, inputs, numbers, tables, guards)
         widen(lowest, highest, guards)
         for m in range(y.size):
             k[i, m] = slope[m]
@@ -118,10 +118,7 @@ def advance(
     y, new, trial, slope, k = (
         in_lanes(lanes.y), in_lanes(lanes.new), in_lanes(lanes.trial), in_lanes(lanes.slope), in_lanes(lanes.k),
     )  # fmt: skip
-    inputs, numbers, vectors, matrices, tables, work = (
-        in_lanes(lanes.inputs), in_lanes(lanes.numbers), in_lanes(lanes.vectors), in_lanes(lanes.matrices),
-        borrowed(queue.tables), in_lanes(lanes.work),
-    )  # fmt: skip
+    inputs, numbers, tables = in_lanes(lanes.inputs), in_lanes(lanes.numbers), borrowed(queue.tables)
     watched, outputs, sample_times = in_lanes(lanes.watched), in_lanes(lanes.outputs), borrowed(queue.sample_times)
     directions = borrowed(queue.directions)
     counts, smallest_steps, extremes, series = (
@@ -140,7 +137,7 @@ def advance(
                 if places[RUN, lane] < 0 and lanes.next_run[0] < queue.waiting.size:
                     lane_queue.fill(queue, lanes, lane)
                     lane_queue.begin_phase(queue, lanes, lane)
-            rhs(clocks[TIME], y, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+            rhs(clocks[TIME], y, slope, inputs, numbers, tables, guards)
             for lane in range(LANES):
                 if places[FRESH, lane]:
                     lane_stepper.enter_phase(answers, lanes, lane, rtol)
@@ -158,25 +155,7 @@ def advance(
             lowest[g] = np.inf
             highest[g] = -np.inf
         _take_stages(
-            rhs,
-            1,
-            stages,
-            a,
-            c,
-            y,
-            trial,
-            slope,
-            k,
-            clocks,
-            inputs,
-            numbers,
-            vectors,
-            matrices,
-            tables,
-            work,
-            guards,
-            lowest,
-            highest,
+            rhs, 1, stages, a, c, y, trial, slope, k, clocks, inputs, numbers, tables, guards, lowest, highest
         )
         for m in range(size):
             new[m] = trial[m]
@@ -187,15 +166,15 @@ def advance(
         )  # fmt: skip
         if looking:
             _take_stages(
-                rhs, stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, vectors, matrices,
-                tables, work, guards, lowest, highest,
+                rhs, stages + 1, a.shape[0] - 1, a, c, y, trial, slope, k, clocks, inputs, numbers, tables, guards,
+                lowest, highest,
             )  # fmt: skip
             lane_stepper.count(looking, places, counts, a.shape[0] - 1 - stages)
             # A stage is only an estimate of the state there, and blind beside it; the dense output decides.
             look, looking = 1, looks.look_along(places, clock, 1, FEW_LOOKS)
             while looking:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
-                rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                rhs(clocks[MOMENT], trial, slope, inputs, numbers, tables, guards)
                 lane_stepper.count(looking, places, counts, 1)
                 widen(lowest, highest, guards)
                 look += 1
@@ -204,7 +183,7 @@ def advance(
             suspect, looking = False, looks.look_for_falls(places, clock, LOOKS)
             while looking:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
-                rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                rhs(clocks[MOMENT], trial, slope, inputs, numbers, tables, guards)
                 lane_stepper.count(looking, places, counts, 1)
                 looks.note_looks(looking, places, clock, lane_guards, lane_floors, LOOKS)
                 suspect, looking = True, looks.look_for_falls(places, clock, LOOKS)
@@ -214,7 +193,7 @@ def advance(
             wanted = looks.wanted_samples(places, clock, sample_times)
             while wanted:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
-                rhs(clocks[MOMENT], trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                rhs(clocks[MOMENT], trial, slope, inputs, numbers, tables, guards)
                 observe(trial, lane_trial, guards, watched, outputs, lane_outputs)
                 looks.record(lane_outputs, wanted, places, counts, sample_times, extremes, series)
                 wanted = looks.wanted_samples(places, clock, sample_times)

@@ -44,9 +44,8 @@ class LaneCrane:
 
     Parameters
     ----------
-    rhs, observe : compiled function
-        As in :func:`towercrane.kernels.arrays.lane_rhs_signature` and
-        :func:`towercrane.kernels.arrays.lane_observer_signature`.
+    observe : compiled function
+        As in :func:`towercrane.kernels.arrays.lane_observer_signature`.
     outputs : dict of str to (str, str)
         Units and long names of what is observed.
     watched : callable
@@ -63,7 +62,6 @@ class LaneCrane:
         Outcome of a run that finds no equilibrium to start from.
     """
 
-    rhs: Any
     observe: Any
     outputs: Mapping[str, tuple[str, str]]
     watched: Callable[[Any], Floats]

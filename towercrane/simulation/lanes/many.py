@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.kernels.arrays import lane_rhs_signature
 from towercrane.kernels.vector import LANES
 from towercrane.simulation.arguments import check_times, check_tolerances
 from towercrane.simulation.directions import restore_rows
@@ -41,7 +42,7 @@ from towercrane.simulation.lanes.queue import NOT_FINITE as NOT_FINITE_CODE
 from towercrane.simulation.methods.method import DEFAULT
 from towercrane.simulation.methods.registry import pair_of
 from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE
-from towercrane.simulation.system import NoEquilibrium
+from towercrane.simulation.system import NoEquilibrium, written_of
 from towercrane.simulation.trajectory import phase_of
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from towercrane.kernels.straight.written import Written
     from towercrane.simulation.lanes.crane import LaneCrane, LaneRun
     from towercrane.simulation.methods.runge_kutta import RungeKutta
     from towercrane.simulation.system import System
@@ -145,16 +147,19 @@ def integrate_many(
     workers = threads or available_cores()
     share = min(RUNS_PER_TASK, max(LANES, -(-len(runs) // (4 * workers))))
     turn, stop = pair.longest_turn(rtol), threading.Event()
+    # Runs with polynomials of lower degree are padded.
+    code = written_of([run.model.system for run in runs], max(run.phases.inputs.shape[1:] for run in runs))
+    rhs = code.rhs(lane_rhs_signature(), LANES)
 
     def work(first: int) -> None:
         task = slice(first, first + share)
         mine = Answers(*(array[task] for array in answers))
-        queue = _queue(crane, runs[task], mine, sample_times, atol, pair)
-        lanes = lanes_for(queue, len(pair.a), system.work_shape, len(crane.outputs))
+        queue = _queue(crane, runs[task], mine, sample_times, atol, pair, code)
+        lanes = lanes_for(queue, len(pair.a), len(crane.outputs))
         left = True
         while left and not stop.is_set():
             left = advance(
-                crane.rhs, crane.observe, queue, mine, lanes, pair.stages, pair.a, pair.c, pair.error, pair.dense,
+                rhs, crane.observe, queue, mine, lanes, pair.stages, pair.a, pair.c, pair.error, pair.dense,
                 pair.error_order, rtol, turn, STEPS_PER_CALL,
             )  # fmt: skip
         record_ends(crane, runs[task], queue, mine)
@@ -201,8 +206,9 @@ def _start(run: LaneRun) -> tuple[Floats, int]:
 
 
 def _queue(
-    crane: LaneCrane, runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, pair: RungeKutta
-) -> Queue:
+    crane: LaneCrane, runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, pair: RungeKutta,
+    code: Written,
+) -> Queue:  # fmt: skip
     """The runs' data as the compiled steps want them; runs with fewer phases are padded."""
     systems = [run.model.system for run in runs]
     starts = np.empty((len(runs), systems[0].size))
@@ -218,9 +224,8 @@ def _queue(
     # Those without a start end in it.
     answers.end_states[:] = starts
     most = max(len(run.phases.inputs) for run in runs)
-    powers = max(run.phases.inputs.shape[2] for run in runs)
     times = np.full((len(runs), most + 1), np.inf)
-    inputs = np.zeros((len(runs), most, runs[0].phases.inputs.shape[1], powers))
+    inputs = np.zeros((len(runs), most, *code.shapes["inputs"]))
     first_samples = np.full((len(runs), most + 1), len(sample_times))
     for number, run in enumerate(runs):
         cut = run.phases
@@ -234,9 +239,7 @@ def _queue(
         starts=starts,
         atol=atol * np.array([system.scale for system in systems]),
         longest_steps=np.array([pair.longest_step(system.fastest) for system in systems]),
-        numbers=np.array([system.numbers for system in systems]),
-        vectors=np.array([system.vectors for system in systems]),
-        matrices=np.array([system.matrices for system in systems]),
+        numbers=np.ascontiguousarray(code.numbers_of_many([system.data for system in systems]).T),
         floors=np.array([system.floors for system in systems]),
         watched=np.array([crane.watched(run.model) for run in runs]),
         phase_counts=np.array([len(run.phases.inputs) for run in runs]),

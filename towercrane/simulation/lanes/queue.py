@@ -43,8 +43,8 @@ class Queue(NamedTuple):
         The runs to take, in this order.
     starts, atol : ndarray, shapes (runs, size)
     longest_steps : ndarray, shape (runs,)
-    numbers, vectors, matrices : ndarray, shapes (runs, ...)
-        Constants of each run, as its system has them.
+    numbers : ndarray, shape (runs, ...)
+        Numbers of each run, and behind them what follows from its constants.
     floors : ndarray, shape (runs, guards)
     watched : ndarray, shape (runs, linear outputs, coordinates)
         Outputs that are linear in the coordinates.
@@ -64,8 +64,6 @@ class Queue(NamedTuple):
     atol: Any
     longest_steps: Any
     numbers: Any
-    vectors: Any
-    matrices: Any
     floors: Any
     watched: Any
     phase_counts: Any
@@ -111,9 +109,8 @@ class Lanes(NamedTuple):
     y, new, trial, slope, atol : ndarray, shape (size, lanes)
     k : ndarray, shape (m, size, lanes)
     guards, lowest, highest, floors : ndarray, shape (guards, lanes)
-    inputs, numbers, vectors, matrices, watched : ndarray, shapes (..., lanes)
+    inputs, numbers, watched : ndarray, shapes (..., lanes)
         Of the run in each lane.
-    work : ndarray, shape (rows, columns, lanes)
     norms : ndarray, shape (2, lanes)
     outputs : ndarray, shape (outputs, lanes)
     """
@@ -133,10 +130,7 @@ class Lanes(NamedTuple):
     floors: Any
     inputs: Any
     numbers: Any
-    vectors: Any
-    matrices: Any
     watched: Any
-    work: Any
     norms: Any
     outputs: Any
 
@@ -145,24 +139,8 @@ def queue_type() -> Any:
     """Numba type of a :class:`Queue`."""
     one, two, three, four = (types.Array(types.float64, axes, "C") for axes in (1, 2, 3, 4))
     integers = types.Array(types.int64, 1, "C")
-    fields = [
-        integers,
-        two,
-        two,
-        one,
-        two,
-        three,
-        four,
-        two,
-        three,
-        integers,
-        two,
-        four,
-        types.int64[:, ::1],
-        one,
-        three,
-        types.int64[:, ::1],
-    ]
+    indices = types.int64[:, ::1]
+    fields = [integers, two, two, one, two, two, three, integers, two, four, indices, one, three, indices]
     return types.NamedTuple(fields, Queue)
 
 
@@ -175,14 +153,13 @@ def answers_type() -> Any:
 
 def lanes_type() -> Any:
     """Numba type of :class:`Lanes`."""
-    two, three, four = (types.Array(types.float64, axes, "C") for axes in (2, 3, 4))
+    two, three = (types.Array(types.float64, axes, "C") for axes in (2, 3))
     states, guards = [two] * 5, [two] * 4
-    constants = [three, two, three, four, three]
-    fields = [types.int64[::1], types.int64[:, ::1], two, *states, three, *guards, *constants, three, two, two]
+    fields = [types.int64[::1], types.int64[:, ::1], two, *states, three, *guards, three, two, three, two, two]
     return types.NamedTuple(fields, Lanes)
 
 
-def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int], outputs: int) -> Lanes:
+def lanes_for(queue: Queue, stages: int, outputs: int) -> Lanes:
     """Idle lanes for the runs of a queue."""
     size, guards = queue.starts.shape[1], queue.floors.shape[1]
 
@@ -208,10 +185,7 @@ def lanes_for(queue: Queue, stages: int, work_shape: tuple[int, int], outputs: i
         # Before its first run a lane computes with ones: zeros would divide by zero.
         inputs=lanes(*queue.inputs.shape[2:]) + 1.0,
         numbers=lanes(queue.numbers.shape[1]) + 1.0,
-        vectors=lanes(*queue.vectors.shape[1:]),
-        matrices=lanes(*queue.matrices.shape[1:]),
         watched=lanes(*queue.watched.shape[1:]),
-        work=lanes(*work_shape),
         norms=lanes(2),
         outputs=lanes(outputs),
     )
@@ -233,14 +207,9 @@ def fill(queue: Any, lanes: Any, lane: int) -> None:
         lanes.numbers[i, lane] = queue.numbers[run, i]
     for g in range(lanes.floors.shape[0]):
         lanes.floors[g, lane] = queue.floors[run, g]
-    for j in range(lanes.vectors.shape[1]):
-        for i in range(lanes.vectors.shape[0]):
-            lanes.vectors[i, j, lane] = queue.vectors[run, i, j]
-        for i in range(lanes.watched.shape[0]):
+    for i in range(lanes.watched.shape[0]):
+        for j in range(lanes.watched.shape[1]):
             lanes.watched[i, j, lane] = queue.watched[run, i, j]
-        for b in range(lanes.matrices.shape[0]):
-            for i in range(lanes.matrices.shape[1]):
-                lanes.matrices[b, i, j, lane] = queue.matrices[run, b, i, j]
 
 
 @kernel()

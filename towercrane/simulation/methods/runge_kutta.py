@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -132,7 +132,10 @@ class RungeKutta(Method):
         from towercrane.simulation import stepper
 
         system = run.system
-        guards, numbers, floors = np.empty(len(system.guards)), system.numbers.copy(), system.floors.copy()
+        guards, floors = np.empty(len(system.guards)), system.floors.copy()
+        rhs, (numbers, *others) = system.code(phases.inputs[0])
+        numbers = numbers.copy()
+        constants = (numbers, *others)
         ranges = np.empty((2, len(guards)))
         k, scratch = np.empty((len(self.a), system.size)), np.empty((3, system.size))
         work, step, turn = np.zeros(system.work_shape), 0.0, self.longest_turn(run.rtol)
@@ -146,16 +149,15 @@ class RungeKutta(Method):
             mine = owner == phase
             first = int(np.count_nonzero(owner < phase))
             counts = np.zeros(len(run.counts), dtype=np.int64)
-            constants = (numbers, *system.constants[1:])
 
-            def guards_at(inputs: Floats = inputs, clock: Floats = clock, constants: Any = constants) -> Floats:
-                system.rhs(clock[stepper.TIME], run.state, scratch[0], inputs, *constants, work, guards)
+            def guards_at(inputs: Floats = inputs, clock: Floats = clock) -> Floats:
+                rhs(clock[stepper.TIME], run.state, scratch[0], inputs, *constants, work, guards)
                 return guards
 
             if system.switch is not None:
                 system.switch.begin(run.state, numbers, floors, guards_at)
             arguments = (
-                system.rhs, self.stages, self.a, self.c, self.error, self.dense,
+                rhs, self.stages, self.a, self.c, self.error, self.dense,
                 self.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, system.directions, k, scratch,
                 np.minimum(sample_times[mine] - begin, t_end), run.samples[first : first + np.count_nonzero(mine)],
                 STEPS_PER_CALL, inputs, *constants, work, guards, ranges, floors,

@@ -50,12 +50,12 @@ def solve(
     """
     system = run.system
     slope, guards, work = np.empty(system.size), np.empty(len(system.guards)), np.zeros(system.work_shape)
-    current = 0
+    current, (compiled, constants) = 0, system.code(phases.inputs[0])
 
     def rhs(t: float, y: Floats) -> Floats:
         phase = current if split else min(int(phase_of(np.array([t]), phases)[0]), len(phases.inputs) - 1)
         local = t - phases.times[phase]
-        system.rhs(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *system.constants, work, guards)
+        compiled(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *constants, work, guards)
         return slope.copy()
 
     def margins(t: float, y: Floats) -> Floats:

@@ -16,6 +16,7 @@ from towercrane.cranes.tower.kernels import layout
 from towercrane.cranes.tower.kernels import structure as flexible_kernel
 from towercrane.cranes.tower.modes.shape_table import shape_table
 from towercrane.kernels.payload import FORCE, JACOBIAN, MASS, SLACK, WIND, Load, work_shape
+from towercrane.kernels.straight.written import Known
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB
 from towercrane.simulation.system import NoEquilibrium, System
@@ -56,6 +57,7 @@ class Equations(Coordinates):
             matrices=matrices(self),
             tables=shape_table((self.crane.lateral, self.crane.vertical), self.crane.jib_length),
             work_shape=(rows + layout.ROWS, columns),
+            known=Known(layout.KNOWN),
             directions=np.array([[n, 2 * n + self.axes, self.axes]]),
             switch=Corner(layout.INSIDE, layout.OUTSIDE, drive.soft != drive.stiff) if drive else None,
             fastest=lambda: self.fastest,

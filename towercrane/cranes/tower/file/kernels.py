@@ -13,9 +13,8 @@ if TYPE_CHECKING:
 ROOTS = "modal.beams.roots"
 STRUCTURE, SHAPES = "modal.structures.kernels.structure", "modal.structures.kernels.shapes"
 STEPPER = "towercrane.simulation.stepper"
-RUN = ("towercrane.cranes.tower.kernels.rhs", ROOTS)
 AT_REST = ("towercrane.cranes.tower.kernels.structure", ROOTS)
-LANES = ("towercrane.cranes.tower.kernels.lane_rhs", "towercrane.simulation.lanes.advance")
+LANES = ("towercrane.cranes.tower.kernels.lane_outputs", "towercrane.simulation.lanes.advance")
 
 
 def kernels(tables: TowerCase, use: str) -> tuple[str, ...]:
@@ -23,7 +22,7 @@ def kernels(tables: TowerCase, use: str) -> tuple[str, ...]:
     # Those of a tower that is a chain of segments.
     chain = () if uniform_of(tables.crane) is not None else (STRUCTURE, SHAPES)
     uses = {
-        "run": (*RUN, *chain, STEPPER),
+        "run": (*AT_REST, *chain, STEPPER),
         "lanes": (*LANES, STEPPER),
         "modes": (*AT_REST, STRUCTURE, SHAPES) if stays_in_plane(tables) else (*AT_REST, *chain),
         "map": (STRUCTURE, SHAPES),

@@ -8,7 +8,7 @@ import numpy as np
 
 from modal.compiler.compiled import kernel
 from towercrane.cranes.tower.kernels import layout as at
-from towercrane.kernels.choices import below, choose, whole
+from towercrane.kernels.choices import below, choose
 from towercrane.kernels.payload import FORCE
 from towercrane.kernels.polynomial import polynomial
 
@@ -31,7 +31,7 @@ def drive(t: float, y: Any, inputs: Any, numbers: Any, work: Any) -> tuple[float
         coupling's corner [rad].
     """
     rates = (y.size - 1) // 2
-    turned = whole(numbers[at.DRIVEN])
+    turned = int(numbers[at.DRIVEN])
     shaft, shaft_rate, _ = polynomial(inputs, at.SLEWING, t)
     angle, rate = y[turned], y[rates + turned]
     slip = rate - shaft_rate

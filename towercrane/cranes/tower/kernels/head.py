@@ -12,7 +12,7 @@ import numpy as np
 
 from modal.compiler.compiled import kernel
 from modal.compiler.traced import traced
-from towercrane.kernels.choices import below, choose, everywhere
+from towercrane.kernels.choices import below, either
 
 Vector = tuple[float, float, float]
 
@@ -37,35 +37,24 @@ def upright_functions(square: float) -> tuple[float, float, float, float, float]
     return c0, c1, c2, d1, d2
 
 
-@traced
-def leaning_functions(f: float, square: float, s: float, c: float) -> tuple[float, float, float, float, float]:
-    """:func:`tilt_functions` of a tilt that is not small, from its sine and cosine."""
+@kernel()
+def leaning_functions(square: float) -> tuple[float, float, float, float, float]:
+    """:func:`tilt_functions` of a tilt that is not small."""
+    f = np.sqrt(square)
+    s, c = np.sin(f), np.cos(f)
     far1, far2 = (1.0 - c) / square, (f - s) / (square * f)
     return s / f, far1, far2, (s / f - 2.0 * far1) / square, (far1 - 3.0 * far2) / square
 
 
-@kernel(inline=True)
-def tilt_functions(square: float) -> tuple[float, float, float, float, float]:
-    """sin f / f, (1 - cos f) / f^2, (f - sin f) / f^3 and, of the last two, the derivatives by f over f.
+@kernel()
+def nearly_upright(square: float) -> float:
+    """Whether a squared tilt is small."""
+    return below(square, NEARLY_UPRIGHT)
 
-    Parameters
-    ----------
-    square : float
-        Squared tilt, f^2.
-    """
-    near = below(square, NEARLY_UPRIGHT)
-    upright = upright_functions(square)
-    if everywhere(near):
-        return upright
-    f = np.sqrt(square)
-    c0, c1, c2, d1, d2 = leaning_functions(f, square, np.sin(f), np.cos(f))
-    return (
-        choose(near, upright[0], c0),
-        choose(near, upright[1], c1),
-        choose(near, upright[2], c2),
-        choose(near, upright[3], d1),
-        choose(near, upright[4], d2),
-    )
+
+tilt_functions = either(nearly_upright, upright_functions, leaning_functions)
+"""Of the squared tilt f^2: sin f / f, (1 - cos f) / f^2, (f - sin f) / f^3 and, of the last two, the derivatives by f
+over f."""
 
 
 @traced

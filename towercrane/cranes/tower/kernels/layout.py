@@ -11,6 +11,9 @@ say where the others begin, and COORDINATES how many there are. SELF_GRAVITY is 
 is left out; a channel is -1 where there is none; PLANE_COSINE and PLANE_SINE are those of the angle from the fixed
 x axis to the first axis of the coordinates, zero but in a plane."""
 
+KNOWN = (ALONG_Y, TORSION, DRIVEN, LATERAL, VERTICAL, COORDINATES, SLEWING_CHANNEL, WIND_CHANNEL)
+"""Those that the equations count and choose with."""
+
 SLIDE_X, SLIDE_Y, TILT_X, TILT_Y, TURN, JIB_MASS, JIB_MOMENT, DAMPING, EXPOSURE, CAP, VECTORS = range(11)
 """Rows of ``vectors``, and how many, zero where they do not apply: what a coordinate moves the head (u_x and u_y of
 the tower's top, tilt vector th_x and th_y, turning), int m phi and int m x phi of the jib modes, viscous damping,

@@ -15,7 +15,6 @@ from modal.compiler.compiled import kernel
 from modal.compiler.traced import traced
 from towercrane.cranes.tower.kernels import layout as at
 from towercrane.cranes.tower.kernels.head import Head, Vector
-from towercrane.kernels.choices import whole
 from towercrane.kernels.payload import FORCE, JACOBIAN, MASS
 
 if TYPE_CHECKING:
@@ -127,7 +126,7 @@ def project_head(
     ``place`` is where the rope's upper end is in the head's axes.
     """
     share = share_of(head, body, place)
-    for i in range(whole(numbers[at.LATERAL])):
+    for i in range(int(numbers[at.LATERAL])):
         row = project_motion(i, d - 1, share, vectors, work)
         for m in range(i + 1):
             couple(i, m, row, vectors, matrices, work)
@@ -197,7 +196,7 @@ def project_jib(
     ``pull`` is the force on the trolley and ``place`` where it is, in the head's axes.
     """
     n, trolley = vectors.shape[1], numbers[at.TROLLEY_MASS]
-    to_jib, to_vertical = whole(numbers[at.LATERAL]), whole(numbers[at.VERTICAL])
+    to_jib, to_vertical = int(numbers[at.LATERAL]), int(numbers[at.VERTICAL])
     for i in range(to_jib, n):
         first = to_jib
         if i < to_vertical:

@@ -10,7 +10,6 @@ from towercrane.cranes.tower.kernels import layout as at
 from towercrane.cranes.tower.kernels.drive import drive
 from towercrane.cranes.tower.kernels.projection import dot
 from towercrane.cranes.tower.kernels.structure import structure
-from towercrane.kernels.choices import whole
 from towercrane.kernels.payload import ACCELERATION, DIRECTION, HINGE, MASS, hang_load
 from towercrane.kernels.polynomial import polynomial
 from towercrane.simulation.system import rhs_signature
@@ -62,19 +61,19 @@ def holding_torque(
     d: int, tension: float, x: float, slewing: SlewingRow, dy: Any, numbers: Any, vectors: Any, work: Any
 ) -> float:
     """Torque that the prescribed slewing takes: the equation of the coordinate that is not free."""
-    n, to_jib = vectors.shape[1], whole(numbers[at.LATERAL])
+    n, to_jib = vectors.shape[1], int(numbers[at.LATERAL])
     rates = n + d
     column, row, moment = slewing
     torque = -moment
     for i in range(to_jib):
         torque += turned_by(i, row, vectors) * dy[rates + i]
     hung = numbers[at.TROLLEY_MASS] * x
-    for i in range(to_jib, whole(numbers[at.VERTICAL])):
+    for i in range(to_jib, int(numbers[at.VERTICAL])):
         torque += (vectors[at.JIB_MOMENT, i] + hung * work[MASS + n + at.SHAPE, i]) * dy[rates + i]
     return torque - load_along(column, d - 1, tension, work)
 
 
-@kernel(rhs_signature())
+@kernel(rhs_signature(), at_once=False)
 def rhs(
     t: float,
     y: Any,
@@ -92,7 +91,7 @@ def rhs(
     d = (y.size - 1) // 2 - n
     x, xd, tilt, power, path, slewing = structure(d, t, y, inputs, numbers, vectors, matrices, tables, work)
     torque, beyond = 0.0, 0.0
-    driven = whole(numbers[at.LATERAL]) > whole(numbers[at.DRIVEN])
+    driven = int(numbers[at.LATERAL]) > int(numbers[at.DRIVEN])
     if driven:
         torque, drive_power, beyond = drive(t, y, inputs, numbers, work)
         power += drive_power
@@ -104,7 +103,7 @@ def rhs(
     )  # fmt: skip
     if d == 3 and not driven:
         torque = holding_torque(d, tension, x, slewing, dy, numbers, vectors, work)
-        if whole(numbers[at.SLEWING_CHANNEL]) >= 0:
+        if int(numbers[at.SLEWING_CHANNEL]) >= 0:
             _, turning, _ = polynomial(inputs, at.SLEWING, t)
             power += torque * turning
     force = trolley_force(path, d - 1, numbers[at.TROLLEY_MASS], gravity, tension, work)

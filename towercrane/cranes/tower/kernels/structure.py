@@ -27,7 +27,7 @@ from towercrane.cranes.tower.kernels import layout as at
 from towercrane.cranes.tower.kernels.head import Head, Vector, move_head, tilt_functions
 from towercrane.cranes.tower.kernels.jib import bend_jib
 from towercrane.cranes.tower.kernels.projection import Body, SlewingRow, dot, project_head, project_jib
-from towercrane.kernels.choices import nth, whole
+from towercrane.kernels.choices import nth
 from towercrane.kernels.payload import BIAS, FORCE, VELOCITY, WIND
 from towercrane.kernels.polynomial import polynomial
 from towercrane.simulation.system import rhs_signature
@@ -49,19 +49,19 @@ def add_motion(motion: tuple[float, ...], i: int, rate: int, y: Any, vectors: An
 @kernel(inline=True)
 def move_top(d: int, t: float, y: Any, inputs: Any, numbers: Any, vectors: Any) -> tuple[Head, float]:
     """Head as the coordinates of tower and slewing move it, and its tilt [rad]."""
-    rates, driven, jib = vectors.shape[1] + d, whole(numbers[at.DRIVEN]), whole(numbers[at.LATERAL])
+    rates, driven, jib = vectors.shape[1] + d, int(numbers[at.DRIVEN]), int(numbers[at.LATERAL])
     motion = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for i in range(jib):
         motion = add_motion(motion, i, rates + i, y, vectors)
     tx, ty, turn, ux, uy, txd, tyd, turning = motion
     turn_acceleration = 0.0
-    slewing = whole(numbers[at.SLEWING_CHANNEL]) >= 0 and driven == jib
+    slewing = int(numbers[at.SLEWING_CHANNEL]) >= 0 and driven == jib
     if slewing:
         angle, rate, turn_acceleration = polynomial(inputs, at.SLEWING, t)
         turn += angle
         turning += rate
     c, s = 1.0, 0.0
-    if slewing or whole(numbers[at.TORSION]) < jib:
+    if slewing or int(numbers[at.TORSION]) < jib:
         c, s = np.cos(turn), np.sin(turn)
     square = tx * tx + ty * ty
     head = move_head((tx, ty, txd, tyd), tilt_functions(square), c, s, turning, turn_acceleration, ux, uy)
@@ -140,9 +140,9 @@ def press_wind(
     """
     n = vectors.shape[1]
     rates = n + d
-    to_y, to_turn, to_jib = whole(numbers[at.ALONG_Y]), whole(numbers[at.TORSION]), whole(numbers[at.LATERAL])
-    to_vertical = whole(numbers[at.VERTICAL])
-    breeze = whole(numbers[at.WIND_CHANNEL])
+    to_y, to_turn, to_jib = int(numbers[at.ALONG_Y]), int(numbers[at.TORSION]), int(numbers[at.LATERAL])
+    to_vertical = int(numbers[at.VERTICAL])
+    breeze = int(numbers[at.WIND_CHANNEL])
     east, north = polynomial(inputs, breeze, t)[0], polynomial(inputs, breeze + 1, t)[0]
     c, s = numbers[at.PLANE_COSINE], numbers[at.PLANE_SINE]
     wind = (c * east + s * north, c * north - s * east, polynomial(inputs, breeze + 2, t)[0])
@@ -241,7 +241,7 @@ def structure(
     """
     n = vectors.shape[1]
     rates = n + d
-    jib, middle = whole(numbers[at.LATERAL]), whole(numbers[at.VERTICAL])
+    jib, middle = int(numbers[at.LATERAL]), int(numbers[at.VERTICAL])
     head, tilt = move_top(d, t, y, inputs, numbers, vectors)
     rotation = head[0]
 
@@ -270,7 +270,7 @@ def structure(
     trolley, place = numbers[at.TROLLEY_MASS], (x, left[0], up[0])
     pull = carry_trolley(d - 1, head, x, xd, xdd, left, up, trolley, numbers[at.GRAVITY], work)
     mass, first, inertia, push, moment = with_trolley(weigh_head(head, left, up, numbers), trolley, place, pull)
-    if whole(numbers[at.WIND_CHANNEL]) >= 0:
+    if int(numbers[at.WIND_CHANNEL]) >= 0:
         side, rolling, turning, wind_power = press_wind(d, t, y, head, inputs, numbers, vectors, work)
         push = (push[0], push[1] + side, push[2])
         moment = (moment[0] + rolling, moment[1], moment[2] + turning)

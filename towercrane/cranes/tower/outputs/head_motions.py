@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from towercrane.cranes.tower.kernels.head import NEARLY_UPRIGHT, leaning_functions, move_head, upright_functions
+from towercrane.cranes.tower.kernels.head import move_head, tilt_functions
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -43,19 +43,7 @@ def head_motion(
         Psi, its rate, and the part of its second derivative that is prescribed.
     """
     square = np.einsum("ti,ti->t", tilt, tilt)
-    near = square < NEARLY_UPRIGHT
-    large = np.where(near, 1.0, square)
-    f = np.sqrt(large)
-    functions = [
-        np.where(near, upright, leaning)
-        for upright, leaning in zip(
-            upright_functions.py_func(square),
-            leaning_functions.py_func(f, large, np.sin(f), np.cos(f)),
-            strict=True,
-        )
-    ]
-    parts = move_head.py_func(
-        (*tilt.T, *tilting.T), functions, np.cos(turn), np.sin(turn), turning, acceleration, *velocity.T
-    )
+    functions, c, s = tilt_functions(square), np.cos(turn), np.sin(turn)
+    parts = move_head((*tilt.T, *tilting.T), functions, c, s, turning, acceleration, *velocity.T)
     rotation, *vectors = (np.stack(part, axis=-1) for part in parts)
     return HeadMotion(rotation.reshape(-1, 3, 3), *vectors)

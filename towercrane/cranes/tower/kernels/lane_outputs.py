@@ -1,4 +1,4 @@
-"""Compiled equations and outputs of a crane in its jib's plane for lane vectors: the same for several runs."""
+"""Compiled outputs of a crane in its jib's plane for lane vectors: the same for several runs."""
 
 from __future__ import annotations
 
@@ -8,14 +8,11 @@ import numpy as np
 
 from modal.compiler.compiled import kernel
 from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.kernels import rhs as flexible_rhs
-from towercrane.kernels.arrays import lane_observer_signature, lane_rhs_signature
+from towercrane.kernels.arrays import lane_observer_signature
 from towercrane.kernels.vector import LANES
 
 TOWER_TIP, JIB_TIP, SWING, TENSION = range(4)
 """Outputs: the two linear ones, then swing angle and rope tension."""
-
-rhs = kernel(lane_rhs_signature())(flexible_rhs.rhs.py_func)
 
 
 @kernel(lane_observer_signature())
