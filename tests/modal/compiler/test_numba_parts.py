@@ -21,11 +21,13 @@ from modal.compiler.folder import is_compiled
 
 CACHE, KERNELS = "modal.compiler.kernel_cache", "modal.compiler.compiled"
 TRACED, LANES = "modal.compiler.traced", "towercrane.kernels.vector and arrays"
+STRAIGHT = "towercrane.kernels.straight"
 
 FUNCTIONS = [
     ("numba.core.caching", "FunctionCache", "py_func", CACHE),
     ("numba.core.caching", "FunctionCache.load_overload", "self sig target_context", CACHE),
     ("numba.core.caching", "FunctionCache.save_overload", "self sig data", CACHE),
+    ("numba.core.caching", "FunctionCache._index_key", "self sig codegen", CACHE),
     ("numba.core.caching", "FunctionCache.flush", "self", CACHE),
     ("numba.core.caching", "IndexDataCacheFile", "cache_path filename_base source_stamp", CACHE),
     ("numba.core.caching", "IndexDataCacheFile.save", "self key data", CACHE),
@@ -43,10 +45,10 @@ FUNCTIONS = [
     ("numba.np.arrayobj", "load_item", "context builder arrayty ptr", TRACED),
     ("numba.np.arrayobj", "store_item", "context builder arrayty val ptr", TRACED),
     ("numba.np.arrayobj", "populate_array", "array data shape strides itemsize meminfo parent", LANES),
-    ("numba.core.cgutils", "unpack_tuple", "builder tup count", LANES),
-    ("numba.core.cgutils", "get_or_insert_function", "module fnty name", LANES),
+    ("numba.core.cgutils", "unpack_tuple", "builder tup count", STRAIGHT),
+    ("numba.core.cgutils", "get_or_insert_function", "module fnty name", STRAIGHT),
     ("numba.core.types", "Type.can_convert_from", "self typingctx other", LANES),
-    ("numba.core.base", "BaseContext.get_function", "self fn sig _firstcall", LANES),
+    ("numba.core.base", "BaseContext.get_function", "self fn sig _firstcall", STRAIGHT),
 ]
 
 
