@@ -71,7 +71,10 @@ class Written:
 
 
 _WRITTEN: dict[Any, Written] = {}
-"""What has been written, by all that it depends on."""
+"""What has been written last, by all that it depends on."""
+
+MOST_KEPT = 64
+"""Equations kept in memory beside those that a system holds."""
 
 
 def written(
@@ -104,9 +107,13 @@ def written(
     patterns = (*((array.shape, array.tobytes()) for array in zeros.values()),)
     numbers = first["numbers"][list(known.numbers)]
     key = equations, sizes, known, inputs, work, patterns, numbers.tobytes(), tables.tobytes()
-    if key not in _WRITTEN:
-        _WRITTEN[key] = _record(equations, sizes, known, first, zeros, inputs, work)
-    return _WRITTEN[key]
+    found = _WRITTEN.get(key)
+    if found is None:
+        found = _record(equations, sizes, known, first, zeros, inputs, work)
+        if len(_WRITTEN) >= MOST_KEPT:
+            del _WRITTEN[next(iter(_WRITTEN))]
+        _WRITTEN[key] = found
+    return found
 
 
 def _index(known: Known) -> tuple[NDArray[np.int64], ...]:
