@@ -35,6 +35,10 @@ they crowd, or end."""
 _FREE = "structure: wanted one that no motion leaves unstrained, got one without support"
 
 
+class FewModes(ValueError):
+    """More modes are asked for than there are below the frequency of masses on a flexibility of their own."""
+
+
 def lowest_frequencies(structure: Members, count: int) -> Floats:
     """Lowest natural angular frequencies [rad/s], see `modal.structures.structure.Structure.angular_frequencies`."""
     require_stable(structure)
@@ -101,7 +105,7 @@ def _lowest(structure: Members, count: int, start: float, most: float, *, by_loa
     found: list[Floats] = []
     while known < count and above < most:
         if above == highest:
-            raise ValueError(
+            raise FewModes(
                 f"count: wanted at most {known} frequencies, as many as there are below {highest:.6g} rad/s, where "
                 f"masses vibrate on their own flexibility; got {count!r}"
             )

@@ -3,8 +3,11 @@
 import json
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 from samples.program import towercrane
+
+from towercrane.cases.shipped import case_folder
 
 
 def test_modes_answers_in_the_documented_json():
@@ -34,3 +37,19 @@ def test_modes_table_names_the_discrepancy_and_the_assumed_values():
     assert "trolley [m]" in text
     assert "assumed  crane.jib.second_moment_of_area = 0.0035 m^4" in text
     assert "next: towercrane run qtz5613/condition-3" in text
+
+
+@pytest.mark.parametrize("command", ["modes", "map"])
+def test_horizontals_that_leave_few_modes_are_refused_by_their_key(command, tmp_path):
+    """A thousandth of a square millimetre of steel: beyond what is plausible, and allowed all the same."""
+    crane = (case_folder() / "towers/crane-laced.toml").read_text("utf-8")
+    case = (case_folder() / "towers/laced.toml").read_text("utf-8")
+    assert '"8 cm^2", assumed = "not printed; taken' in crane
+    crane = crane.replace('"8 cm^2", assumed = "not printed; taken', '"1e-5 cm^2", assumed = "not printed; taken')
+    (tmp_path / "crane-laced.toml").write_text(crane, "utf-8")
+    allowed = 'allow_implausible = ["crane.tower.lattice.horizontal_area"]\n'
+    (tmp_path / "laced.toml").write_text(allowed + case, "utf-8")
+    done = towercrane(command, str(tmp_path / "laced.toml"), "--out", str(tmp_path / "out"))
+    assert done.returncode == 2
+    assert "crane.tower.lattice: count: wanted at most" in " ".join(done.stderr.split())
+    assert not (tmp_path / "out").exists()

@@ -43,12 +43,16 @@ def modes(
 
 def _in_plane(task: Task, actual: bool) -> None:
     task.compile("modes")
+    from modal.structures.search import FewModes
     from towercrane.cases.models import model_of
     from towercrane.report.tables.modes import modes_tables
     from towercrane.studies.natural import natural_frequencies
 
     model: Any = model_of(task.case)
-    report = natural_frequencies(task.case, model=model, actual=actual)
+    try:
+        report = natural_frequencies(task.case, model=model, actual=actual)
+    except FewModes as error:
+        task.refuse(f"crane.tower.lattice: {error}")
     files = {"modes.png": mode_picture(task.case, model)} if task.folder is not None else {}
     task.finish(report, modes_tables, task.command("run"), files)
     if any("outcome" in row for row in report["crane"]):
