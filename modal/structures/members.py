@@ -32,6 +32,10 @@ class Unstable(ValueError):
     """The structure cannot carry its weights and loads: it buckles under a part of them."""
 
 
+class FewModes(ValueError):
+    """More modes are asked for than there are below the frequency of masses on a flexibility of their own."""
+
+
 @dataclass(frozen=True, eq=False)
 class Member:
     """A segment between two nodes of a structure.

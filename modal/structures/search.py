@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.structures.assembly import Assembly, assembly, refined, units_of
-from modal.structures.members import Members, Unstable
+from modal.structures.members import FewModes, Members, Unstable
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -33,10 +33,6 @@ CLOSEST = 0.999
 they crowd, or end."""
 
 _FREE = "structure: wanted one that no motion leaves unstrained, got one without support"
-
-
-class FewModes(ValueError):
-    """More modes are asked for than there are below the frequency of masses on a flexibility of their own."""
 
 
 def lowest_frequencies(structure: Members, count: int) -> Floats:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from modal.checks import check_not_negative, whole_number
-from modal.structures.members import Members
+from modal.structures.members import FewModes, Members
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,7 +31,7 @@ class Structure(Members):
 
         check_not_negative("angular_frequency", angular_frequency)
         if angular_frequency >= self.mass_frequency:
-            raise ValueError(
+            raise FewModes(
                 f"angular_frequency: wanted less than {self.mass_frequency:.6g} rad/s, where masses vibrate on their "
                 f"own flexibility, got {angular_frequency:.6g}"
             )

@@ -145,14 +145,14 @@ def _position(written: str, reach: float) -> float:
 
 def _mapped(case: Case, frame: CraneFrame, places: Any, masses: list[float], modes: int) -> xr.Dataset:
     """The map, with a progress bar if somebody is looking."""
-    from modal.structures.search import FewModes
+    from modal.structures.members import FewModes
     from towercrane.studies.frequency_map import frequency_map as computed
 
     title = f"{case.name}: {len(masses)} payloads, {len(places)} positions"
     try:
         return with_bar(title, partial(computed, frame, places, masses, modes=modes))
     except FewModes as error:
-        fail(f"{case.path}: crane.tower.lattice: {error}")
+        fail(f"{case.path}: crane.tower.lattice: wanted horizontals that leave the modes asked for; {error}")
 
 
 def _mode_picture(case: Case, frame: CraneFrame, position: float, count: int) -> dict[str, Any]:

@@ -43,7 +43,7 @@ def modes(
 
 def _in_plane(task: Task, actual: bool) -> None:
     task.compile("modes")
-    from modal.structures.search import FewModes
+    from modal.structures.members import FewModes
     from towercrane.cases.models import model_of
     from towercrane.report.tables.modes import modes_tables
     from towercrane.studies.natural import natural_frequencies
@@ -52,7 +52,7 @@ def _in_plane(task: Task, actual: bool) -> None:
     try:
         report = natural_frequencies(task.case, model=model, actual=actual)
     except FewModes as error:
-        task.refuse(f"crane.tower.lattice: {error}")
+        task.refuse(f"crane.tower.lattice: wanted horizontals that leave the modes asked for; {error}")
     files = {"modes.png": mode_picture(task.case, model)} if task.folder is not None else {}
     task.finish(report, modes_tables, task.command("run"), files)
     if any("outcome" in row for row in report["crane"]):
