@@ -9,6 +9,7 @@ from samples.case_files import RADIAL, only_fault
 
 from towercrane import load_case, run_case
 from towercrane.accuracy.scene import scene_of
+from towercrane.cases.assumptions import left_out
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.plane import heading_of
@@ -57,3 +58,18 @@ def test_a_load_in_space_has_no_plane_to_be_turned():
     space = tower_model(load_case(RADIAL).checked, planar=False)
     with pytest.raises(ValueError, match=r"FlexibleModel\.heading: wanted 0 for a load in space, got 1"):
         replace(space, heading=1.0)
+
+
+def test_a_wind_in_the_plane_says_what_a_linear_model_does_not_know_of_it():
+    calm, windy, across = (
+        left_out(load_case(name, options))
+        for name, options in (
+            ("qtz5613/condition-3", []),
+            ("qtz5613/condition-3", ["wind.speed=9 m/s"]),
+            ("qtz5613/condition-3", ["wind.speed=9 m/s", "wind.direction=90 deg"]),
+        )
+    )
+    assert "linear model's wind across the jib" in windy[0]
+    assert windy[0].startswith(calm[0])
+    assert "linear" not in calm[0]
+    assert across == []

@@ -52,7 +52,10 @@ SIDEWAYS = "torsion of the tower, bending of tower and jib to their sides and sw
 
 def left_out(tables: TowerCase) -> list[str]:
     """What a scene leaves out because nothing excites it."""
-    return [f"nothing turns the head or blows across the jib: {SIDEWAYS}"] if stays_in_plane(tables) else []
+    if not stays_in_plane(tables):
+        return []
+    answer = ", and what a linear model's wind across the jib would do" if tables.wind is not None else ""
+    return [f"nothing turns the head or blows across the jib: {SIDEWAYS}{answer}"]
 
 
 def left_out_in_plane(tables: TowerCase) -> list[str]:
