@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy.estimate import SMALLEST_PEAK, Choice, limits
+from towercrane.accuracy.estimate import SMALLEST_PEAK, Choice, check_targets, limits
 from towercrane.accuracy.foretold import MEASURED, Indicators
 from towercrane.accuracy.instants import OUTPUTS, TENSION
 from towercrane.accuracy.setting import Setting
@@ -59,8 +59,7 @@ def choose(scene: Scene, targets: Mapping[str, Tolerance], stated: Mapping[str, 
     NoEquilibrium
         If the tower buckles.
     """
-    if not targets or not set(targets) <= set(OUTPUTS):
-        raise ValueError(f"targets: wanted some of {', '.join(OUTPUTS)}, got {', '.join(targets) or 'none'}")
+    check_targets(OUTPUTS, targets)
     began, stated = time.process_time(), dict(stated or {})
     indicators = Indicators(scene, stated.get("tower_modes", 0), stated.get("jib_vertical_modes", 0))
     softening = stated.get("weight_softening", True)

@@ -18,6 +18,7 @@ from towercrane.accuracy.readings import ROUNDING, components, held, readings
 from towercrane.cranes.tower.equations.constants import geometric_stiffness
 from towercrane.cranes.tower.equations.small_motions import linear_matrices
 from towercrane.cranes.tower.kernels import layout
+from towercrane.cranes.tower.kernels.drive import coupling_torque
 from towercrane.simulation.outcomes import TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
 
@@ -211,8 +212,7 @@ class Departures:
         """Stiffness of the drive's coupling at its largest twist, from zero to there [N m/rad]."""
         drive = self.model.drive
         assert drive is not None
-        beyond = max(twist - drive.corner, 0.0)
-        return (drive.soft * (twist - beyond) + drive.stiff * beyond) / twist if twist else drive.soft
+        return float(coupling_torque(twist, drive.soft, drive.stiff, drive.corner) / twist) if twist else drive.soft
 
     @cached_property
     def _fading(self) -> Floats:

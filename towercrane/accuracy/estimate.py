@@ -73,6 +73,18 @@ class Choice:
     left_out: tuple[str, ...]
 
 
+def check_targets(outputs: Iterable[str], targets: Iterable[str]) -> None:
+    """Refuse targets of no output, or of another.
+
+    Raises
+    ------
+    ValueError
+    """
+    names, wanted = list(outputs), list(targets)
+    if not wanted or not set(wanted) <= set(names):
+        raise ValueError(f"targets: wanted some of {', '.join(names)}, got {', '.join(wanted) or 'none'}")
+
+
 def limits(outputs: Iterable[str], targets: Mapping[str, Tolerance], peaks: Floats) -> Floats:
     """Largest allowed errors in the outputs' units, infinite where none is set; shape (outputs,)."""
     found, names = np.full(len(peaks), np.inf), list(outputs)

@@ -15,7 +15,7 @@ import numpy as np
 
 from towercrane.accuracy.choice import cost
 from towercrane.accuracy.departures import LAST, Departures
-from towercrane.accuracy.estimate import SMALLEST_PEAK, Choice, Estimate, limits
+from towercrane.accuracy.estimate import SMALLEST_PEAK, Choice, Estimate, check_targets, limits
 from towercrane.accuracy.foretold import MEASURED
 from towercrane.accuracy.readings import ROUNDING
 from towercrane.accuracy.setting import Setting
@@ -100,8 +100,7 @@ def measured_choice(
     KeyboardInterrupt
         If a run was interrupted.
     """
-    if not targets or not set(targets) <= set(scene.outputs):
-        raise ValueError(f"targets: wanted some of {', '.join(scene.outputs)}, got {', '.join(targets) or 'none'}")
+    check_targets(scene.outputs, targets)
     began, stated = time.process_time(), dict(stated or {})
     kinds = [kind for kind in moving(scene.planar) if kind in scene.described]
     free = [kind for kind in kinds if kind not in stated]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.slewing import kernel
+from towercrane.cranes.tower.kernels.drive import coupling_torque
 from towercrane.results.recording import Quantity, load_places
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ def observe(
     down = -direction[:, 2]
     driven = crane.coordinates.index(drive.on)
     shaft, shaft_rate = motions["shaft"](times), motions["shaft"](times, 1)
-    elastic = -_coupling_torque(q[:, driven] - shaft, drive.soft, drive.stiff, drive.corner)
+    elastic = -coupling_torque(q[:, driven] - shaft, drive.soft, drive.stiff, drive.corner)
     total = elastic - drive.damping * (qd[:, driven] - shaft_rate)
     length = motions["rope"](times)
     stretched = length + states[:, n] if model.elastic else length
@@ -132,8 +133,3 @@ def total_energy(model: Equations, motions: dict[str, Motion], times: Floats, st
     within = np.minimum(twist, drive.corner)
     coupling = 0.5 * drive.soft * within**2 + drive.soft * drive.corner * beyond + 0.5 * drive.stiff * beyond**2
     return np.asarray(energy + coupling)
-
-
-def _coupling_torque(twist: Floats, soft: float, stiff: float, corner: float) -> Floats:
-    beyond = np.maximum(abs(twist) - corner, 0.0)
-    return np.asarray(np.sign(twist) * (soft * np.minimum(abs(twist), corner) + stiff * beyond))
