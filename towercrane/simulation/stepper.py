@@ -1,7 +1,7 @@
 """The compiled loop of steps: one explicit Runge-Kutta pair with step control, dense output and guards.
 
 It works through one phase, inside which the inputs are smooth, and allocates nothing. The step control is
-that of Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I (1993), section II.4.
+that of :mod:`towercrane.simulation.step_size`.
 """
 
 from __future__ import annotations
@@ -14,25 +14,21 @@ from numba import types
 from modal.compiler.compiled import kernel
 from towercrane.simulation.directions import longest_turn, restore
 from towercrane.simulation.guards import CLOSE, FEW_LOOKS, LOOKS, NARROWEST, NEAR, any_near, fallen, widen
+from towercrane.simulation.step_size import SHORTEST, SLOWLY, step_factor
 from towercrane.simulation.system import rhs_signature
 
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
 """How far a phase has come."""
 
-TIME, STEP, SMALLEST, LONGEST, RETAKES, TURN = range(6)
+TIME, STEP, SMALLEST, LONGEST, RETAKES, TURN, GROWTH = range(7)
 """Entries of its clock: time since the phase began, next step, smallest step taken, longest step allowed [s]; how
-often a step is taken anew; largest turn of a direction in a step [rad]."""
+often a step is taken anew; largest turn of a direction in a step [rad]; power by which steps grow."""
 
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
 """Entries of its counts."""
 
-SAFETY, SHRINK, GROW = 0.9, 0.2, 10.0
-
 SOON, LATE, ROUGHLY = 1e-3, 0.99, 1e-3
 """A step is taken anew, up to its guard, where that falls between these parts of it, found as exactly as the last."""
-
-SHORTEST = 16.0 * float(np.finfo(np.float64).eps)
-"""Part of a phase that is the shortest step."""
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 _rhs = types.FunctionType(rhs_signature())
@@ -95,23 +91,6 @@ def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
         out[m] = y[m] + h * out[m]
 
 
-@kernel()
-def first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> float:
-    """First guess of a step, from the size of state and slope."""
-    size, speed = 0.0, 0.0
-    for m in range(y.size):
-        if not np.isinf(atol[m]):
-            scale = atol[m] + rtol * abs(y[m])
-            size += (y[m] / scale) * (y[m] / scale)
-            speed += (slope[m] / scale) * (slope[m] / scale)
-    if speed == 0.0:
-        return limit
-    # A state at the origin says nothing of its scale: begin small, the control grows it tenfold a step.
-    guess = 0.01 * np.sqrt(size / speed) if size > 1e-10 else 0.0
-    guess = guess if guess > 1e-6 * limit else 1e-6 * limit
-    return guess if guess < limit else limit
-
-
 @kernel(
     types.int64(
         _rhs, types.int64, _two, _one, _two, _two, types.int64, types.float64, _one, types.int64[::1],
@@ -157,7 +136,7 @@ def advance(
         As in :func:`towercrane.simulation.system.rhs_signature`.
     stages, a, c, error, dense, error_order
         As in :class:`towercrane.simulation.methods.runge_kutta.RungeKutta`.
-    clock, counts : ndarray, shapes (6,) and (5,)
+    clock, counts : ndarray, shapes (7,) and (5,)
         Read and written.
     y : ndarray, shape (size,)
         State, carried on in place.
@@ -181,7 +160,7 @@ def advance(
     lowest, highest = ranges[0], ranges[1]
     t, h = clock[TIME], clock[STEP]
     shortest = SHORTEST * t_end
-    taken, grow, full, retaken = 0, GROW, 0.0, 0
+    taken, full, retaken = 0, 0.0, 0
     while t < t_end:
         if taken == max_steps or h < shortest:
             clock[TIME], clock[STEP] = t, h
@@ -212,10 +191,8 @@ def advance(
                     break
         if not norm <= 1.0:
             counts[REJECTED] += 1
-            # A norm that is not a number (a trial left the model's domain) shrinks the step as far as allowed.
-            factor = SAFETY * norm ** (-1.0 / (error_order + 1)) if np.isfinite(norm) else SHRINK
-            h = step * max(SHRINK, factor)
-            grow = 1.0
+            h = step * step_factor(norm, error_order, clock[GROWTH])
+            clock[GROWTH] = SLOWLY
             continue
 
         # A stage is only an estimate of the state there, and blind beside it; the dense output decides.
@@ -268,11 +245,10 @@ def advance(
             clock[TIME], clock[STEP] = t, max(step, full)
             counts[GUARD_INDEX] = crossed
             return GUARD
-        factor = GROW if norm == 0.0 else SAFETY * norm ** (-1.0 / (error_order + 1))
+        grown = step * step_factor(norm, error_order, clock[GROWTH])
         # The cut last step of a phase says nothing about the next one's length.
-        h = max(h, step * min(grow, factor)) if last else step * min(grow, max(SHRINK, factor))
-        h = min(h, bound)
-        grow, full, retaken = GROW, 0.0, 0
+        h = min(max(h, grown) if last else grown, bound)
+        full, retaken = 0.0, 0
     clock[TIME], clock[STEP] = t, h
     return FINISHED
 

@@ -12,7 +12,7 @@ from numba import types
 
 from modal.compiler.compiled import kernel
 from towercrane.kernels.vector import LANES
-from towercrane.simulation.stepper import GROW
+from towercrane.simulation.step_size import FREELY
 
 RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED = range(7)
 """Rows of a lane's places: run (-1: idle), phase, next sample, first sample of the next phase, whether the slope at
@@ -20,8 +20,8 @@ the start is wanted, whether a guard has been near its floor, and the guard that
 
 BEGIN, END, TIME, STEP, LONGEST, GROWTH, TRIAL, ACCEPTED_STEP, STOP, FRACTION, MOMENT, LOW, HIGH = range(13)
 """Rows of a lane's clock: start of the phase, its length, time since it began, next step, longest step allowed,
-largest growth, step that is tried, 1 where it was accepted, time it reaches, and for a look inside the step its
-fraction, its time and the bracket of a guard's fall."""
+power by which steps grow, step that is tried, 1 where it was accepted, time it reaches, and for a look inside the
+step its fraction, its time and the bracket of a guard's fall."""
 
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN = range(4)
 """Columns of a run's counts."""
@@ -199,6 +199,7 @@ def fill(queue: Any, lanes: Any, lane: int) -> None:
     lanes.places[RUN, lane] = run
     lanes.places[PHASE, lane] = 0
     lanes.clock[STEP, lane] = 0.0
+    lanes.clock[GROWTH, lane] = FREELY
     lanes.clock[LONGEST, lane] = queue.longest_steps[run]
     for m in range(lanes.y.shape[0]):
         lanes.y[m, lane] = queue.starts[run, m]
@@ -220,7 +221,6 @@ def begin_phase(queue: Any, lanes: Any, lane: int) -> None:
     lanes.clock[BEGIN, lane] = begin
     lanes.clock[END, lane] = queue.phase_times[run, phase + 1] - begin
     lanes.clock[TIME, lane] = 0.0
-    lanes.clock[GROWTH, lane] = GROW
     lanes.places[SAMPLE, lane] = queue.first_samples[run, phase]
     lanes.places[SAMPLES_END, lane] = queue.first_samples[run, phase + 1]
     lanes.places[FRESH, lane] = 1

@@ -36,7 +36,7 @@ from towercrane.simulation.lanes.queue import (
     TRIAL,
     end_run,
 )
-from towercrane.simulation.stepper import GROW, SAFETY, SHORTEST, SHRINK, first_step
+from towercrane.simulation.step_size import SHORTEST, SLOWLY, first_step, step_factor
 
 
 @kernel()
@@ -114,23 +114,20 @@ def judge_steps(
         counts[run, EVALUATIONS] += stages
         if not norm <= 1.0:
             counts[run, REJECTED] += 1
-            factor = SAFETY * norm ** (-1.0 / (error_order + 1)) if np.isfinite(norm) else SHRINK
-            clock[STEP, lane] = step * max(SHRINK, factor)
-            clock[GROWTH, lane] = 1.0
+            clock[STEP, lane] = step * step_factor(norm, error_order, clock[GROWTH, lane])
+            clock[GROWTH, lane] = SLOWLY
             continue
         counts[run, ACCEPTED] += 1
         smallest_steps[run] = min(smallest_steps[run], step)
         clock[ACCEPTED_STEP, lane] = 1.0
-        factor = GROW if norm == 0.0 else SAFETY * norm ** (-1.0 / (error_order + 1))
-        growth = clock[GROWTH, lane]
+        grown = step * step_factor(norm, error_order, clock[GROWTH, lane])
         # The cut last step of a phase says nothing about the next one's length.
         if is_last(clock, lane):
             clock[STOP, lane] = clock[END, lane]
-            clock[STEP, lane] = max(clock[STEP, lane], step * min(growth, factor))
+            clock[STEP, lane] = max(clock[STEP, lane], grown)
         else:
             clock[STOP, lane] = clock[TIME, lane] + step
-            clock[STEP, lane] = step * min(growth, max(SHRINK, factor))
-        clock[GROWTH, lane] = GROW
+            clock[STEP, lane] = grown
         clock[LOW, lane], clock[HIGH, lane], places[CROSSED, lane] = 0.0, 0.0, -1
         places[SUSPECT, lane] = near(lowest, highest, floors, NEAR, lane)
         if places[SUSPECT, lane] or wants_sample(places, clock, sample_times, lane):

@@ -134,7 +134,7 @@ class Method(ABC):
             return ""
         verb = "gains" if change > 0.0 else "loses"
         tolerance = f"rtol {rtol:g}" if rtol >= atol else f"atol {atol:g}"
-        crane = "2+3 modes, more with more" if change > 1.0 else "few modes"
+        crane = "2+3 modes, more with more" if change > 0.5 else "few modes"
         return (
             f"{self.name} at {tolerance} {verb} energy: {100.0 * change:+.3g} % in {SPAN:g} s of free vibration "
             f"with {crane}; {self._remedy(rtol, atol)}"

@@ -130,6 +130,7 @@ class RungeKutta(Method):
     def carry(self, run: Run, phases: Phases, sample_times: Floats, split: bool, progress: Progress | None) -> str:
         """Carry a run on through its phases, in place; how it ended."""
         from towercrane.simulation import stepper
+        from towercrane.simulation.step_size import FREELY
 
         system = run.system
         guards, floors = np.empty(len(system.guards)), system.floors.copy()
@@ -138,14 +139,15 @@ class RungeKutta(Method):
         constants = (numbers, *others)
         ranges = np.empty((2, len(guards)))
         k, scratch = np.empty((len(self.a), system.size)), np.empty((3, system.size))
-        work, step, turn = np.zeros(system.work_shape), 0.0, self.longest_turn(run.rtol)
+        work, turn = np.zeros(system.work_shape), self.longest_turn(run.rtol)
+        step, growth = 0.0, FREELY
         owner = phase_of(sample_times, phases)
         for phase, inputs in enumerate(phases.inputs):
             begin, t_end = float(phases.times[phase]), float(phases.times[phase + 1] - phases.times[phase])
             # Where a guard ends the run, nothing goes on from its state.
             retakes = 0.0 if system.switch is None else MOST_RETAKES
             longest = self.longest_step(system.fastest)
-            clock = np.array([0.0, step, run.smallest_step, longest, retakes, turn])
+            clock = np.array([0.0, step, run.smallest_step, longest, retakes, turn, growth])
             mine = owner == phase
             first = int(np.count_nonzero(owner < phase))
             counts = np.zeros(len(run.counts), dtype=np.int64)
@@ -186,7 +188,7 @@ class RungeKutta(Method):
                         status, fresh = stepper.PAUSED, True
             run.counts += counts
             run.time, run.smallest_step = begin + float(clock[stepper.TIME]), float(clock[stepper.SMALLEST])
-            step = float(clock[stepper.STEP])
+            step, growth = float(clock[stepper.STEP]), float(clock[stepper.GROWTH])
             if interrupted:
                 return INTERRUPTED
             if stalled > MOST_STALLED:
@@ -209,6 +211,7 @@ def _enter(
 ) -> int:
     """Whether the run goes on, with the slope and the guards where it stands; a first step if it has none."""
     from towercrane.simulation import stepper
+    from towercrane.simulation.step_size import first_step
 
     counts[EVALUATIONS] += 1
     if not np.all(np.isfinite(slope)):
@@ -217,5 +220,5 @@ def _enter(
         counts[stepper.GUARD_INDEX] = fallen[0]
         return stepper.GUARD
     if clock[stepper.STEP] <= 0.0:
-        clock[stepper.STEP] = stepper.first_step(run.state, slope, run.rtol, run.atol, t_end)
+        clock[stepper.STEP] = first_step(run.state, slope, run.rtol, run.atol, t_end)
     return stepper.PAUSED

@@ -11,7 +11,7 @@ import scipy.integrate
 from towercrane.simulation.directions import restore_rows
 from towercrane.simulation.guards import first_fall
 from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE
-from towercrane.simulation.stepper import SHORTEST
+from towercrane.simulation.step_size import SHORTEST
 from towercrane.simulation.trajectory import ACCEPTED, EVALUATIONS, REJECTED, WRITTEN, phase_of
 
 if TYPE_CHECKING:
