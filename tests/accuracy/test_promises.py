@@ -275,7 +275,7 @@ def test_a_promise_that_its_verification_breaks_ends_with_an_exit_code(tmp_path,
     monkeypatch.setattr("towercrane.accuracy.promise.verification", found)
     done = CliRunner().invoke(app, command)
     assert done.exit_code == 1
-    assert "the error asked for is promise broken" in done.stderr
+    assert "error asked for: promise broken" in done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert summary["accuracy"]["outcome"] == BROKEN
     assert any("sway radial: 1 rad found beside a richer model" in notice for notice in summary["notices"])

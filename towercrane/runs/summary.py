@@ -168,7 +168,7 @@ def notices(case: Case, run: Run, natural: Natural, free: slice) -> list[str]:
         reason = f": {run.attrs['message']}" if run.attrs["message"] else ""
         found.append(f"ended at {run.attrs['end_time']:.6g} s: {run.attrs['outcome']}{reason}")
     if (promised := accuracy(run)) and promised["reasons"]:
-        found.append(f"the error asked for is {promised['outcome']}: {'; '.join(promised['reasons'])}")
+        found.append(f"error asked for: {promised['outcome']}: {'; '.join(promised['reasons'])}")
     found += table_notices(case)
     tension = run["rope_tension"].values
     if case.rope.slack == "rod" and tension.min() < 0.0:

@@ -61,6 +61,8 @@ class Range:
         if size <= 0.0 or low <= size <= high:
             return None
         wanted = f"a value from {low:g} to {high:g} {self.unit}".removesuffix(" 1")
+        if self.signed:
+            wanted += " of either sign, or 0"
         if allowed:
             return Fault("", key, wanted, shown(value), "beyond that an implausible value cannot be computed with")
         allow = f'if it is right, put allow_implausible = ["{key}"] at the top of the case file'
