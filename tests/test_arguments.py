@@ -10,7 +10,7 @@ from samples.qtz5613 import model, motions
 from modal import Beam
 from towercrane import Load, ModeCounts, TowerCrane, sweep
 from towercrane.cases.case import case_folder, load_case
-from towercrane.cranes.jib.model import JibCrane
+from towercrane.cranes.jib.parameters import JibCrane
 from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.slewing.build import parameters_of
 from towercrane.cranes.slewing.description import Drive, Spring

@@ -1,4 +1,4 @@
-"""The compiler's tools: compiled functions, their cache, traced algebra. Imports nothing else of modal.
+"""The compiler's tools: compiled functions and their cache. Imports nothing else of modal.
 
 What numba promises to nobody is used here and for lane vectors in `towercrane.kernels`, nowhere else.
 """

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from modal.compiler.folder import cache_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-
-_OBJECTS = np.dtype(object)
 
 
 class NoCompiler(RuntimeError):
@@ -26,7 +21,6 @@ def kernel(
     inline: bool = False,
     allocates: bool = False,
     parallel_calls: bool = False,
-    at_once: bool = True,
 ) -> Callable[[Callable[..., Any]], Any]:
     """Compile a function with numba: with a signature at once, cached; without one into the kernels that call it.
 
@@ -46,13 +40,6 @@ def kernel(
         thirds longer. numba refuses to compile a function that allocates and does not say so.
     parallel_calls : bool
         Let several threads be inside at the same time: the interpreter's lock is given away on the way in.
-    at_once : bool
-        Compile now; else ``compile`` is called where the function is wanted.
-
-    Notes
-    -----
-    Called with operands that record, a function is the Python that it was: see
-    :mod:`towercrane.kernels.straight`.
     """
     import numba
     from numba.core import config as numba_config
@@ -81,26 +68,14 @@ def kernel(
             made.__class__ = _inner(type(made))
             return made
         keep(made, function, cache_folder())
-        if signature is not None and at_once:
+        if signature is not None:
             made.compile(signature)
             made.disable_compile()
         if isinstance(python_entry, tuple):
             made.compile(python_entry)
-        made.__class__ = _recordable(type(made))
         return made
 
     return decorate
-
-
-def _recordable(dispatcher: type) -> type:
-    """Class of compiled functions that are what they were to arrays of operands."""
-
-    def call(self: Any, *arguments: Any) -> Any:
-        if any(getattr(argument, "dtype", None) is _OBJECTS for argument in arguments):
-            return self.py_func(*arguments)
-        return dispatcher.__call__(self, *arguments)
-
-    return type("Recordable", (dispatcher,), {"__call__": call})
 
 
 def _inner(dispatcher: type) -> type:

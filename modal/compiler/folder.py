@@ -17,7 +17,7 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
-ROOMS = "modal", "towercrane/kernels", "towercrane/simulation", "towercrane/cranes"
+ROOMS = "modal", "towercrane/kernels", "towercrane/simulation"
 """Folders with kernels, or with what they read, in them or below."""
 
 DIGITS = 16

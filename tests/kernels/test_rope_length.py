@@ -10,12 +10,11 @@ from samples import qtz5613
 
 from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of
-from towercrane.cranes.tower.lanes import PLANE_CRANES
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.directions import longest_turn, restore, restore_rows
 from towercrane.simulation.integrate import integrate
-from towercrane.simulation.lanes.crane import LaneRun
 from towercrane.simulation.lanes.many import integrate_many
+from towercrane.simulation.lanes.run import LaneRun
 from towercrane.simulation.methods.registry import METHODS
 from towercrane.simulation.simulate import simulate
 
@@ -173,9 +172,7 @@ def test_a_wide_swing_in_lanes_has_the_bits_of_a_single_run(modes):
     cut = phases((rest(20.0), rest(5.0)), 60.0)
     grid, loose = np.linspace(0.0, 60.0, 61), {"rtol": 1e-5, "atol": 1e-7}
     angles = (1.5, 2.5, 1.2)
-    found = integrate_many(
-        PLANE_CRANES, [LaneRun(crane, cut, "zero", angle) for angle in angles], grid, threads=1, **loose
-    )
+    found = integrate_many([LaneRun(crane, cut, "zero", angle) for angle in angles], grid, threads=1, **loose)
     for angle, state, evaluations in zip(angles, found.end_states, found.evaluations, strict=True):
         single = integrate(crane.system, cut, crane.start(cut.inputs[0], "zero", angle), grid, **loose)
         assert np.array_equal(state, single.end_state)

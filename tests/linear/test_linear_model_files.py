@@ -22,7 +22,9 @@ from towercrane.studies.linear_report import linear_model
 def test_derivatives_of_smooth_sharp_and_kinked_functions():
     def function(x):
         u, v = x
-        return np.array([np.exp(u), u**7 + v, np.tanh(v / 0.01), abs(v) * v + 3 * v, max(v, 0.0), 1e6 * np.sin(u)])
+        return np.array(
+            [np.exp(u), u**7 + v, np.tanh(v / 0.01), abs(v) * v + 3 * v, np.maximum(v, 0.0), 1e6 * np.sin(u)]
+        )
 
     values, errors = jacobian(function, np.array([1.0, 0.0]), np.array([1.0, 1.0]))
     expected = [[np.e, 0], [7, 1], [0, 100], [0, 3], [0, 0.5], [1e6 * np.cos(1), 0]]

@@ -5,10 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from samples.bare_systems import plain_system
 
+from towercrane.kernels.algebra import dot
+from towercrane.kernels.polynomial import polynomial
 from towercrane.linear.linearise import linearise
 from towercrane.results.recording import Quantity
-from towercrane.simulation.system import plain_system
 
 G = 9.81
 
@@ -18,46 +20,51 @@ G = 9.81
 LENGTH, RADIUS, MASS = 2.0, 2.0, 50.0
 
 
+@dataclasses.dataclass(frozen=True)
+class Platform:
+    inertia: float
+
+
+def equations(platform, t, y, inputs):
+    """Slopes of (angle, n, rate, p, work) on a free platform, of (n, p, work) on a prescribed one."""
+    half = (len(y) - 1) // 2
+    direction, swing = y[half - 3 : half], y[2 * half - 3 : 2 * half]
+    angle, rate, turn = polynomial(inputs[0], t) if platform is None else (y[0], y[half], 0.0)
+    c, s = np.cos(angle), np.sin(angle)
+    inward = -RADIUS * rate * rate * c, -RADIUS * rate * rate * s, G
+    square, turns = dot(swing, swing), []
+    if platform is not None:
+        # I phi'' = R T side.n with the tension T = m (l p.p - n.(a_D + g e_z)).
+        across = RADIUS * (c * direction[1] - s * direction[0])
+        turn = (
+            MASS * across * (LENGTH * square - dot(direction, inward)) / (platform.inertia + MASS * across * across)
+        )
+        turns = [turn]
+    pull = inward[0] - RADIUS * turn * s, inward[1] + RADIUS * turn * c, G
+    along = dot(pull, direction)
+    turning = [-(a - along * n) / LENGTH - square * n for a, n in zip(pull, direction, strict=True)]
+    return [*y[half : 2 * half], *turns, *turning, 0.0], []
+
+
 class Arm:
     """Rigid arm that slews and carries a load: by a prescribed angle, or free with an inertia of its own."""
 
     axes = 3
 
     def __init__(self, inertia=None):
-        self.inertia = inertia
         self.n = 0 if inertia is None else 1
         self.channels = ("slew",) if inertia is None else ()
         self.state_names = {} if inertia is None else {"platform": "rad"}
-        self.system = dataclasses.replace(
-            plain_system(self.rhs, 2 * self.n + 7), scale=np.full(2 * self.n + 7, np.inf)
-        )
-
-    def rhs(self, t, y, dy, inputs, *_):
-        n = self.n
-        direction, swing = y[n : n + 3], y[2 * n + 3 : 2 * n + 6]
-        if n:
-            angle, rate = y[0], y[n + 3]
-        else:
-            c = inputs[0]
-            angle, rate, turn = c[0] + t * (c[1] + t * c[2]), c[1] + 2 * t * c[2], 2 * c[2]
-        out, side = np.array([np.cos(angle), np.sin(angle), 0]), np.array([-np.sin(angle), np.cos(angle), 0])
-        inward = -RADIUS * rate**2 * out + [0, 0, G]
-        if n:
-            # I phi'' = R T side.n with the tension T = m (l p.p - n.(a_D + g e_z)).
-            across = RADIUS * (side @ direction)
-            turn = MASS * across * (LENGTH * swing @ swing - direction @ inward) / (self.inertia + MASS * across**2)
-            dy[0], dy[n + 3] = rate, turn
-        pull = inward + RADIUS * turn * side
-        dy[n : n + 3] = swing
-        dy[2 * n + 3 : 2 * n + 6] = -(pull - (pull @ direction) * direction) / LENGTH - swing @ swing * direction
-        dy[-1] = 0.0
+        size = 2 * self.n + 7
+        system = plain_system(equations, size, None if inertia is None else Platform(inertia))
+        self.system = dataclasses.replace(system, scale=np.full(size, np.inf))
 
     def start(self, inputs, state="equilibrium", swing_angle=0.0):
         y = np.zeros(self.system.size)
         y[self.n + 2] = -1.0
         return y
 
-    def observe(self, motions, times, states, guards):
+    def observe(self, motions, times, states, slopes, guards):
         return {"payload": Quantity(("time", "axis"), states[:, self.n : self.n + 3], "m", "rope direction")}
 
 

@@ -6,14 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from samples.bare_systems import plain_system
 
-from modal.compiler.compiled import kernel
+from towercrane.kernels.polynomial import polynomial
 from towercrane.motions.motion import Motion, rest
 from towercrane.motions.profiles import trapezoid
-from towercrane.simulation.system import System, plain_system, rhs_signature
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from towercrane.simulation.system import System
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,43 +27,37 @@ class Exact:
     motion: Motion
 
 
-@kernel(rhs_signature())
-def _oscillator(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
-    dy[0] = y[1]
-    dy[1] = -(numbers[0] ** 2) * y[0]
+@dataclass(frozen=True)
+class Frequency:
+    omega: float
 
 
-@kernel(rhs_signature())
-def _kepler(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
-    cubed = (y[0] ** 2 + y[1] ** 2) ** 1.5
-    dy[0] = y[2]
-    dy[1] = y[3]
-    dy[2] = -y[0] / cubed
-    dy[3] = -y[1] / cubed
+def _oscillator(own, t, y, inputs):
+    return (y[1], -(own.omega * own.omega) * y[0]), ()
 
 
-@kernel(rhs_signature())
-def _growth_and_decay(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
+def _kepler(own, t, y, inputs):
+    square = y[0] * y[0] + y[1] * y[1]
+    cubed = square * np.sqrt(square)
+    return (y[2], y[3], -y[0] / cubed, -y[1] / cubed), ()
+
+
+def _growth_and_decay(own, t, y, inputs):
     # Explicit time: y' = y cos t, z' = -z / (1 + t).
-    dy[0] = y[0] * np.cos(t)
-    dy[1] = -y[1] / (1.0 + t)
+    return (y[0] * np.cos(t), -y[1] / (1.0 + t)), ()
 
 
-@kernel(rhs_signature())
-def _driven(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
+def _driven(own, t, y, inputs):
     # Oscillator on a support whose acceleration jumps at the switch points.
-    acceleration = 0.0
-    for c in range(inputs.shape[1] - 1, 1, -1):
-        acceleration = acceleration * t + c * (c - 1) * inputs[0, c]
-    dy[0] = y[1]
-    dy[1] = -(numbers[0] ** 2) * y[0] - acceleration
+    _, _, acceleration = polynomial(inputs[0], t)
+    return (y[1], -(own.omega * own.omega) * y[0] - acceleration), ()
 
 
 def oscillator(omega: float = 3.0, duration: float = 10.0) -> Exact:
     def solution(t):
         return np.stack([np.cos(omega * t), -omega * np.sin(omega * t)], axis=1)
 
-    return Exact("oscillator", plain_system(_oscillator, 2, (omega,)), duration, solution, rest(0.0))
+    return Exact("oscillator", plain_system(_oscillator, 2, Frequency(omega)), duration, solution, rest(0.0))
 
 
 def kepler(eccentricity: float = 0.3, duration: float = 12.0) -> Exact:
@@ -98,7 +94,7 @@ def driven(omega: float = 0.7382, duration: float = 60.0) -> Exact:
             y[:, 1] -= jump * np.sin(omega * s) / omega
         return y
 
-    return Exact("driven", plain_system(_driven, 2, (omega,)), duration, solution, motion)
+    return Exact("driven", plain_system(_driven, 2, Frequency(omega)), duration, solution, motion)
 
 
 ALL = [oscillator(), kepler(), growth_and_decay(), driven()]

@@ -12,7 +12,6 @@ from oracles import exact_rods
 from samples import space_crane as space
 
 from towercrane.cranes.tower.modes.mass_sums import rigid_sums
-from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import phases
 from towercrane.motions.profiles import speed_trapezoid, table, trapezoid
 from towercrane.simulation.integrate import integrate
@@ -40,12 +39,13 @@ def stiffer(factor):
     return dataclasses.replace(crane, **members, shaft=shaft, roll_inertia=ROLL)
 
 
-def shortening(motion, reach):
+def shortening(crane, motion, reach):
     """By how much the bent jib draws in what is ``reach`` (times,) along it: the integral of slope^2 / 2."""
     total = np.zeros_like(reach)
     for point, weight in zip(*leggauss(16), strict=True):
-        slopes = motion.deflection(motion.model.crane.jib_shapes(0.5 * reach * (1.0 + point), 1), motion.coordinates)
-        total += 0.25 * weight * reach * (slopes**2).sum(axis=1)
+        shapes = crane.jib_shapes(0.5 * reach * (1.0 + point), 1)
+        left, up = motion.deflection(shapes, motion.state.coordinates)
+        total += 0.25 * weight * reach * (left**2 + up**2)
     return total
 
 
@@ -66,16 +66,19 @@ class Comparison:
         """Times, and places of tower top, trolley and load."""
         return exact_rods.course(exact_rods.crane_rods(self.crane, LOAD), self.motions, self.duration)
 
+    def scene(self, **options):
+        return space.model(3, 2, 6, 6, LOAD, crane=self.crane, **options)
+
     def course(self, motions, change=None, **options):
         """Motion of the flexible crane; ``change`` adds to the sums over the mass of what is rigid on the head."""
-        scene = space.model(3, 2, 6, 6, LOAD, crane=self.crane, **options)
+        scene = self.scene(**options)
         if change is not None:
             crane = dataclasses.replace(scene.crane, counter=scene.crane.counter + change)
             scene = dataclasses.replace(scene, crane=crane)
         cut = phases(tuple(motions[c] for c in scene.channels), self.duration)
         run = integrate(scene.system, cut, space.start(scene, motions), self.exact[0], rtol=1e-9, atol=1e-11)
         assert run.outcome == "finished"
-        return FlexibleMotion(scene, motions, run.times, run.states)
+        return space.kinematics(scene, motions, run.times, run.states)
 
     @cached_property
     def plain(self):
@@ -88,12 +91,12 @@ class Comparison:
 
     def drawn_in(self, jib=False, **options):
         """With the trolley where the shortening of the jib takes it; with the jib's mass so, as it is on average."""
-        motion, change = self.plain, None
-        way = table(motion.times, motion.trolley[0] - shortening(motion, motion.trolley[0]))
+        motion, change, bent, (times, _) = self.plain, None, self.scene().crane, self.exact
+        way = table(times, motion.trolley.x - shortening(bent, motion, motion.trolley.x))
         if jib:
             points, weights = leggauss(12)
             reach = 0.5 * self.crane.jib.length * (1.0 + points)
-            inwards = [shortening(motion, np.full(len(motion.times), x)).mean() for x in reach] * weights
+            inwards = [shortening(bent, motion, np.full(len(times), x)).mean() for x in reach] * weights
             moved = 0.5 * self.crane.jib.mass * inwards
             change = rigid_sums(0.0, -moved.sum(), -2.0 * float(moved @ reach), 12)
         return self.course(self.motions | {"trolley": way}, change, **options)
@@ -103,9 +106,10 @@ class Comparison:
 
         As seen from a jib that points where it is commanded to.
         """
-        top = np.pad(motion.top(motion.coordinates)[0], ((0, 0), (0, 1)))
-        gaps = np.array([top, motion.trolley_in_space[0], motion.load_in_space[0]]) - self.exact[1]
-        heading = self.motions["slewing"](motion.times)
+        u_x, u_y, *_ = motion.top(motion.state.coordinates)
+        places = (u_x, u_y, 0.0 * u_x), motion.trolley_in_space[0], motion.load_in_space[0]
+        gaps = np.moveaxis(places, 1, -1) - self.exact[1]
+        heading = self.motions["slewing"](self.exact[0])
         c, s = np.cos(heading), np.sin(heading)
         x, y, z = np.moveaxis(gaps, -1, 0)
         return np.stack([c * x + s * y, c * y - s * x, z], axis=-1)

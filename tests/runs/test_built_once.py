@@ -7,7 +7,8 @@ from modal import Beam, Modes
 from modal.beams.torsion import Shaft, TorsionModes
 from modal.structures.chain_modes import ChainModes
 from towercrane.cli import app
-from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
+from towercrane.cranes.jib.model import PlannedJibCrane
+from towercrane.cranes.jib.parameters import JibCrane
 from towercrane.cranes.overhead.model import OverheadModel
 from towercrane.cranes.overhead.parameters import OverheadCrane
 from towercrane.cranes.slewing.description import LumpedCrane

@@ -9,13 +9,12 @@ import pytest
 from numpy.testing import assert_allclose
 from samples.program import towercrane
 
+import towercrane.runs.sweep as sweeps
 from towercrane import load_case, run_case, sweep
 from towercrane.cases.kinds import unit_of
 from towercrane.cases.plausibility import ranges_in
 from towercrane.cranes.registry import KINDS
 from towercrane.cranes.tower.file.build import tower_model
-from towercrane.cranes.tower.kernels.layout import STIFFNESS
-from towercrane.cranes.tower.lanes import LANE_OUTPUTS
 from towercrane.results import files as results
 from towercrane.runs.summary import accuracy, peaks
 from towercrane.runs.sweep import grid
@@ -29,6 +28,11 @@ from towercrane.schema.units import to_si
 SHORT = ("run.duration=3 s", "solver.rtol=1e-4", "solver.atol=1e-6")
 HOIST = 'motion.hoist={shape="trapezoid", end="18 m", speed="0.5 m/s", acceleration="0.2 m/s^2"}'
 FOUNDATION = 'crane.foundation={rotation_stiffness="12 GN m/rad"}'
+
+
+@pytest.fixture(autouse=True)
+def few_runs_share_lanes(monkeypatch):
+    monkeypatch.setattr(sweeps, "FEWEST", 1)
 
 
 def single_run(case, **changes):
@@ -63,8 +67,7 @@ def assert_single_runs(case, vary):
         promised = accuracy(single)
         assert "accuracy" not in data or row["accuracy"].item() == (promised["outcome"] if promised else "")
         found_alone = peaks(single)
-        for name in LANE_OUTPUTS if "base_moment_y" in single and "slewing_torque" not in single else found_alone:
-            found = found_alone[name]
+        for name, found in found_alone.items():
             size = max(abs(found["maximum"]), abs(found["minimum"]), 1e-300)
             assert_allclose(row[f"{name}_max"], found["maximum"], rtol=0, atol=1e-12 * size)
             assert_allclose(row[f"{name}_min"], found["minimum"], rtol=0, atol=1e-12 * size)
@@ -163,9 +166,9 @@ def test_another_load_shares_all_that_does_not_hang_on_it():
             for m in ("payload.mass=100", "payload.mass=9e4")
         )
         shared, own = light.with_load(heavy.load).system, heavy.system
-        for one, other in zip(shared.constants, own.constants, strict=True):
-            assert np.array_equal(one, other)
-        assert np.array_equal(shared.matrices[STIFFNESS], light.system.matrices[STIFFNESS]) is not softening
+        assert shared.alike(own)
+        assert np.array_equal(shared.numbers, own.numbers)
+        assert np.array_equal(shared.constants.stiffness, light.constants.stiffness) is not softening
         assert shared.fastest() == own.fastest()
 
 
@@ -173,7 +176,7 @@ def test_heads_that_stand_at_angles_of_their_own_keep_them_in_lanes():
     variants = Variants(
         load_case("qtz5613/condition-3", ["motion.slewing.shape=rest"]), {"motion.slewing.start": [0, 1]}
     )
-    assert [variants[run].lane.model.heading for run in range(2)] == [0.0, 1.0]
+    assert [variants[run].run.model.heading for run in range(2)] == [0.0, 1.0]
 
 
 def leaf_keys(kind):
@@ -241,3 +244,27 @@ def test_drawn_keys_of_every_kind_give_the_single_runs(base):
             if None not in values and key not in vary:
                 vary[key] = values
         assert_single_runs(case, vary)
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "masses"),
+    [
+        ("qtz5613/gusts-working", ["model.torsion_modes=1", "model.tower_modes=1", *SHORT], [500.0, 900.0]),
+        ("jib-crane/combined", SHORT, [150.0, 90.0]),
+        ("overhead-crane/travel", SHORT, [3e3, 800.0]),
+        ("slewing/basic/example-1", ["crane.drive.stiff_stiffness=20 N m/rad", *SHORT], [60.0, 120.0]),
+        # Its coupling has a corner: such runs go one by one.
+        ("slewing/basic/example-1", SHORT, [60.0, 120.0]),
+    ],
+)
+def test_cranes_of_every_kind_are_swept_with_all_their_outputs(name, options, masses):
+    data = assert_single_runs(load_case(name, options), {"payload.mass": masses})
+    assert {"total_energy", "input_work", "rope_tension"} <= set(json.loads(data.attrs["outputs"]))
+
+
+def test_only_the_outputs_that_are_wanted_are_kept():
+    case = load_case("qtz5613/condition-3", SHORT)
+    data = sweep(case, {"payload.mass": [100.0, 900.0]}, outputs=["base_moment_y", "sway_radial"])
+    assert json.loads(data.attrs["outputs"]) == ["base_moment_y", "sway_radial"]
+    with pytest.raises(sweeps.UnknownOutput, match=r"wanted some of .*base_moment_y.*, got 'base_momnt'"):
+        sweep(case, {"payload.mass": [100.0, 900.0]}, outputs=["base_momnt"])

@@ -1,17 +1,16 @@
-"""Systems of equations by a compiled right-hand side alone."""
-
-import dataclasses
+"""Systems of equations that are no cranes."""
 
 import numpy as np
-from oracles.exact_systems import oscillator
+
+from towercrane.simulation.system import System
 
 
-def bare_system(rhs, size, guards=()):
-    return dataclasses.replace(
-        oscillator().system,
-        equations=lambda: rhs,
+def plain_system(equations, size, constants=None, guards=()):
+    return System(
+        equations=equations,
         size=size,
         guards=guards,
         floors=np.zeros(len(guards)),
         scale=np.ones(size),
+        constants=constants,
     )

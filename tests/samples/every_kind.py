@@ -38,8 +38,8 @@ class Driven:
             start = self.model.start(cut.inputs[0], options.pop("state", "equilibrium"), 0.05)
         options = {"rtol": 1e-9, "atol": 1e-11} | options
         found = integrate(self.model.system, cut, start, np.asarray(times, dtype=float), **options)
-        _, guards = evaluate(self.model.system, cut, found.times, found.states)
-        outputs = self.model.observe(self.motions, found.times, found.states, guards)
+        slopes, guards = evaluate(self.model.system, cut, found.times, found.states)
+        outputs = self.model.observe(self.motions, found.times, found.states, slopes, guards)
         return found, {name: quantity.values for name, quantity in outputs.items()}
 
 

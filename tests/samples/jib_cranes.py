@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
+from towercrane.cranes.jib.model import PlannedJibCrane
+from towercrane.cranes.jib.parameters import JibCrane
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import smooth_ramps, trapezoid

@@ -112,12 +112,13 @@ def run(
     """Run from any start: trajectory, outputs by name, and the guards that were met on the way."""
     cut = phases((drive["shaft"], drive["rope"]), duration)
     start = model.start(cut.inputs[0]) if start is None else start
-    counted = Counted(model.system.switch, [])
-    system = replace(model.system, switch=counted)
+    switch = model.system.switch
+    counted = Counted(switch, [])
+    system = replace(model.system, switch=counted if switch else None)
     times = np.minimum(np.arange(round(duration / step) + 1) * step, duration)
     found = integrate(system, cut, start, times, rtol=rtol, atol=1e-2 * rtol, **options)
-    _, guards = evaluate(model.system, cut, found.times, found.states)
-    outputs = model.observe(drive, found.times, found.states, guards)
+    slopes, guards = evaluate(model.system, cut, found.times, found.states)
+    outputs = model.observe(drive, found.times, found.states, slopes, guards)
     return found, {name: quantity.values for name, quantity in outputs.items()}, counted.met
 
 

@@ -9,9 +9,11 @@ from modal.beams.beam import Beam
 from modal.beams.torsion import Shaft
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
+from towercrane.cranes.tower.outputs.kinematics import Kinematics
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import speed_trapezoid, trapezoid
+from towercrane.simulation.observed import Instant
 
 CRANE = dataclasses.replace(
     qtz5613.CRANE,
@@ -44,3 +46,9 @@ def start(scene: FlexibleModel, motions: dict, **options) -> np.ndarray:
     from towercrane.motions.motion import phases
 
     return scene.start(phases(tuple(motions[c] for c in scene.channels), 1.0).inputs[0], **options)
+
+
+def kinematics(scene: FlexibleModel, motions: dict, times: np.ndarray, states: np.ndarray) -> Kinematics:
+    """Positions and velocities in states of a run, arrays with an entry for each of the times."""
+    drives = [[motions[channel](times, derivative) for derivative in range(3)] for channel in scene.channels]
+    return Kinematics(scene.seen, Instant(states.T, (), (), drives))

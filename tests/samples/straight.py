@@ -6,7 +6,6 @@ from towercrane.kernels.straight import code
 from towercrane.kernels.straight.graph import Graph
 from towercrane.kernels.straight.program import Program
 from towercrane.simulation import stepper
-from towercrane.simulation.system import rhs_signature
 
 
 def made(coefficient, folder, monkeypatch):
@@ -15,11 +14,13 @@ def made(coefficient, folder, monkeypatch):
     graph = Graph()
     (y,) = graph.given("y", 1)
     program = Program(graph, {("dy", 0): graph.place(coefficient * y)}, 0)
-    return code.straight_code(program, {"y": (1,)}, rhs_signature(), 0)
+    return code.straight_code(program, {"y": (1,)}, 0)
 
 
 def found(compiled):
     """What it computes at y = 1, as the solver calls it, and how often it was found in the cache."""
-    slopes, guards, two, three = np.empty((1, 1)), np.empty((1, 0)), np.empty((0, 0)), np.empty((0, 0, 0))
-    stepper.evaluate(compiled, np.zeros(1), np.ones((1, 1)), slopes, guards, two, np.empty(0), two, three, three, two)
+    slopes, guards, none = np.empty((1, 1)), np.empty((1, 0)), np.empty(0)
+    stepper.evaluate(
+        compiled, np.zeros(1), np.ones((1, 1)), slopes, guards, np.empty((0, 0)), none, np.empty((0, 0, 0))
+    )
     return float(slopes[0, 0]), sum(compiled.stats.cache_hits.values())

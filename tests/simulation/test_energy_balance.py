@@ -10,8 +10,6 @@ from typer.testing import CliRunner
 
 from towercrane.cases.case import load_case
 from towercrane.cli import app
-from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.lanes import PLANE_CRANES
 from towercrane.motions.motion import phases, rest
 from towercrane.motions.profiles import s_curve, smooth_ramps
 from towercrane.runs.run import record_case
@@ -19,8 +17,8 @@ from towercrane.runs.summary import expected, summarise
 from towercrane.runs.sweep import sweep
 from towercrane.simulation import energy_balance
 from towercrane.simulation.energy_balance import NOT_CONSERVED, explained, first_off
-from towercrane.simulation.lanes.crane import LaneRun
 from towercrane.simulation.lanes.many import integrate_many
+from towercrane.simulation.lanes.run import LaneRun
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import record, rows_of
 
@@ -28,9 +26,8 @@ from towercrane.simulation.simulate import record, rows_of
 def heavier(factor):
     """A crane whose equations pull at the load by another gravity than its energy knows."""
     model = qtz5613.model(1, 1)
-    numbers = model.system.numbers.copy()
-    numbers[layout.GRAVITY] *= factor
-    vars(model)["system"] = replace(model.system, numbers=numbers)
+    constants = replace(model.constants, gravity=factor * model.constants.gravity)
+    vars(model)["system"] = replace(model.system, constants=constants)
     return model
 
 
@@ -59,7 +56,7 @@ def test_in_lanes_it_is_the_outcome_of_its_run_alone():
     drives = qtz5613.standing(20.0, 18.0)
     cut = phases((drives["trolley"], drives["rope"]), 10.0)
     runs = [LaneRun(heavier(factor), cut, "zero", 0.3) for factor in (1.0, 1.001, 1.0)]
-    found = integrate_many(PLANE_CRANES, runs, rows_of(10.0, 0.5), threads=1)
+    found = integrate_many(runs, rows_of(10.0, 0.5), threads=1)
     assert found.outcomes == ["finished", NOT_CONSERVED, "finished"]
 
 

@@ -5,25 +5,23 @@ import dataclasses
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from samples.bare_systems import bare_system
+from samples.bare_systems import plain_system
 
-from modal.compiler.compiled import kernel
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.integrate import integrate
-from towercrane.simulation.system import rhs_signature
 
 
-@kernel(rhs_signature())
-def _falling(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
-    dy[0] = y[1]
-    dy[1] = -9.81
-    guards[0] = 100.0
-    guards[1] = y[0]
+def _falling(own, t, y, inputs):
+    return (y[1], -9.81), (100.0, y[0])
+
+
+def falling():
+    return plain_system(_falling, 2, guards=("never", "landed"))
 
 
 @pytest.mark.parametrize("method", ["dop853", "dopri5", "scipy-dop853"])
 def test_guard_stops_at_its_zero(method):
-    system = bare_system(_falling, 2, ("never", "landed"))
+    system = falling()
     cut = phases((rest(0.0),), 10.0)
     run = integrate(system, cut, np.array([20.0, 0.0]), np.arange(0.0, 10.0, 0.1), method=method)
     assert run.outcome == "landed"
@@ -32,21 +30,26 @@ def test_guard_stops_at_its_zero(method):
     assert_allclose(run.states[:, 0], 20 - 9.81 * run.times**2 / 2, atol=1e-9)
 
 
-@kernel(rhs_signature())
-def _swinging_guards(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
-    dy[0] = y[1]
-    dy[1] = -(numbers[0] ** 2) * y[0]
-    guards[0] = y[0] + numbers[1]
-    guards[1] = y[0] + numbers[2]
+@dataclasses.dataclass(frozen=True)
+class Swinging:
+    frequency: float
+    low: float
+    lower: float
+
+    @property
+    def system(self):
+        return plain_system(_swinging_guards, 2, self, guards=("low", "lower"))
+
+
+def _swinging_guards(own, t, y, inputs):
+    return (y[1], -(own.frequency * own.frequency) * y[0]), (y[0] + own.low, y[0] + own.lower)
 
 
 @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
 @pytest.mark.parametrize("grid", [1e-3, 0.1, 3.0])
 def test_a_dip_is_found_whatever_the_samples_and_the_step(rtol, grid):
     # cos(3 t) falls below -0.97 for a tenth of a second only; the higher floor is met first and must be named.
-    system = dataclasses.replace(
-        bare_system(_swinging_guards, 2, ("low", "lower")), numbers=np.array([3.0, 0.97, 0.6])
-    )
+    system = Swinging(3.0, 0.97, 0.6).system
     cut = phases((rest(0.0),), 30.0)
     run = integrate(system, cut, np.array([1.0, 0.0]), np.arange(0.0, 30.0, grid), rtol=rtol, atol=rtol)
     assert run.outcome == "lower"
@@ -68,11 +71,7 @@ def test_shallow_dips_between_stages_are_found(method, rtol, runs):
     for _ in range(runs):
         depth = 10.0 ** random.uniform(np.log10(max(1e-2, 5.0 * rtol)), -0.7) * random.choice([-1.0, 1.0])
         phase = random.uniform(-2.5, 1.0)
-        system = dataclasses.replace(
-            bare_system(_swinging_guards, 2, ("low", "lower")),
-            numbers=np.array([3.0, 1.0 - depth, 9.0]),
-            floors=np.array([0.0, -np.inf]),
-        )
+        system = dataclasses.replace(Swinging(3.0, 1.0 - depth, 9.0).system, floors=np.array([0.0, -np.inf]))
         start, span = np.array([np.cos(phase), -3.0 * np.sin(phase)]), (np.pi + 1.0 - phase) / 3.0
         if start[0] < depth - 1.0:
             continue
@@ -84,7 +83,7 @@ def test_shallow_dips_between_stages_are_found(method, rtol, runs):
 
 def test_guard_below_zero_at_the_start_is_an_outcome_at_once():
     run = integrate(
-        bare_system(_falling, 2, ("never", "landed")),
+        falling(),
         phases((rest(0.0),), 1.0),
         np.array([-1.0, 0.0]),
         np.zeros(1),
@@ -109,7 +108,7 @@ class _Never:
 
 
 def test_switching_without_progress_is_a_named_outcome():
-    system = dataclasses.replace(bare_system(_falling, 2, ("never", "landed")), switch=_Never(True))
+    system = dataclasses.replace(falling(), switch=_Never(True))
     run = integrate(system, phases((rest(0.0),), 10.0), np.array([20.0, 0.0]), np.arange(0.0, 10.0, 0.1))
     assert run.outcome == "switching without progress"
     assert_allclose(run.end_time, np.sqrt(2 * 20 / 9.81), rtol=1e-10)
@@ -118,7 +117,7 @@ def test_switching_without_progress_is_a_named_outcome():
 
 def test_scipy_is_refused_where_equations_switch():
     # It would not call the switch, and so solve other equations than those of the crane.
-    system = dataclasses.replace(bare_system(_falling, 2, ("never", "landed")), switch=_Never(True))
+    system = dataclasses.replace(falling(), switch=_Never(True))
     arguments = phases((rest(0.0),), 10.0), np.array([20.0, 0.0]), np.zeros(1)
     with pytest.raises(ValueError, match=r"method: wanted one of dop853, dopri5 .*switch.*got 'scipy-lsoda'"):
         integrate(system, *arguments, method="scipy-lsoda")

@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from oracles.exact_systems import ALL, Exact, driven, kepler
-from samples.bare_systems import bare_system
+from samples.bare_systems import plain_system
 
-from modal.compiler.compiled import kernel
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.methods import runge_kutta as module
 from towercrane.simulation.methods.registry import METHODS
-from towercrane.simulation.system import rhs_signature
 
 
 def solve(exact: Exact, times=None, **options):
@@ -89,9 +87,8 @@ def test_interrupted_run_keeps_what_is_finished(monkeypatch):
     assert 0 < len(run.times) < 41
 
 
-@kernel(rhs_signature())
-def _blows_up(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
-    dy[0] = y[0] ** 2
+def _blows_up(own, t, y, inputs):
+    return (y[0] * y[0],), ()
 
 
 def test_absolute_tolerance_counts_in_each_state_s_own_scale():
@@ -107,22 +104,21 @@ def test_absolute_tolerance_counts_in_each_state_s_own_scale():
 def test_blow_up_is_a_named_outcome(method):
     with np.errstate(all="ignore"):
         run = integrate(
-            bare_system(_blows_up, 1), phases((rest(0.0),), 2.0), np.ones(1), np.linspace(0, 2, 21), method=method
+            plain_system(_blows_up, 1), phases((rest(0.0),), 2.0), np.ones(1), np.linspace(0, 2, 21), method=method
         )
     assert run.outcome == "step size collapsed"
     assert_allclose(run.end_time, 1.0, atol=2e-7 if method == "scipy-lsoda" else 2e-9)
 
 
-@kernel(rhs_signature())
-def _leaves_its_domain(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
-    dy[0] = np.sqrt(1.0 - t)
+def _leaves_its_domain(own, t, y, inputs):
+    return (np.sqrt(1.0 - t),), ()
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_slopes_that_are_no_numbers_end_a_run_by_name(method):
     with np.errstate(all="ignore"):
         run = integrate(
-            bare_system(_leaves_its_domain, 1), phases((rest(0.0),), 2.0), np.zeros(1), np.zeros(1), method=method
+            plain_system(_leaves_its_domain, 1), phases((rest(0.0),), 2.0), np.zeros(1), np.zeros(1), method=method
         )
     # LSODA calls a state that is not finite a success.
     assert run.outcome == ("state not finite" if method == "scipy-lsoda" else "step size collapsed")
@@ -132,7 +128,7 @@ def test_slopes_that_are_no_numbers_end_a_run_by_name(method):
 def test_start_that_is_not_finite_is_a_named_outcome():
     for method in ("dop853", "scipy-dop853"):
         run = integrate(
-            bare_system(_blows_up, 1), phases((rest(0.0),), 2.0), np.array([np.nan]), np.zeros(1), method=method
+            plain_system(_blows_up, 1), phases((rest(0.0),), 2.0), np.array([np.nan]), np.zeros(1), method=method
         )
         assert run.outcome == "state not finite"
 
@@ -149,16 +145,13 @@ def test_unknown_method_is_refused():
         solve(kepler(), method="euler")
 
 
-@kernel(rhs_signature())
-def _relaxation(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards):
-    dy[0] = y[1]
-    dy[1] = 20.0 * (1.0 - y[0] ** 2) * y[1] - y[0]
-    dy[2] = y[0] * y[1]
+def _relaxation(own, t, y, inputs):
+    return (y[1], 20.0 * (1.0 - y[0] * y[0]) * y[1] - y[0], y[0] * y[1]), ()
 
 
 def test_radau_copes_with_a_state_that_nothing_depends_on():
     # Its differences for the Jacobian grow tenfold each time; a warning would fail this test.
-    system = dataclasses.replace(bare_system(_relaxation, 3), scale=np.array([1.0, 1.0, np.inf]))
+    system = dataclasses.replace(plain_system(_relaxation, 3), scale=np.array([1.0, 1.0, np.inf]))
     arguments = phases((rest(0.0),), 60.0), np.array([2.0, 0.0, 0.0]), np.array([60.0])
     implicit = integrate(system, *arguments, method="scipy-radau", rtol=1e-7, atol=1e-9)
     explicit = integrate(system, *arguments, rtol=1e-9, atol=1e-11)

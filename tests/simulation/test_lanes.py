@@ -8,13 +8,13 @@ from numpy.testing import assert_allclose
 from samples.qtz5613 import CRANE, in_plane, model, motions
 
 from modal import Chain, Foundation, Segment
-from towercrane.cranes.tower.lanes import LANE_OUTPUTS, PLANE_CRANES
 from towercrane.kernels.payload import Load
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases, rest, sequence
 from towercrane.motions.profiles import s_curve, trapezoid
-from towercrane.simulation.lanes.crane import LaneRun
 from towercrane.simulation.lanes.many import integrate_many
+from towercrane.simulation.lanes.run import LaneRun
+from towercrane.simulation.observed import scalars
 from towercrane.simulation.simulate import rows_of, simulate
 
 DURATION = 12.0
@@ -28,9 +28,7 @@ def lane_run(crane, drives, state="equilibrium", swing_angle=0.0):
 
 def in_lanes(scenes, **options):
     """Scenes are model, motions and, if need be, state and swing angle at the start."""
-    return integrate_many(
-        PLANE_CRANES, [lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options}
-    )
+    return integrate_many([lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options})
 
 
 def alone(crane, drives, state="equilibrium", swing_angle=0.0, **options):
@@ -46,7 +44,7 @@ def assert_same(found, scenes, **options):
         assert found.accepted[number] == single.attrs["steps_accepted"]
         assert found.rejected[number] == single.attrs["steps_rejected"]
         assert np.array_equal(found.end_states[number], single.attrs["end_state"])
-        for output, name in zip(found.extremes[number], LANE_OUTPUTS, strict=True):
+        for output, name in zip(found.extremes[number], scalars(scene[0]), strict=True):
             values, times = single[name].values, single["time"].values
             size = max(np.max(abs(values)), 1e-300)
             assert_allclose(output[[0, 2]], [values.max(), values.min()], rtol=0, atol=1e-12 * size)
@@ -151,7 +149,7 @@ def test_series_are_those_of_single_runs():
         single = alone(*scene)
         rows = np.count_nonzero(np.isin(ROWS, single["time"].values))
         assert np.all(np.isnan(series[rows:]))
-        for column, name in zip(series[:rows].T, LANE_OUTPUTS, strict=True):
+        for column, name in zip(series[:rows].T, scalars(scene[0]), strict=True):
             values = single[name].values
             assert_allclose(column, values[:rows], rtol=0, atol=1e-12 * np.max(abs(values)))
 

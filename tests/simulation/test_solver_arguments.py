@@ -6,12 +6,11 @@ from oracles.exact_systems import driven, oscillator
 from samples import qtz5613
 
 from towercrane.cases.case import load_case
-from towercrane.cranes.tower.lanes import PLANE_CRANES
 from towercrane.motions.motion import phases
 from towercrane.runs.run import record_case
 from towercrane.simulation.integrate import evaluate, integrate
-from towercrane.simulation.lanes.crane import LaneRun
 from towercrane.simulation.lanes.many import integrate_many
+from towercrane.simulation.lanes.run import LaneRun
 from towercrane.simulation.methods.registry import METHODS
 from towercrane.simulation.simulate import record, simulate
 
@@ -28,7 +27,7 @@ def test_a_tolerance_out_of_range_is_named(name, value):
         simulate(model, drives, 1.0, **{name: value})
     run = LaneRun(model, phases((drives["trolley"], drives["rope"]), 1.0))
     with pytest.raises(ValueError, match=wanted):
-        integrate_many(PLANE_CRANES, [run], np.zeros(1), **{name: value})
+        integrate_many([run], np.zeros(1), **{name: value})
 
 
 @pytest.mark.parametrize(
@@ -99,9 +98,7 @@ def test_lanes_need_no_rows_in_a_phase():
     model, drives = qtz5613.model(1, 1), qtz5613.motions()
     cut = phases((drives["trolley"], drives["rope"]), 20.0)
     ends = [
-        integrate_many(
-            PLANE_CRANES, [LaneRun(model, cut)], np.array(times), rtol=1e-5, atol=1e-7, threads=1
-        ).end_states
+        integrate_many([LaneRun(model, cut)], np.array(times), rtol=1e-5, atol=1e-7, threads=1).end_states
         for times in ([], [20.0], [0.0, 20.0], np.linspace(0.0, 20.0, 100))
     ]
     assert all(np.array_equal(end, ends[0]) for end in ends)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from samples.qtz5613 import model, motions
 
+from towercrane.simulation.methods.step_size import FREELY, GROW, SAFETY, SHRINK, SLOWLY, step_factor
 from towercrane.simulation.simulate import simulate
-from towercrane.simulation.step_size import FREELY, GROW, SAFETY, SHRINK, SLOWLY, step_factor
 
 
 @pytest.mark.parametrize("growth", [FREELY, SLOWLY])

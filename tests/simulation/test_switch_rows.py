@@ -5,11 +5,10 @@ import pytest
 from numpy.testing import assert_allclose
 from samples.every_kind import KINDS, lumped
 
-from towercrane.cranes.tower.lanes import PLANE_CRANES
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import evaluate
-from towercrane.simulation.lanes.crane import LaneRun
 from towercrane.simulation.lanes.many import integrate_many
+from towercrane.simulation.lanes.run import LaneRun
 
 END = 4.0
 """After the last switch of all motions [s]."""
@@ -59,9 +58,8 @@ def test_lanes_look_at_the_right_limit_at_the_end_too():
     found, _ = scene.run(grid, end, state="equilibrium", rtol=1e-8, atol=1e-10)
     cut = phases(tuple(scene.motions[channel] for channel in scene.model.channels), end)
     _, guards = evaluate(scene.model.system, cut, found.times, found.states)
-    lanes = integrate_many(
-        PLANE_CRANES, [LaneRun(scene.model, cut, "equilibrium", 0.05)], grid, threads=1, series=True
-    )
+    runs = [LaneRun(scene.model, cut, "equilibrium", 0.05)]
+    lanes = integrate_many(runs, grid, outputs=["rope_tension"], threads=1, series=True)
     assert lanes.outcomes == ["finished"]
     tension = guards[:, 0]
     assert_allclose(lanes.series[0, :, -1], tension, rtol=0, atol=0)

@@ -174,9 +174,9 @@ def _course(model, motions, state, span, shown):
     cut = phases(tuple(motions[channel] for channel in model.channels), span)
     times = np.array([span])
     run = integrate(model.system, cut, state, times, rtol=1e-12, atol=1e-14)
-    guards = evaluate(model.system, cut, times, run.states)[1]
+    slopes, guards = evaluate(model.system, cut, times, run.states)
     # At the last instant, not after it, when the wind rests.
-    seen = model.observe(motions, times, run.states, guards)
+    seen = model.observe(motions, times, run.states, slopes, guards)
     return np.array([seen[name].values[0] for name in shown])
 
 

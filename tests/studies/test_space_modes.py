@@ -5,13 +5,13 @@ import json
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from samples.space_crane import kinematics
 from typer.testing import CliRunner
 
 from towercrane.cases.case import load_case
 from towercrane.cli import app
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
-from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
 from towercrane.motions.motion import rest
 from towercrane.report.plots.studies import space_modes as pictured
 from towercrane.studies.space_modes import (
@@ -238,9 +238,9 @@ def test_lines_move_as_the_model_does(case, heading):
         states[:, :n] = np.outer([-small, small], mode.shape[:n])
         states[:, n : n + 2] = np.outer([-small, small], mode.shape[n:] / 15.0)
         states[:, n + 2] = -1.0
-        motion = FlexibleMotion(model, motions, np.zeros(2), states)
+        motion = kinematics(model, motions, np.zeros(2), states)
         for end, (place_in_space, _) in enumerate((motion.trolley_in_space, motion.load_in_space)):
-            moved = np.diff(place_in_space, axis=0)[0] / (2.0 * small)
+            moved = np.diff(place_in_space)[:, 0] / (2.0 * small)
             moved[:2] = turn @ moved[:2]
             wanted = (lines["rope"] - still["rope"])[end]
             assert_allclose(moved, wanted, atol=1e-4 * abs(wanted).max())

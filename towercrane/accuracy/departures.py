@@ -15,10 +15,9 @@ import numpy as np
 
 from towercrane.accuracy.path import Path
 from towercrane.accuracy.readings import ROUNDING, components, held, readings
+from towercrane.cranes.parts.coupling import coupling_torque
 from towercrane.cranes.tower.equations.constants import geometric_stiffness
 from towercrane.cranes.tower.equations.small_motions import linear_matrices
-from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.kernels.drive import coupling_torque
 from towercrane.simulation.outcomes import TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
 
@@ -218,7 +217,7 @@ class Departures:
     def _fading(self) -> Floats:
         """Rates of decay of the rich modes [1/s], shape (windows, modes)."""
         lost = np.zeros(len(self.all))
-        lost[: self.model.coordinates] = self.model.system.vectors[layout.DAMPING]
+        lost[: self.model.coordinates] = self.model.constants.damping
         if self.model.drive is not None:
             lost[self.model.parts["slewing"]] = self.model.drive.damping
         return 0.5 * lost @ self.shapes**2

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.accuracy.instants import derivatives_of
-from towercrane.cranes.tower.kernels import layout
 from towercrane.motions.motion import phases
 from towercrane.simulation.system import start_inputs
 
@@ -126,9 +125,9 @@ class Path:
         """Coordinates under all weights at rest in each window; shape (windows, coordinates)."""
         n, found = self.model.coordinates, np.zeros((WINDOWS, self.model.coordinates))
         held = np.setdiff1d(np.arange(n), np.arange(n)[self.model.parts["slewing"]])
-        stiffness = self.model.system.matrices[layout.STIFFNESS][np.ix_(held, held)]
+        stiffness = self.model.constants.stiffness[np.ix_(held, held)]
         for window, values in enumerate(self.drives):
-            weight = self.model.static_force(np.zeros(n), np.column_stack([values, np.zeros((len(values), 2))]))
+            weight = self.model.static_forces(np.zeros((n, 1)), values[:, None])[:, 0]
             found[window, held] = np.linalg.solve(stiffness, weight[held])
         return found
 

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.tower.outputs.observed import observe
 from towercrane.cranes.tower.targets import MOTIONS
 from towercrane.motions.motion import Motion
 from towercrane.results.measures import PLACE
@@ -75,7 +74,7 @@ def readings(model: FlexibleModel, outputs: Iterable[str], drives: Floats) -> Fl
     n, axes, count = model.coordinates, model.axes, len(drives)
     step = SMALL * np.append(model.system.scale[:n], np.ones(axes - 1))
     states = np.zeros((count, 1 + len(step), model.size))
-    guards = np.zeros((count, 1 + len(step), len(model.system.guards)))
+    slopes, guards = np.zeros_like(states), np.zeros((count, 1 + len(step), len(model.system.guards)))
     states[:, :, n + axes - 1] = -1.0
     vector = np.arange(len(step))
     # The rope's direction follows the coordinates in a state.
@@ -84,14 +83,15 @@ def readings(model: FlexibleModel, outputs: Iterable[str], drives: Floats) -> Fl
     for place, values in enumerate(drives):
         inputs = np.column_stack([values, np.zeros((len(values), 2))])
         for row, state in enumerate(states[place]):
-            guards[place, row] = model.system.slope(0.0, state, inputs)[1]
+            slopes[place, row], guards[place, row] = model.system.slope(0.0, state, inputs)
     # One time for every state, at which the drives rest at its place.
     resting = {
         name: Motion(np.arange(count + 1.0), values[:, None])
         for name, values in zip(model.channels, drives.T, strict=True)
     }
     times = np.repeat(np.arange(count) + 0.5, 1 + len(step))
-    seen = observe(model, resting, times, states.reshape(-1, model.size), guards.reshape(len(times), -1))
+    rows = (array.reshape(len(times), -1) for array in (states, slopes, guards))
+    seen = model.observe(resting, times, *rows)
     found = []
     for name in outputs:
         values = seen[name].values.reshape(count, 1 + len(step), -1)

@@ -45,6 +45,10 @@ def sweep(
         ),
     ],
     out: Out = None,
+    output: Annotated[
+        list[str] | None,
+        typer.Option("--output", metavar="NAME", help="Only this output, e.g. base_moment_y; may be repeated."),
+    ] = None,
     threads: Annotated[int | None, typer.Option("--threads", min=1, help="Threads; all cores by default.")] = None,
     changes: Changes = None,
     as_json: AsJson = False,
@@ -66,14 +70,13 @@ def sweep(
     task.into(out, "sweep")
     values = _values(task.case, written, first)
     from towercrane.runs.sweep import grid
-    from towercrane.runs.variants import lane_of
 
-    task.compile("lanes" if lane_of(task.case) else "run")
+    task.compile("lanes")
     from towercrane.report.tables.studies import sweep_tables
     from towercrane.runs.sweep_report import report, runs_csv, worst
 
     began = time.perf_counter()
-    data = _with_progress(task.case, grid(values), threads)
+    data = _with_progress(task.case, grid(values), output, threads)
     if not set(data["outcome"].values) - {outcomes.INTERRUPTED}:
         say("interrupted before the first run had ended: nothing is written")
         raise typer.Exit(INTERRUPTED)
@@ -107,10 +110,12 @@ def _written(vary: list[str]) -> dict[str, str]:
 
 def _values(case: Case, vary: dict[str, str], first: list[str]) -> dict[str, list[Any]]:
     """The values of every key that is varied."""
+    from dataclasses import replace
     from math import prod
 
     from towercrane.cases.case import load_case
     from towercrane.cases.kinds import knows, unit_of
+    from towercrane.schema.faults import CaseError
     from towercrane.schema.units import UnitError, to_si
 
     values: dict[str, list[Any]] = {}
@@ -118,8 +123,12 @@ def _values(case: Case, vary: dict[str, str], first: list[str]) -> dict[str, lis
         option, unit = f"{key}={written}", unit_of(case.kind, key)
         parts = [part.strip() for part in written.split(":")]
         if not knows(case.kind, key):
-            # The case itself tells best what is wrong with a key.
-            load_case(case.path, [*case.changes, *first])
+            try:
+                # The case itself tells best what is wrong with a key.
+                load_case(case.path, [*case.changes, *first])
+            except CaseError as refused:
+                faults = [replace(fault, file=fault.file.replace("--set", "--vary", 1)) for fault in refused.faults]
+                raise CaseError(faults) from None
         try:
             if len(parts) == 1:
                 given = [part.strip() for part in written.split(",")]
@@ -163,9 +172,16 @@ def _number(text: str) -> Any:
     return text
 
 
-def _with_progress(case: Case, values: dict[str, list[Any]], threads: int | None) -> xr.Dataset:
+def _with_progress(
+    case: Case, values: dict[str, list[Any]], outputs: list[str] | None, threads: int | None
+) -> xr.Dataset:
     """Run with a progress bar if somebody is looking."""
+    from towercrane.runs.sweep import UnknownOutput
     from towercrane.runs.sweep import sweep as run_all
 
     count = len(next(iter(values.values())))
-    return with_bar(f"{count} runs", partial(run_all, case, values, threads=threads), count)
+    wanted = partial(run_all, case, values, outputs=outputs, threads=threads)
+    try:
+        return with_bar(f"{count} runs", wanted, count)
+    except UnknownOutput as error:
+        fail(f"--output: {error}")

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from towercrane.schema.faults import Fault
     from towercrane.schema.ranges import Range
     from towercrane.schema.targets import Targets
-    from towercrane.simulation.lanes.crane import LaneCrane
     from towercrane.simulation.system import Model
 
     Tree = dict[str, Any]
@@ -52,14 +51,6 @@ class Natural(NamedTuple):
         return next(iter(self.swings.values())) + 1 if self.swings else None
 
 
-class Lane(NamedTuple):
-    """What a run needs to share vector lanes with others."""
-
-    crane: LaneCrane
-    plain: bool
-    """Whether another load, and another rope that rests, change nothing else of it."""
-
-
 class Track(NamedTuple):
     """What something runs along: name of its motion, key of the length of its track, and the track in a word."""
 
@@ -96,6 +87,11 @@ class Drives:
     wind: bool = False
 
 
+def run_kernels(_tables: Any, use: str) -> tuple[str, ...]:
+    """Modules whose import compiles for a run of any crane, or for many in lanes."""
+    return (*(("towercrane.simulation.lanes.advance",) if use == "lanes" else ()), "towercrane.simulation.stepper")
+
+
 @dataclass(frozen=True, eq=False)
 class Kind:
     """A kind of crane. Its parts that compute are loaded where they are asked for, see `later`.
@@ -114,7 +110,7 @@ class Kind:
     poses : callable
         Of its model, its tables, a result and times, see :class:`towercrane.cranes.parts.poses.Poses`.
     kernels : callable
-        Modules whose import compiles, of its tables and a use: "run" or one of those that it serves.
+        Modules whose import compiles, of its tables and a use: "run", "lanes" or one of those that it serves.
     checks : tuple of callable
         Faults of a case as written that no single value shows.
     ranges : tuple of Range
@@ -127,8 +123,10 @@ class Kind:
         Length of the member that each deflection in a result is of [m], of its model.
     targets : callable, optional
         Errors that its tables ask for, by output.
-    lane : callable, optional
-        `Lane` of its tables; None for runs that cannot share lanes.
+    made_of : callable, optional
+        Text of a model that is equal for those which differ in their load alone and are each other `with_load`.
+    plain : callable, optional
+        Whether another load, and another rope that rests, change nothing else of a run; of its tables.
     modes : callable, optional
         Kinds of modes that move, of its tables, by the key of the table "model" that counts them.
     left_out : callable, optional
@@ -147,14 +145,15 @@ class Kind:
     pictures: str | Pictures
     build: Callable[..., Model]
     poses: Callable[..., Poses]
-    kernels: Callable[[Any, str], tuple[str, ...]]
+    kernels: Callable[[Any, str], tuple[str, ...]] = run_kernels
     checks: tuple[Callable[[Tree], Iterator[Fault]], ...] = ()
     ranges: tuple[Range, ...] = ()
     idle: Callable[..., Iterator[str]] | None = None
     natural: Callable[..., Natural] | None = None
     lengths: Callable[[Any], dict[str, float]] | None = None
     targets: Callable[[Any], Targets] | None = None
-    lane: Callable[[Any], Lane | None] | None = None
+    made_of: Callable[[Any], str] | None = None
+    plain: Callable[[Any], bool] | None = None
     modes: Callable[[Any], dict[str, str]] | None = None
     left_out: Callable[[Any], list[str]] | None = None
     sways: Mapping[str, str] = field(default_factory=dict)

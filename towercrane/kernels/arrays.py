@@ -1,4 +1,4 @@
-"""Arrays of lane vectors: their types, and arrays of numbers seen as such."""
+"""Types of right-hand sides, and arrays of lane vectors: their types, and arrays of numbers seen as such."""
 
 from __future__ import annotations
 
@@ -15,24 +15,21 @@ from towercrane.kernels.vector import LANES, TABLE, VECTOR
 _intrinsic: Any = intrinsic
 
 
-def lane_rhs_signature() -> Any:
-    """Numba signature of right-hand sides written out for lane vectors.
+def rhs_signature() -> Any:
+    """Numba signature of every right-hand side, so that one compiled integrator serves all models.
 
-    ``rhs(t, y, dy, inputs, numbers, tables, guards)``, as :func:`towercrane.simulation.system.rhs_signature` has
-    them; the tables are the same for all lanes.
+    ``rhs(t, y, dy, inputs, numbers, tables, guards)``: t is the time since the phase began [s]; inputs holds the
+    polynomials of that phase, one row per channel; numbers and tables are the model's constants, the numbers followed
+    by what is worked out from them; dy and guards are written.
     """
+    one, two, three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+    return types.void(types.float64, one, one, two, one, three, one)
+
+
+def lane_rhs_signature() -> Any:
+    """:func:`rhs_signature` for lane vectors; the tables are the same for all lanes."""
     one, two = (lane_array(axes) for axes in (1, 2))
     return types.void(VECTOR, one, one, two, one, TABLE, one)
-
-
-def lane_observer_signature() -> Any:
-    """Numba signature of what turns states and guards of lanes into outputs.
-
-    ``observe(states, lane_states, guards, watched, outputs, lane_outputs)``: states and outputs once as lane vectors
-    and once as numbers of shape (..., lanes); ``watched`` (linear outputs, coordinates) is each run's own.
-    """
-    one, numbers = lane_array(1), types.float64[:, ::1]
-    return types.void(one, numbers, one, lane_array(2), one, numbers)
 
 
 def lane_array(axes: int) -> Any:

@@ -1,7 +1,7 @@
-"""The load on its rope: one compiled kernel that every crane shares.
+"""The load on its rope: the equations that every crane shares.
 
 A crane states only its structure without the load: mass matrix, forces, and the motion of the point D that the
-rope hangs from. The kernel adds a rope of prescribed length and a point load. The rope's direction is a unit
+rope hangs from. What is here adds a rope of prescribed length and a point load. The rope's direction is a unit
 vector, so there is no angle chart and no singular position; angles are outputs.
 
 Vectors have ``d`` inertial components, the vertical last: (x, z) in a plane, (x, y, z) in space. The state is
@@ -13,28 +13,23 @@ work [J] that inputs and dissipation have put into the crane since the start. An
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from modal.checks import check_fields
-from modal.compiler.compiled import kernel
-from modal.compiler.traced import traced
+from towercrane.kernels.algebra import Row, dot, solve
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
 
 AIR_DENSITY = 1.225
 """Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""
 
 SLACK = -1e-6
 """Tension below which a rope is slack [N]: where a whole crane is let fall, rounding decides the sign of none."""
-
-FORCE, VELOCITY, BIAS, ACCELERATION, DIRECTION, HINGE, WIND, ALONG, JACOBIAN = range(9)
-"""Rows of the scratch array: forces without the load (n), velocity, bias acceleration and acceleration of D (d),
-rope direction (d), hinge force on the load (d), velocity of the air (d), direction seen by the coordinates (n), and
-from here on d rows of the Jacobian of D. Scratch starts as zeros, so a crane that writes no WIND stands in still air.
-"""
-
-MASS = JACOBIAN + 3
-"""First of the n rows of the mass matrix, of which only the lower triangle is used."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,88 +72,112 @@ class Load:
         return 0.5 * AIR_DENSITY * self.drag_area
 
 
-def work_shape(coordinates: int) -> tuple[int, int]:
-    """Shape of the scratch array of a crane with so many coordinates."""
-    return MASS + coordinates, max(coordinates, 3)
-
-
-@traced
-def _sway(k: int, sway: int, along: float, y: Any, work: Any) -> float:
-    """Rate of the rope's direction, at right angles to it."""
-    return y[sway + k] - along * work[DIRECTION, k]
-
-
-@traced
-def _velocity(k: int, rate: float, length: float, w: float, work: Any) -> float:
-    """Velocity of the load."""
-    return work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w
-
-
-@traced
-def _through_air(k: int, rate: float, length: float, w: float, work: Any) -> float:
-    """Velocity of the load through the air."""
-    return work[VELOCITY, k] + rate * work[DIRECTION, k] + length * w - work[WIND, k]
-
-
-@traced
-def _carried(i: int, k: int, j: float, hinged: float, work: Any) -> tuple[float, float]:
-    """How a coordinate moves D along the rope, and the hinge's force on it, with one more axis."""
-    moved = work[k + JACOBIAN, i]
-    return j + moved * work[DIRECTION, k], hinged + moved * work[HINGE, k]
-
-
-@traced
-def _drive(i: int, place: int, j: float, hinged: float, s: float, dy: Any, work: Any) -> None:
-    """Force on a coordinate, with what the rope would pull if the structure did not accelerate."""
-    work[ALONG, i] = j
-    dy[place] = work[FORCE, i] - hinged + j * s
-
-
-@traced
-def _bind(i: int, m: int, carried: float, work: Any) -> None:
-    """Add the load's mass to that of two coordinates."""
-    work[i + MASS, m] = work[i + MASS, m] + carried * work[ALONG, m]
-
-
-@kernel()
-def hang_load(
-    y: Any,
-    dy: Any,
-    n: int,
-    d: int,
-    length: float,
-    rate: float,
-    acceleration: float,
-    mass: float,
-    gravity: float,
-    drag: float,
-    hinge: float,
-    stiffness: float,
-    loss: float,
-    work: Any,
-) -> float:
-    """Solve for all accelerations, given the structure in ``work``, and write dy.
+class Structure(NamedTuple):
+    """A crane of n coordinates without its load, as the load on it sees it.
 
     Parameters
     ----------
-    y, dy : ndarray, shape (2 n + 2 d + 1,), or two more with an elastic rope
-        State and its derivative; the last entry of dy becomes the power of winch, drag and hinge [W].
-    n, d : int
-        Coordinates of the structure and axes of space.
-    length, rate, acceleration : float
-        Length of the unstretched rope and its time derivatives [m, m/s, m/s^2].
-    mass, gravity, drag, hinge : float
-        Load [kg], gravity [m/s^2], drag per squared speed [kg/m], hinge damping [N m s/rad].
-    stiffness, loss : float
-        Of an elastic rope [N/m, N s/m], which the state has a stretch of.
-    work : ndarray
-        FORCE, VELOCITY, BIAS, JACOBIAN and MASS filled by the structure, WIND where there is any; ACCELERATION,
-        DIRECTION and HINGE are left for it.
+    mass : sequence of n sequences
+        Rows of the lower triangle of the mass matrix.
+    force : sequence of n
+        Forces on the coordinates while nothing accelerates.
+    velocity, bias : sequence of d
+        Of D: its velocity, and its acceleration while no coordinate accelerates.
+    jacobian : sequence of d sequences of n
+        What a rate of each coordinate moves D.
+    wind : sequence of d
+        Velocity of the air at the load.
+    """
 
-    Returns
-    -------
-    float
-        Rope tension [N].
+    mass: Sequence[Sequence[Any]]
+    force: Sequence[Any]
+    velocity: Sequence[Any]
+    bias: Sequence[Any]
+    jacobian: Sequence[Sequence[Any]]
+    wind: Sequence[Any] = (0.0, 0.0, 0.0)
+
+    def mass_matrix(self) -> NDArray[np.float64]:
+        """The whole mass matrix, of numbers; shape (n, n)."""
+        matrix = np.zeros((len(self.mass), len(self.mass)))
+        for i, row in enumerate(self.mass):
+            matrix[i, : i + 1] = matrix[: i + 1, i] = row
+        return matrix
+
+
+class State(NamedTuple):
+    """Parts of a state: coordinates, stretch of an elastic rope or nothing, rope direction, and their rates."""
+
+    coordinates: Row
+    stretch: Row
+    direction: Row
+    rates: Row
+    stretching: Row
+    swing: Row
+
+
+class Rope(NamedTuple):
+    """Unstretched length with its rate and acceleration; stiffness [N/m] and damping [N s/m] where it stretches."""
+
+    length: Any
+    rate: Any
+    acceleration: Any
+    stiffness: Any = 0.0
+    damping: Any = 0.0
+
+
+class Hung(NamedTuple):
+    """Crane and load in motion.
+
+    Parameters
+    ----------
+    tension : number
+        Force of the rope [N].
+    power : number
+        Of winch, drag, hinge and rope [W].
+    accelerations : list of n
+    stretch_acceleration : sequence
+        Of an elastic rope, else nothing.
+    turning : list of d
+        Second derivative of the rope's direction.
+    direction, hinge, suspension : list of d
+        Unit vector from D to the load, hinge force on the load, acceleration of D.
+    """
+
+    tension: Any
+    power: Any
+    accelerations: list[Any]
+    stretch_acceleration: Sequence[Any]
+    turning: list[Any]
+    direction: list[Any]
+    hinge: list[Any]
+    suspension: list[Any]
+
+    def pull(self, axis: int) -> Any:
+        """Force of rope and hinge on D along an axis."""
+        return self.tension * self.direction[axis] - self.hinge[axis]
+
+
+def state_of(y: Row, coordinates: int, axes: int) -> State:
+    """Parts of a state with so many coordinates and axes of space."""
+    half = (len(y) - 1) // 2
+    rope = half - axes
+    places, rates = y[:half], y[half : 2 * half]
+    return State(
+        places[:coordinates], places[coordinates:rope], places[rope:],
+        rates[:coordinates], rates[coordinates:rope], rates[rope:],
+    )  # fmt: skip
+
+
+def slopes(state: State, hung: Hung, power: Any) -> list[Any]:
+    """Derivative of a state, with the power that inputs put in less what is lost [W]."""
+    return [
+        *state.rates, *state.stretching, *state.swing,
+        *hung.accelerations, *hung.stretch_acceleration, *hung.turning, power,
+    ]  # fmt: skip
+
+
+def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravity: Any) -> Hung:
+    """Accelerations of a crane with its load.
 
     Notes
     -----
@@ -166,110 +185,59 @@ def hang_load(
     (M + m j j^T) q'' = f - J^T H + j s and T = s - m j.q''. The matrix is symmetric positive definite whenever M
     is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration. An elastic
     rope pulls with k e + c e' whatever the structure does: then nothing of the load is in the matrix, and the stretch
-    has an equation of its own."""
-    rates = (y.size - 1) // 2
-    elastic = rates > n + d
-    direction, sway = n, rates + n
-    winding = rate
-    bound = mass
+    has an equation of its own.
+    """
+    elastic = len(state.stretch) > 0
+    stretch, stretching = (state.stretch[0], state.stretching[0]) if elastic else (0.0, 0.0)
+    length, rate = rope.length + stretch, rope.rate + stretching
+    axes, bias = range(len(state.direction)), structure.bias
+    norm = np.sqrt(dot(state.direction, state.direction))
+    direction = [component / norm for component in state.direction]
+    along = dot(direction, state.swing)
+    across = [p - along * n for p, n in zip(state.swing, direction, strict=True)]
+    ww = dot(across, across)
+    velocity = [structure.velocity[k] + rate * direction[k] + length * across[k] for k in axes]
+    through = [velocity[k] - structure.wind[k] for k in axes]
+    speed = np.sqrt(dot(through, through))
+    air = [-load.drag * speed * v for v in through]
+    hinge = [-load.rope_damping / length * w for w in across]
+    power = -load.rope_damping * ww
     if elastic:
-        bound = 0.0
-        length += y[n]
-        rate += y[rates + n]
-        direction += 1
-        sway += 1
-    norm, along = 0.0, 0.0
-    for k in range(d):
-        norm += y[direction + k] * y[direction + k]
-    norm = np.sqrt(norm)
-    for k in range(d):
-        work[DIRECTION, k] = y[direction + k] / norm
-        along += work[DIRECTION, k] * y[sway + k]
-    ww, speed, outward = 0.0, 0.0, 0.0
-    for k in range(d):
-        w = _sway(k, sway, along, y, work)
-        ww += w * w
-        v = _through_air(k, rate, length, w, work)
-        speed += v * v
-    speed = np.sqrt(speed)
-    power = -hinge * ww
-    s = mass * (length * ww - acceleration - gravity * work[DIRECTION, d - 1])
-    if elastic:
-        s = stiffness * y[n] + loss * y[rates + n]
-        power -= loss * y[rates + n] * y[rates + n]
-    for k in range(d):
-        w = _sway(k, sway, along, y, work)
-        air = -drag * speed * _through_air(k, rate, length, w, work)
-        power += air * _velocity(k, rate, length, w, work)
-        work[HINGE, k] = -hinge / length * w
-        if not elastic:
-            s += work[DIRECTION, k] * (air - mass * work[BIAS, k])
+        bound, s = 0.0, rope.stiffness * stretch + rope.damping * stretching
+        power = power - rope.damping * stretching * stretching
+    else:
+        bound, s = load.mass, load.mass * (length * ww - rope.acceleration - gravity * direction[-1])
+        for k in axes:
+            s = s + direction[k] * (air[k] - load.mass * bias[k])
+    for k in axes:
+        power = power + air[k] * velocity[k]
 
-    for i in range(n):
-        j = 0.0
-        hinged = 0.0
-        for k in range(d):
-            j, hinged = _carried(i, k, j, hinged, work)
-        _drive(i, rates + i, j, hinged, s, dy, work)
-        for m in range(i + 1):
-            _bind(i, m, bound * j, work)
-    _solve(work, dy, n, rates)
+    columns = list(zip(*structure.jacobian, strict=True))
+    pulled = [dot(column, direction) for column in columns]
+    right = [
+        force - dot(column, hinge) + j * s
+        for force, column, j in zip(structure.force, columns, pulled, strict=True)
+    ]  # fmt: skip
+    matrix = [
+        [own + bound * j * other for own, other in zip(row, pulled, strict=False)]
+        for row, j in zip(structure.mass, pulled, strict=True)
+    ]
+    accelerations = solve(matrix, right)
 
     tension = s
-    for i in range(n):
-        tension -= bound * work[ALONG, i] * dy[rates + i]
-        dy[i] = y[rates + i]
-    for k in range(d):
-        a = work[BIAS, k]
-        for i in range(n):
-            a += work[JACOBIAN + k, i] * dy[rates + i]
-        work[ACCELERATION, k] = a
-    for k in range(d):
-        w = _sway(k, sway, along, y, work)
-        air = -drag * speed * _through_air(k, rate, length, w, work)
-        b = work[ACCELERATION, k] - (air + work[HINGE, k]) / mass
-        if k == d - 1:
-            b += gravity
-        dy[sway + k] = b
-        outward += b * work[DIRECTION, k]
-    for k in range(d):
-        w = _sway(k, sway, along, y, work)
-        across = dy[sway + k] - outward * work[DIRECTION, k] + 2.0 * rate * w
-        dy[sway + k] = -ww * work[DIRECTION, k] - across / length
-        dy[direction + k] = y[sway + k]
-    if elastic:
-        dy[n] = y[rates + n]
-        dy[rates + n] = length * ww - outward - tension / mass - acceleration
-    dy[y.size - 1] = power - tension * winding
-    return tension
-
-
-@traced
-def _less(value: float, i: int, j: int, m: int, work: Any) -> float:
-    """Without the part of column m in the product of two rows of the factor."""
-    return value - work[i + MASS, m] * work[j + MASS, m]
-
-
-@kernel(inline=True)
-def _solve(work: Any, x: Any, n: int, first: int) -> None:
-    """Solve M x = b in place by Cholesky; b and x are n entries of x from ``first``, M is overwritten."""
-    for i in range(n):
-        for j in range(i):
-            value = work[MASS + i, j]
-            for m in range(j):
-                value = _less(value, i, j, m, work)
-            work[MASS + i, j] = value * work[MASS + j, j]
-        value = work[MASS + i, i]
-        for m in range(i):
-            value = _less(value, i, i, m, work)
-        # The inverse of the diagonal is stored: each entry is divided by once and multiplied by often.
-        work[MASS + i, i] = 1.0 / np.sqrt(value)
-        value = x[first + i]
-        for m in range(i):
-            value -= work[MASS + i, m] * x[first + m]
-        x[first + i] = value * work[MASS + i, i]
-    for i in range(n - 1, -1, -1):
-        value = x[first + i]
-        for m in range(i + 1, n):
-            value -= work[MASS + m, i] * x[first + m]
-        x[first + i] = value * work[MASS + i, i]
+    for j, acceleration in zip(pulled, accelerations, strict=True):
+        tension = tension - bound * j * acceleration
+    suspension = []
+    for row, own in zip(structure.jacobian, bias, strict=True):
+        for moved, acceleration in zip(row, accelerations, strict=True):
+            own = own + moved * acceleration
+        suspension.append(own)
+    falling = [suspension[k] - (air[k] + hinge[k]) / load.mass for k in axes]
+    falling[-1] = falling[-1] + gravity
+    outward = dot(falling, direction)
+    turning = [
+        -ww * n - (b - outward * n + 2.0 * rate * w) / length
+        for n, b, w in zip(direction, falling, across, strict=True)
+    ]
+    stretched = [length * ww - outward - tension / load.mass - rope.acceleration] if elastic else []
+    return Hung(tension, power - tension * rope.rate, accelerations, stretched, turning, direction, hinge, suspension)

@@ -15,7 +15,10 @@ from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.core.typeconv.castgraph import Conversion
-from numba.extending import lower_builtin, lower_cast, models, register_model, type_callable
+from numba.extending import intrinsic, lower_builtin, lower_cast, models, register_model, type_callable
+
+# Numba's own functions carry no types.
+_intrinsic: Any = intrinsic
 
 LANES = 8
 """Runs side by side; eight doubles fill a register of AVX-512."""
@@ -130,6 +133,19 @@ for _function, _name in (
 ):
     for _form in (_function, getattr(operator, f"i{_function.__name__}")):
         _pairs(_form, lambda builder, a, b, name=_name: getattr(builder, name)(a, b))
+
+
+@_intrinsic
+def choose(_context: Any, where: Any, a: Any, b: Any) -> Any:
+    """In every lane one value where a condition is not zero, else another; numbers count for all lanes."""
+
+    def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        given = zip(arguments, signature.args, strict=True)
+        condition, one, other = (_doubles(context, builder, value, kind) for value, kind in given)
+        zero = ir.Constant(DOUBLES, [0.0] * LANES)
+        return builder.select(builder.fcmp_unordered("!=", condition, zero), one, other)
+
+    return VECTOR(where, a, b), build
 
 
 _pairs(min, _chosen("<"))

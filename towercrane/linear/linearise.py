@@ -88,7 +88,8 @@ def linearise(
         raise ValueError(f"state: wanted shape ({model.system.size},), got {np.shape(state)}")
     state = np.array(state, dtype=float)
     chart = Chart.about(model, state, drives, turning)
-    quantities = _observed(model, state, drives)
+    alone = state[None], drives[None]
+    quantities = _observed(model, *alone, *_slopes(model, *alone))
     if outputs is None:
         outputs = [name for name, q in quantities.items() if q.dims == ("time",) and q.units != "J"]
     if unknown := [name for name in outputs if name not in quantities]:
@@ -98,21 +99,21 @@ def linearise(
     size, channels = len(chart.at), len(model.channels)
 
     def respond(arguments: Floats) -> Floats:
-        """Slope of the minimal state, then outputs, from the minimal state and the drives."""
-        moving = arguments[size:].reshape(3, channels)
-        y = chart.full(arguments[:size], moving)
-        slope, guards = model.system.slope(0.0, y, _polynomials(moving))
-        # A guard may be an output too, such as the tension.
-        values = _observed(model, y, moving, guards) if outputs else {}
-        parts = [np.ravel(values[name].values) for name in outputs]
-        return np.concatenate([chart.slope(arguments[:size], slope, moving), *parts])
+        """Slope of the minimal state, then outputs, from minimal states and drives in columns."""
+        states, moving = arguments[:size].T, arguments[size:].T.reshape(arguments.shape[1], 3, channels)
+        full = np.array([chart.full(*own) for own in zip(states, moving, strict=True)])
+        slopes, guards = _slopes(model, full, moving)
+        parts = [np.transpose([chart.slope(*own) for own in zip(states, slopes, moving, strict=True)])]
+        values = _observed(model, full, moving, slopes, guards) if outputs else {}
+        parts += [values[name].values.reshape(len(full), -1).T for name in outputs]
+        return np.concatenate(parts)
 
     arguments = np.concatenate([chart.at, drives.ravel()])
     matrix, errors = jacobian(respond, arguments, scale := np.concatenate([chart.scale, np.ones(3 * channels)]))
     largest = np.max(abs(matrix) * scale, axis=1, initial=0.0)[:, None]
     matrix[abs(matrix) * scale < NOTHING * largest] = 0.0
     relative = errors * scale / np.where(largest > 0.0, largest, 1.0)
-    here = respond(arguments)
+    here = respond(arguments[:, None])[:, 0]
     by_value = np.isin(model.channels, getattr(model, "value_channels", ()))
     states, given = _roles(size, by_value, inputs)
     driven, count = np.flatnonzero(~by_value), channels - int(np.count_nonzero(by_value))
@@ -179,14 +180,19 @@ def _polynomials(drives: Floats) -> Floats:
     return np.ascontiguousarray(drives.T * [1.0, 1.0, 0.5])
 
 
-def _observed(model: Model, state: Floats, drives: Floats, guards: Floats | None = None) -> dict[str, Quantity]:
-    """What the model observes at one instant."""
-    coefficients = _polynomials(drives)
-    if guards is None:
-        guards = model.system.slope(0.0, state, coefficients)[1]
-    span = np.array([0.0, 1.0])
-    motions = {channel: Motion(span, row[None]) for channel, row in zip(model.channels, coefficients, strict=True)}
-    return model.observe(motions, np.zeros(1), state[None], guards[None])
+def _slopes(model: Model, states: Floats, drives: Floats) -> tuple[Floats, Floats]:
+    """Right-hand side and guards of states (p, size) with drives (p, 3, channels)."""
+    pairs = [model.system.slope(0.0, state, _polynomials(own)) for state, own in zip(states, drives, strict=True)]
+    slopes, guards = zip(*pairs, strict=True)
+    return np.array(slopes), np.array(guards)
+
+
+def _observed(model: Model, states: Floats, drives: Floats, slopes: Floats, guards: Floats) -> dict[str, Quantity]:
+    """What the model observes in states (p, size) with drives (p, 3, channels): each is an instant of one run."""
+    instants = np.arange(len(states) + 1.0)
+    coefficients = np.array([_polynomials(own) for own in drives])
+    motions = {name: Motion(instants, coefficients[:, row]) for row, name in enumerate(model.channels)}
+    return model.observe(motions, instants[:-1], states, slopes, guards)
 
 
 def _components(name: str, quantity: Quantity) -> list[Signal]:

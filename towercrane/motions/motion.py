@@ -15,6 +15,8 @@ import numpy as np
 from modal.checks import check_not_negative, check_positive, number_in
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike, NDArray
 
     Floats = NDArray[np.float64]
@@ -77,17 +79,23 @@ class Motion:
 
     def __call__(self, time: ArrayLike, derivative: int = 0) -> Floats:
         """Value or derivative at ``time`` [s]; at a switch time the right limit. Shape as ``time``."""
+        return self.derivatives(time, (derivative,))[0]
+
+    def derivatives(self, time: ArrayLike, orders: Sequence[int] = (0, 1, 2)) -> list[Floats]:
+        """Value, rate and acceleration, or derivatives of other orders, as a call gives them one by one."""
         t = np.asarray(time, dtype=float)
         rests = (t < 0.0) | (self.duration <= t + SAME_INSTANT)
         index = np.searchsorted(self.switch_times, t + SAME_INSTANT, side="right") - 1
         index = np.clip(index, 0, len(self.coefficients) - 1)
-        pieces = np.polynomial.polynomial.polyder(self.coefficients, derivative, axis=1)
-        local = t - self.switch_times[index]
-        value = np.zeros_like(t)
-        for column in pieces.T[::-1]:
-            value = value * local + column[index]
-        resting = np.where(t < 0.0, self.coefficients[0, 0], self.end) if derivative == 0 else 0.0
-        return np.where(rests, resting, value)
+        local, found = t - self.switch_times[index], []
+        for order in orders:
+            pieces = np.polynomial.polynomial.polyder(self.coefficients, order, axis=1)
+            value = np.zeros_like(t)
+            for column in pieces.T[::-1]:
+                value = value * local + column[index]
+            resting = np.where(t < 0.0, self.coefficients[0, 0], self.end) if order == 0 else 0.0
+            found.append(np.where(rests, resting, value))
+        return found
 
     def range(self, derivative: int = 0) -> tuple[float, float]:
         """Smallest and largest value that the motion, or a derivative of it, ever takes."""

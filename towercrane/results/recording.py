@@ -52,28 +52,6 @@ class Quantity:
         return {"units": self.units, "long_name": self.long_name}
 
 
-def load_places(place: NDArray[np.float64], heading: NDArray[np.float64], origin: str) -> dict[str, Quantity]:
-    """Place of a load in fixed axes and in those that turn with its crane.
-
-    Parameters
-    ----------
-    place : ndarray, shape (times, 3)
-        In fixed axes, from the axis that the crane turns about [m].
-    heading : ndarray, shape (times,)
-        Angle of the jib's root, or of the booms, from the x axis [rad].
-    origin : str
-        What the place counts from.
-    """
-    c, s, turned = np.cos(heading), np.sin(heading), place.copy()
-    turned[:, 0], turned[:, 1] = c * place[:, 0] + s * place[:, 1], c * place[:, 1] - s * place[:, 0]
-    fixed = f"load from {origin} in fixed axes: x, y, up"
-    own = f"load from {origin} in axes that turn with the crane: outward along its jib, sideways, up"
-    return {
-        "payload_position": Quantity(("time", "fixed_axis"), place, "m", fixed),
-        "payload_in_crane_axes": Quantity(("time", "axis"), turned, "m", own),
-    }
-
-
 @dataclass(frozen=True, eq=False)
 class Recording:
     """A run's quantities over time, read like an :class:`xarray.Dataset`: by name, ``dims``, ``values``, ``attrs``.

@@ -78,7 +78,7 @@ def _as_stated(case: Case, model: Model | None, motions: dict[str, Motion] | Non
         motions = motions_of(case, model)
     return record(
         model,
-        motions or motions_of(case),
+        motions or motions_of(case, model),
         case.run.duration,
         output_step=case.run.output_step,
         looks=looks_per_row(case.run.duration, case.run.output_step),

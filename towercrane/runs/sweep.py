@@ -1,7 +1,7 @@
 """Many runs of one case in which some of its values vary: extremes of the outputs, run by run.
 
-Tower cranes in the plane of their jib run side by side in vector lanes, all others one after the other; the answer is
-the same.
+Runs go side by side in vector lanes, but for those that choose their model for an error that is asked for, whose
+equations switch on the way or whose solver is SciPy's: these run one after the other. The answer is the same.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from towercrane.runs.sweep_data import Found, dataset
 from towercrane.runs.variants import Variants, change, varied_case
 from towercrane.schema.faults import CaseError
 from towercrane.schema.units import UnitError, to_si
+from towercrane.simulation.observed import scalars
 from towercrane.simulation.outcomes import INTERRUPTED
 from towercrane.simulation.simulate import looks_per_row, rows_of
 
@@ -37,6 +38,14 @@ if TYPE_CHECKING:
     Progress = Callable[[int], None]
 
 
+FEWEST = 8
+"""Runs that must be alike to share lanes."""
+
+
+class UnknownOutput(ValueError):
+    """An output is asked for that a run does not show."""
+
+
 def grid(vary: Mapping[str, Sequence[Value]]) -> dict[str, list[Value]]:
     """All combinations of the keys' values, the last key changing fastest."""
     combinations = list(itertools.product(*vary.values()))
@@ -47,6 +56,7 @@ def sweep(
     case: Case | str | os.PathLike[str],
     vary: Mapping[str, Sequence[Value] | Floats],
     *,
+    outputs: Sequence[str] | None = None,
     threads: int | None = None,
     series: bool = False,
     progress: Progress | None = None,
@@ -60,6 +70,8 @@ def sweep(
     vary : mapping of str to sequence
         For each key of the case file as many values as there are runs: numbers in SI, or text with units. For all
         combinations of a few values see :func:`grid`.
+    outputs : sequence of str, optional
+        Those that are wanted; by default all single numbers that a run shows.
     threads : int, optional
         Threads for runs in lanes; all cores by default.
     series : bool
@@ -89,12 +101,10 @@ def sweep(
     loaded = case if isinstance(case, Case) else varied_case(case, (), list(first.values()))
     values = {key: _read(loaded, key, column, first) for key, column in given.items()}
     found = Found(len(next(iter(values.values()))))
-    variants = Variants(loaded, values)
-    waiting = _one_by_one(variants, found, series, progress)
-    if any(set(found.outputs) - set(company[0].outputs) for company in waiting):
-        # Beside runs with more outputs, lanes would leave gaps.
-        waiting = _alone(variants, waiting, found, progress)
-    _side_by_side(waiting, found, threads, series, progress)
+    waiting = _one_by_one(Variants(loaded, values), found, outputs, series, progress)
+    if not series:
+        waiting = _in_company(waiting, found, outputs, progress)
+    _side_by_side(waiting, found, outputs, threads, series, progress)
     if len(found.faults) == found.count:
         raise CaseError(found.faults[0].faults)
     return dataset(loaded, values, found)
@@ -132,7 +142,7 @@ def _in_si(case: Case, key: str, value: Value, unit: str, first: dict[str, str])
 
 
 def _one_by_one(
-    variants: Variants, found: Found, series: bool, progress: Progress | None
+    variants: Variants, found: Found, outputs: Sequence[str] | None, series: bool, progress: Progress | None
 ) -> dict[tuple[Any, ...], dict[int, Variant]]:
     """Build every run and let those that fit no lanes run at once; the others by their company."""
     waiting: dict[tuple[Any, ...], dict[int, Variant]] = {}
@@ -143,14 +153,15 @@ def _one_by_one(
             if variant.case is not met:
                 met = variant.case
                 found.met(met)
-            if variant.lane is not None:
+            if variant.fits_lanes:
                 waiting.setdefault(variant.company, {})[run] = variant
                 continue
             if series:
                 raise ValueError(
-                    "series: wanted a tower crane in its jib's plane and a compiled method, got another; see run_case"
+                    "series: wanted runs that share lanes, got one that asks for an error, switches its equations or "
+                    "has a solver of SciPy; see run_case"
                 )
-            _recorded(found, run, variant.case)
+            _recorded(found, run, variant, outputs)
         except CaseError as refused:
             found.faults[run] = refused
         except KeyboardInterrupt:
@@ -160,42 +171,61 @@ def _one_by_one(
     return waiting
 
 
-def _alone(
-    variants: Variants, waiting: dict[tuple[Any, ...], dict[int, Variant]], found: Found, progress: Progress | None
+def _in_company(
+    waiting: dict[tuple[Any, ...], dict[int, Variant]],
+    found: Found,
+    outputs: Sequence[str] | None,
+    progress: Progress | None,
 ) -> dict[tuple[Any, ...], dict[int, Variant]]:
-    """Let runs that could share lanes run one by one; none is left waiting."""
-    try:
-        for run in sorted(run for members in waiting.values() for run in members):
-            _recorded(found, run, variants.case_of(run))
-            if progress is not None:
-                progress(len(found.rows) + len(found.faults))
-    except KeyboardInterrupt:
-        pass
-    return {}
+    """Let runs of small companies run at once: lanes have code of their own to compile."""
+    for members in [members for members in waiting.values() if len(members) < FEWEST]:
+        try:
+            for run, variant in members.items():
+                _recorded(found, run, variant, outputs)
+                if progress is not None:
+                    progress(len(found.rows) + len(found.faults))
+        except KeyboardInterrupt:
+            return {}
+    return {company: members for company, members in waiting.items() if len(members) >= FEWEST}
 
 
-def _recorded(found: Found, run: int, case: Case) -> None:
+def _recorded(found: Found, run: int, variant: Variant, outputs: Sequence[str] | None) -> None:
     """Record a run and keep its extremes."""
-    result = record_case(case)
+    result = record_case(variant.case, model=variant.run.model if variant.run else None)
     if result.attrs["outcome"] == INTERRUPTED:
         raise KeyboardInterrupt
     extremes = peaks(result)
-    # Those of runs in lanes, unless another run of the sweep has more.
-    lane = KINDS[case.kind].lane
-    shared = lane(case.checked) if lane else None
-    names = list(shared.crane.outputs if shared else extremes)
+    names = _names(variant.case, tuple(extremes), outputs)
     found.outputs |= {name: (result[name].attrs["units"], result[name].attrs["long_name"]) for name in names}
     ways = ("maximum", "maximum_time_s", "minimum", "minimum_time_s")
-    kept = {name: [extreme[way] for way in ways] for name, extreme in extremes.items()}
+    kept = {name: [extremes[name][way] for way in ways] for name in names}
     attributes = result.attrs
     found.rows[run] = attributes["outcome"], attributes["end_time"], attributes["evaluations"], kept
     if promised := accuracy(result):
         found.promises[run] = promised["outcome"]
 
 
+def _names(case: Case, known: tuple[str, ...], outputs: Sequence[str] | None) -> tuple[str, ...]:
+    """The outputs that are wanted, those first that say most of a kind of crane.
+
+    Raises
+    ------
+    UnknownOutput
+        If one is asked for that a run does not show.
+    """
+    if outputs is not None:
+        if unknown := [name for name in outputs if name not in known]:
+            raise UnknownOutput(f"wanted some of {', '.join(known)}, got {unknown[0]!r}")
+        return tuple(outputs)
+    signals = KINDS[case.kind].signals
+    first = [name for name in (signals.vibration, *signals.swings, "rope_tension") if name in known]
+    return tuple(dict.fromkeys([*first, *known]))
+
+
 def _side_by_side(
     waiting: dict[tuple[Any, ...], dict[int, Variant]],
     found: Found,
+    outputs: Sequence[str] | None,
     threads: int | None,
     series: bool,
     progress: Progress | None,
@@ -205,22 +235,24 @@ def _side_by_side(
         return
     from towercrane.simulation.lanes.many import integrate_many
 
-    if series and len({company[1:3] for company in waiting}) > 1:
+    if series and len({company[:2] for company in waiting}) > 1:
         raise ValueError("series: wanted the same duration and output step in all runs, got different ones")
-    for (crane, duration, output_step, method, rtol, atol, *_), members in waiting.items():
-        found.outputs |= crane.outputs
+    for (duration, output_step, method, rtol, atol, *_), members in waiting.items():
+        runs = [variant.run for variant in members.values() if variant.run is not None]
+        about = runs[0].model.about
+        names = _names(next(iter(members.values())).case, scalars(runs[0].model), outputs)
+        found.outputs |= {name: (about[name].units, about[name].long_name) for name in names}
         looks = looks_per_row(duration, output_step)
         times = rows_of(duration, output_step, looks)
         found.times = times[::looks]
         answers = integrate_many(
-            crane, [variant.lane for variant in members.values() if variant.lane is not None],
-            times, method=method, rtol=rtol, atol=atol, threads=threads, series=series,
+            runs, times, outputs=names, method=method, rtol=rtol, atol=atol, threads=threads, series=series,
             progress=_counted(progress, len(found.rows) + len(found.faults)),
         )  # fmt: skip
         for place, run in enumerate(members):
             if answers.outcomes[place] == INTERRUPTED:
                 continue
-            extremes = dict(zip(crane.outputs, answers.extremes[place], strict=True))
+            extremes = dict(zip(names, answers.extremes[place], strict=True))
             ended = float(answers.end_times[place]), int(answers.evaluations[place])
             found.rows[run] = answers.outcomes[place], *ended, extremes
             if series:

@@ -14,6 +14,7 @@ from towercrane.accuracy.promise import targets_of
 from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cranes.registry import KINDS
+from towercrane.kernels.straight.leaves import known_of
 from towercrane.motions.motion import phases
 from towercrane.schema.faults import CaseError
 from towercrane.simulation.methods.registry import METHODS
@@ -23,8 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from towercrane.cases.case import Case
-    from towercrane.cranes.kind import Lane
-    from towercrane.simulation.lanes.crane import LaneCrane, LaneRun
+    from towercrane.simulation.lanes.run import LaneRun
 
     Value = float | int | str
 
@@ -40,24 +40,28 @@ class Variant:
     ----------
     case : Case
         Its case; of runs that differ in load and rope alone the same one may stand for all.
-    lane : LaneRun, optional
-        Its model and motions, where it can run in vector lanes.
-    shared : Lane, optional
-        What it shares with others there.
+    run : LaneRun, optional
+        Its model and motions as lanes take them; none where a run chooses its own for an error that is asked for.
     """
 
     case: Case
-    lane: LaneRun | None = None
-    shared: Lane | None = None
+    run: LaneRun | None = None
+
+    @property
+    def fits_lanes(self) -> bool:
+        """Whether it can run in vector lanes."""
+        if self.run is None or not METHODS[self.case.solver.method].compiled:
+            return False
+        return self.run.model.system.switch is None
 
     @property
     def company(self) -> tuple[Any, ...]:
         """What runs that share lanes have in common."""
-        assert self.lane is not None, "only runs in lanes have company"
-        assert self.shared is not None
-        run, solver, system = self.case.run, self.case.solver, self.lane.model.system
-        steps = run.duration, run.output_step, solver.method, solver.rtol, solver.atol
-        return (self.shared.crane, *steps, system.size, system.tables.shape, system.tables.tobytes())
+        assert self.run is not None, "only runs in lanes have company"
+        run, solver, model = self.case.run, self.case.solver, self.run.model
+        system, steps = model.system, (run.duration, run.output_step, solver.method, solver.rtol, solver.atol)
+        equations = system.equations, system.size, known_of(system.constants), system.table.tobytes()
+        return (*steps, *equations, known_of(model.seen))
 
 
 class Variants:
@@ -112,18 +116,21 @@ class Variants:
 
     def _read(self, changes: list[str]) -> Variant:
         case = load_case(self._case.path, [*self._case.changes, *changes])
-        shared = lane_of(case)
-        return Variant(case, self._lane(case, shared.crane), shared) if shared else Variant(case)
+        # A run that chooses its own model and tolerance for an error builds what it needs.
+        return Variant(case) if targets_of(case) else Variant(case, self._run(case))
 
-    def _lane(self, case: Case, crane: LaneCrane) -> LaneRun:
-        from towercrane.simulation.lanes.crane import LaneRun
+    def _run(self, case: Case) -> LaneRun:
+        from towercrane.simulation.lanes.run import LaneRun
 
         model: Any = model_of(case)
-        motions = motions_of(case, model)
-        model = self._models.setdefault(crane.alike(model), model).with_load(model.load)
+        motions, made_of = motions_of(case, model), KINDS[case.kind].made_of
+        if made_of is not None:
+            model = self._models.setdefault(made_of(model), model).with_load(model.load)
         cut = phases(tuple(motions[channel] for channel in model.channels), case.run.duration)
         state = "equilibrium" if case.start.state == "equilibrium" else "zero"
-        return LaneRun(model, cut, state, case.start.swing_angle)
+        by_value = getattr(model, "value_channels", ())
+        means = {model.channels.index(channel): motions[channel].mean for channel in by_value}
+        return LaneRun(model, cut, state, case.start.swing_angle, means)
 
     def _plain_one(self, runs: list[int]) -> Variant | None:
         """A run that differs from these in its load and its resting rope alone; None if they differ in more.
@@ -143,20 +150,22 @@ class Variants:
             except CaseError:
                 return None
             shaped = any(plan.needs_model for plan in found.case.plans.values())
-            if found.shared is None or not found.shared.plain or shaped:
+            plain = KINDS[found.case.kind].plain
+            if not found.fits_lanes or shaped or plain is None or not plain(found.case.checked):
                 return None
         return found
 
     def _altered(self, plain: Variant, run: int) -> Variant:
         """The plain variant with a run's own load and rope."""
-        lane = plain.lane
+        lane = plain.run
         assert lane is not None, "what is plain runs in lanes"
-        model, cut = lane.model, lane.phases
+        model: Any = lane.model
+        cut = lane.phases
         if LOAD in self._quick:
             model = model.with_load(dataclasses.replace(model.load, mass=float(self._values[LOAD][run])))
         if ROPE in self._quick:
             cut = cut.moved(model.channels.index("rope"), float(self._values[ROPE][run]))
-        return dataclasses.replace(plain, lane=dataclasses.replace(lane, model=model, phases=cut))
+        return dataclasses.replace(plain, run=dataclasses.replace(lane, model=model, phases=cut))
 
 
 def varied_case(path: str | os.PathLike[str], changes: Sequence[str], varied: Sequence[str]) -> Case:
@@ -185,11 +194,3 @@ def varied_case(path: str | os.PathLike[str], changes: Sequence[str], varied: Se
 def change(key: str, value: Value) -> str:
     """Override that sets a key."""
     return f"{key}={value if isinstance(value, str) else json.dumps(value)}"
-
-
-def lane_of(case: Case) -> Lane | None:
-    """How a run can share lanes; one that chooses its own model and tolerance for an error cannot."""
-    lane = KINDS[case.kind].lane
-    if lane is None or not METHODS[case.solver.method].compiled or targets_of(case):
-        return None
-    return lane(case.checked)

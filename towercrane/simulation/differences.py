@@ -34,7 +34,7 @@ def jacobian(function: Callable[[Floats], Floats], at: Floats, scale: Floats) ->
     Parameters
     ----------
     function : callable
-        From shape (n,) to shape (m,).
+        From shape (n, p) to shape (m, p), a column for each of p places.
     at, scale : ndarray, shape (n,)
         Where, and the size of a step that is large for each argument.
 
@@ -44,14 +44,15 @@ def jacobian(function: Callable[[Floats], Floats], at: Floats, scale: Floats) ->
     """
     inner, outer = _extrapolation(WINDOW - 1), _extrapolation(WINDOW)
     values, errors = [], []
-    for column, size in enumerate(scale):
-        slopes = []
-        for step in LARGEST * size * 0.5 ** np.arange(STEPS):
-            ahead, behind = at.copy(), at.copy()
-            ahead[column] += step
-            behind[column] -= step
-            slopes.append((function(ahead) - function(behind)) / (ahead[column] - behind[column]))
-        windows = np.lib.stride_tricks.sliding_window_view(np.array(slopes), WINDOW, axis=0)
+    columns = np.arange(len(at)).repeat(STEPS)
+    places, count = np.tile(at[:, None], (2, 1, len(columns))), np.arange(len(columns))
+    steps = np.outer(LARGEST * scale, 0.5 ** np.arange(STEPS)).ravel()
+    places[0, columns, count] += steps
+    places[1, columns, count] -= steps
+    ahead, behind = np.split(function(np.hstack([*places])), 2, axis=1)
+    slopes = (ahead - behind) / (places[0, columns, count] - places[1, columns, count])
+    for own in np.split(slopes.T, len(at)):
+        windows = np.lib.stride_tricks.sliding_window_view(own, WINDOW, axis=0)
         # What all steps agree on is kept to the last digit.
         last = windows[..., -1]
         departures = windows - last[..., None]

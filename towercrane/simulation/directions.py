@@ -34,17 +34,8 @@ NOTHING = 1e-300
 
 
 @kernel()
-def restore(y: Any, k: Any, row: int, directions: Any) -> None:
-    """Put the directions of a state back to unit length and their rates at right angles to them, in place.
-
-    Parameters
-    ----------
-    y : ndarray, shape (size,)
-    k : ndarray, shape (m, size)
-    row : int
-        Of k, the slope at y, which becomes that at the new y.
-    directions : ndarray of int, shape (count, 3)
-    """
+def restore_state(y: Any, directions: Any) -> None:
+    """Put the directions of a state back to unit length and their rates at right angles to them, in place."""
     for number in range(directions.shape[0]):
         first, rate = directions[number, FIRST], directions[number, RATE]
         square, along = 0.0, 0.0
@@ -56,6 +47,24 @@ def restore(y: Any, k: Any, row: int, directions: Any) -> None:
             along += y[first + i] * y[rate + i]
         for i in range(directions[number, COMPONENTS]):
             y[rate + i] -= along * y[first + i]
+
+
+@kernel()
+def restore(y: Any, k: Any, row: int, directions: Any) -> None:
+    """:func:`restore_state` with the slope there.
+
+    Parameters
+    ----------
+    y : ndarray, shape (size,)
+    k : ndarray, shape (m, size)
+    row : int
+        Of k, the slope at y, which becomes that at the new y.
+    directions : ndarray of int, shape (count, 3)
+    """
+    restore_state(y, directions)
+    for number in range(directions.shape[0]):
+        first, rate = directions[number, FIRST], directions[number, RATE]
+        for i in range(directions[number, COMPONENTS]):
             k[row, first + i] = y[rate + i]
 
 

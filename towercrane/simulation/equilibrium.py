@@ -30,7 +30,7 @@ def stable_equilibrium(residual: Callable[[Floats], Floats], scale: Floats) -> F
     Parameters
     ----------
     residual : callable
-        Generalised forces at coordinates; both of shape (n,).
+        Generalised forces at coordinates; both of shape (n, p), a column for each of p places.
     scale : ndarray, shape (n,)
         Size of each coordinate that belongs to about a metre or a radian.
 
@@ -47,14 +47,15 @@ def stable_equilibrium(residual: Callable[[Floats], Floats], scale: Floats) -> F
     q = np.zeros(len(scale))
     if not len(scale):
         return q
-    steps = np.diag(1e-5 * scale)
+    n, steps = len(scale), np.diag(1e-5 * scale)
+    around = np.hstack([-steps, steps, np.zeros((n, 1))])
     before = np.inf
     for _ in range(MOST_STEPS):
-        columns = [(residual(q - d) - residual(q + d)) / (2e-5 * s) for s, d in zip(scale, steps, strict=True)]
-        tangent = np.array(columns).T
+        forces = residual(q[:, None] + around)
+        tangent = (forces[:, :n] - forces[:, n:-1]) / (2e-5 * scale)
         if np.linalg.eigvalsh(tangent + tangent.T).min() <= 0.0:
             raise Unstable("the stiffness is not positive definite")
-        change = np.linalg.solve(tangent, residual(q))
+        change = np.linalg.solve(tangent, forces[:, -1])
         q = q + change
         size = float(np.max(abs(change) / scale))
         # Where a soft member holds a stiff crane, rounding ends the quadratic convergence earlier.

@@ -119,28 +119,28 @@ def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> t
     slopes, guards : ndarray, shapes (p, size) and (p, len(system.guards))
     """
     slopes, guards = np.empty_like(states), np.empty((len(times), len(system.guards)))
-    owner, work = phase_of(times, phases), np.zeros(system.work_shape)
+    owner = phase_of(times, phases)
     for phase in np.unique(owner):
         mine = np.flatnonzero(owner == phase)
         part = slice(mine[0], mine[-1] + 1)
         inputs = phases.inputs[phase] if phase < len(phases.inputs) else phases.after
-        rhs, constants = system.code(inputs)
-        under = partial(_under, rhs, times[part] - phases.times[phase], states[part], inputs, constants[1:], work)
+        rhs, numbers = system.code(inputs)
+        under = partial(_under, rhs, times[part] - phases.times[phase], states[part], inputs, system.table)
         if system.switch is not None and system.switch.changes_equations:
-            slopes[part], guards[part] = _switched(system, system.switch, states[part], constants[0], under)
+            slopes[part], guards[part] = _switched(system, system.switch, states[part], numbers, under)
         else:
-            under(constants[0], slopes[part], guards[part])
+            under(numbers, slopes[part], guards[part])
     return slopes, guards
 
 
 def _under(
-    rhs: Any, times: Floats, states: Floats, inputs: Floats, others: tuple[Floats, ...], work: Floats,
-    numbers: Floats, slopes: Floats, guards: Floats,
+    rhs: Any, times: Floats, states: Floats, inputs: Floats, table: Floats, numbers: Floats, slopes: Floats,
+    guards: Floats,
 ) -> None:  # fmt: skip
     """Write slopes and guards of one phase, with these numbers in place of the system's own."""
     from towercrane.simulation import stepper
 
-    stepper.evaluate(rhs, times, states, slopes, guards, inputs, numbers, *others, work)
+    stepper.evaluate(rhs, times, states, slopes, guards, inputs, numbers, table)
 
 
 def _switched(

@@ -125,8 +125,8 @@ def record(
     if run.outcome != FINISHED and (len(times) == 0 or times[-1] < run.end_time):
         # What ended the run shows in its last row.
         times, states = np.append(times, run.end_time), np.vstack([states, run.end_state])
-    _, guards = evaluate(model.system, cut, times, states)
-    quantities, about = model.observe(motions, times, states, guards), model.provenance()
+    slopes, guards = evaluate(model.system, cut, times, states)
+    quantities, about = model.observe(motions, times, states, slopes, guards), model.provenance()
     outcome, end_time, end_state = run.outcome, run.end_time, run.end_state
     # A linear model keeps no account of its energy.
     if outcome != INTERRUPTED and "total_energy" in quantities:

@@ -1,7 +1,7 @@
 """The compiled loop of steps: one explicit Runge-Kutta pair with step control, dense output and guards.
 
 It works through one phase, inside which the inputs are smooth, and allocates nothing. The step control is
-that of :mod:`towercrane.simulation.step_size`.
+that of :mod:`towercrane.simulation.methods.step_size`.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ import numpy as np
 from numba import types
 
 from modal.compiler.compiled import kernel
+from towercrane.kernels.arrays import rhs_signature
 from towercrane.simulation.directions import longest_turn, restore
 from towercrane.simulation.guards import CLOSE, FEW_LOOKS, LOOKS, NARROWEST, NEAR, any_near, fallen, widen
-from towercrane.simulation.step_size import SHORTEST, SLOWLY, step_factor
-from towercrane.simulation.system import rhs_signature
+from towercrane.simulation.methods.step_size import SHORTEST, SLOWLY, step_factor
 
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
 """How far a phase has come."""
@@ -32,7 +32,7 @@ SOON, LATE, ROUGHLY = 1e-3, 0.99, 1e-3
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 _rhs = types.FunctionType(rhs_signature())
-_constants = (_two, _one, _two, _three, _three, _two)
+_constants = (_two, _one, _three)
 
 
 @kernel(inline=True)
@@ -120,10 +120,7 @@ def advance(
     max_steps: int,
     inputs: Any,
     numbers: Any,
-    vectors: Any,
-    matrices: Any,
     tables: Any,
-    work: Any,
     guards: Any,
     ranges: Any,
     floors: Any,
@@ -132,8 +129,8 @@ def advance(
 
     Parameters
     ----------
-    rhs, inputs, numbers, vectors, matrices, tables, work
-        As in :func:`towercrane.simulation.system.rhs_signature`.
+    rhs, inputs, numbers, tables
+        As in :func:`towercrane.kernels.arrays.rhs_signature`.
     stages, a, c, error, dense, error_order
         As in :class:`towercrane.simulation.methods.runge_kutta.RungeKutta`.
     clock, counts : ndarray, shapes (7,) and (5,)
@@ -175,7 +172,7 @@ def advance(
         for i in range(1, a.shape[0]):
             stage_state(y, a, i, k, step, trial)
             # The slopes go through a fixed array: a view of k per stage would cost a tenth of the right-hand side.
-            rhs(t + c[i] * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+            rhs(t + c[i] * step, trial, slope, inputs, numbers, tables, guards)
             counts[EVALUATIONS] += 1
             for m in range(y.size):
                 k[i, m] = slope[m]
@@ -200,7 +197,7 @@ def advance(
             for look in range(1, FEW_LOOKS + 1):
                 x = look / FEW_LOOKS
                 _dense(y, dense, k, step, x, trial)
-                rhs(t + x * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+                rhs(t + x * step, trial, slope, inputs, numbers, tables, guards)
                 counts[EVALUATIONS] += 1
                 widen(lowest, highest, guards)
             suspect = any_near(lowest, highest, floors, CLOSE)
@@ -208,7 +205,7 @@ def advance(
         while suspect:
             x = high if crossed < 0 else 0.5 * (low + high)
             _dense(y, dense, k, step, x, trial)
-            rhs(t + x * step, trial, slope, inputs, numbers, vectors, matrices, tables, work, guards)
+            rhs(t + x * step, trial, slope, inputs, numbers, tables, guards)
             counts[EVALUATIONS] += 1
             guard = fallen(guards, floors)
             if guard >= 0:
@@ -262,11 +259,8 @@ def evaluate(
     guards: Any,
     inputs: Any,
     numbers: Any,
-    vectors: Any,
-    matrices: Any,
     tables: Any,
-    work: Any,
 ) -> None:
     """Right-hand side and guards at many states of one phase; slopes and guards have a row per state."""
     for row in range(times.size):
-        rhs(times[row], states[row], slopes[row], inputs, numbers, vectors, matrices, tables, work, guards[row])
+        rhs(times[row], states[row], slopes[row], inputs, numbers, tables, guards[row])

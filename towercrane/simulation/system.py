@@ -1,4 +1,4 @@
-"""What the solver knows of a crane: a compiled right-hand side, its data and its guards."""
+"""What the solver knows of a crane: its equations, their constants and its guards."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from towercrane.kernels.straight.written import Known, Written, written
+from towercrane.kernels.straight.leaves import known_of, numbers_of, place_of, table_of
+from towercrane.kernels.straight.written import Written, written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -20,23 +21,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
     Integers = NDArray[np.int64]
-
-
-MOST_WRITTEN = 60
-"""States of the largest system whose equations are written out: compiling takes longer than it saves beyond."""
-
-
-def rhs_signature() -> Any:
-    """Numba signature of every right-hand side, so that one compiled integrator serves all models.
-
-    ``rhs(t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards)``: t is the time since the phase
-    began [s]; inputs holds the polynomials of that phase, one row per channel; dy and guards are written;
-    work is scratch. The other arrays are the model's constants, laid out as each model likes.
-    """
-    from numba import types
-
-    one, two, three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
-    return types.void(types.float64, one, one, two, one, two, three, three, two, one)
 
 
 class Switch(Protocol):
@@ -66,7 +50,8 @@ class System:
     Parameters
     ----------
     equations : callable
-        Gives the compiled right-hand side, as in :func:`rhs_signature`; called when it is first wanted.
+        ``equations(constants, t, y, inputs)`` gives the slopes and the guards, two sequences of numbers; t is the
+        time since the phase began [s], ``inputs`` the polynomials of that phase, one row per channel.
     size : int
         Number of states.
     guards : tuple of str
@@ -75,12 +60,8 @@ class System:
         Minus infinity where a guard is only recorded.
     scale : ndarray, shape (size,)
         Absolute tolerance per unit of ``atol``; infinite where a state must not steer the step.
-    numbers, vectors, matrices, tables : ndarray
-        Constants of the model, with 1, 2, 3 and 3 dimensions.
-    work_shape : tuple of int
-        Shape of the scratch array.
-    known : Known, optional
-        What is known of the data when the equations are written out for them; without, they are not.
+    constants : dataclass, optional
+        Constants of the equations, see :mod:`towercrane.kernels.straight.leaves`.
     directions : ndarray of int, shape (ropes, 3)
         Unit vectors among the states, see :mod:`towercrane.simulation.directions`: where each begins, where its rate
         begins, and how many components it has. All slopes but that of the vector, which is its rate, must be the same
@@ -91,51 +72,51 @@ class System:
         Highest angular frequency of its small motions [rad/s], if it is known.
     """
 
-    equations: Callable[[], Any]
+    equations: Callable[..., tuple[Sequence[Any], Sequence[Any]]]
     size: int
     guards: tuple[str, ...]
     floors: Floats
     scale: Floats
-    numbers: Floats
-    vectors: Floats
-    matrices: Floats
-    tables: Floats
-    work_shape: tuple[int, int]
-    known: Known | None = None
+    constants: Any = None
     directions: Integers = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))
     switch: Switch | None = None
     fastest: Callable[[], float] | None = None
 
-    @property
-    def constants(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """The model's constants in the order of the equations' arguments."""
-        return self.numbers, self.vectors, self.matrices, self.tables
-
-    @property
-    def data(self) -> dict[str, Floats]:
-        """The model's constants by name."""
-        return {"numbers": self.numbers, "vectors": self.vectors, "matrices": self.matrices, "tables": self.tables}
+    @cached_property
+    def numbers(self) -> Floats:
+        """Numbers of the constants."""
+        return numbers_of(self.constants)
 
     @cached_property
-    def _codes(self) -> dict[tuple[int, ...], tuple[Any, tuple[Floats, Floats, Floats, Floats]]]:
+    def table(self) -> Floats:
+        """Table of the constants, empty if they have none."""
+        return table_of(self.constants)
+
+    def place_of(self, name: str) -> int:
+        """Where a number of the constants is among all."""
+        return place_of(self.constants, name)
+
+    def alike(self, other: System) -> bool:
+        """Whether the same equations, with other numbers, serve another system."""
+        if self.size != other.size or self.equations is not other.equations:
+            return False
+        if self.table is not other.table and not np.array_equal(self.table, other.table):
+            return False
+        return bool(known_of(self.constants) == known_of(other.constants))
+
+    @cached_property
+    def _codes(self) -> dict[tuple[int, ...], tuple[Any, Floats]]:
         return {}
 
-    def code(self, inputs: Floats) -> tuple[Any, tuple[Floats, Floats, Floats, Floats]]:
-        """Compiled right-hand side for inputs of this shape, and the constants that it wants.
+    def code(self, inputs: Floats) -> tuple[Any, Floats]:
+        """Compiled right-hand side for inputs of this shape, and the numbers that it wants.
 
-        Where equations are written out, what follows from constants alone stands behind the numbers.
+        What follows from constants alone stands behind the numbers.
         """
         shape = inputs.shape
         if shape not in self._codes:
-            equations, others = self.equations(), (self.vectors, self.matrices, self.tables)
-            if self.known is None or self.size > MOST_WRITTEN:
-                # Equations in Python serve as well, only slowly.
-                if not getattr(equations, "signatures", True):
-                    equations.compile(rhs_signature())
-                self._codes[shape] = equations, (self.numbers, *others)
-            else:
-                code = written_of([self], shape)
-                self._codes[shape] = code.rhs(rhs_signature()), (code.numbers(self.data), *others)
+            code = written_of([self], shape)
+            self._codes[shape] = code.rhs(), code.numbers(self.numbers)
         return self._codes[shape]
 
     def slope(self, time: float, state: Floats, inputs: Floats) -> tuple[Floats, Floats]:
@@ -147,14 +128,13 @@ class System:
         guards : ndarray, shape (len(guards),)
         """
         slope, guards = np.empty(self.size), np.empty(len(self.guards))
-        work = np.zeros(self.work_shape)
-        rhs, constants = self.code(inputs)
-        rhs(time, np.ascontiguousarray(state), slope, inputs, *constants, work, guards)
+        rhs, numbers = self.code(inputs)
+        rhs(time, np.ascontiguousarray(state), slope, inputs, numbers, self.table, guards)
         return slope, guards
 
 
 def written_of(systems: Sequence[System], inputs: tuple[int, ...]) -> Written:
-    """Equations of systems of one kind and size, written out for all of them.
+    """Equations of systems that are alike, written out for all of them.
 
     Parameters
     ----------
@@ -163,10 +143,7 @@ def written_of(systems: Sequence[System], inputs: tuple[int, ...]) -> Written:
         Shape of a phase's inputs.
     """
     first = systems[0]
-    sizes, data = (first.size, len(first.guards)), [system.data for system in systems]
-    return written(
-        first.equations().py_func, sizes, first.known or Known(), data, (inputs[-2], inputs[-1]), first.work_shape
-    )
+    return written(first.equations, [system.constants for system in systems], first.size, (inputs[-2], inputs[-1]))
 
 
 class NoEquilibrium(ArithmeticError):
@@ -200,7 +177,7 @@ class Model(Protocol):
         """State at the start, or NoEquilibrium."""
 
     def observe(
-        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
+        self, motions: dict[str, Motion], times: Floats, states: Floats, slopes: Floats, guards: Floats
     ) -> dict[str, Quantity]:
         """Outputs over time."""
 
@@ -227,19 +204,3 @@ def start_inputs(model: Model, motions: Mapping[str, Motion], inputs: Floats) ->
         row = known[model.channels.index(channel)]
         row[0], row[1:] = motions[channel].mean, 0.0
     return known
-
-
-def plain_system(rhs: Any, size: int, numbers: tuple[float, ...] = ()) -> System:
-    """System without guards or scratch, for equations that are not cranes."""
-    return System(
-        equations=lambda: rhs,
-        size=size,
-        guards=(),
-        floors=np.empty(0),
-        scale=np.ones(size),
-        numbers=np.array(numbers, dtype=float),
-        vectors=np.empty((0, 0)),
-        matrices=np.empty((0, 0, 0)),
-        tables=np.empty((0, 0, 0)),
-        work_shape=(0, 0),
-    )

@@ -207,8 +207,8 @@ def resting_place(model: FlexibleModel, motions: Mapping[str, Motion]) -> Floats
     still = {channel: rest(motions[channel].end) for channel in model.channels}
     inputs = start_inputs(model, motions, phases(tuple(still.values()), 1.0).inputs[0])
     state = model.start(inputs)
-    _, guards = model.system.slope(0.0, state, inputs)
-    seen = model.observe(still, np.zeros(1), state[None], guards[None])
+    slope, guards = model.system.slope(0.0, state, inputs)
+    seen = model.observe(still, np.zeros(1), state[None], slope[None], guards[None])
     return seen["payload_position"].values[0, :-1]
 
 

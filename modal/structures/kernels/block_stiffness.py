@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from modal.compiler.compiled import kernel
-from modal.compiler.traced import traced
 
 STIFF = 0.3
 """Largest part of a motion that the flexibility of a block may add where it counts as stiff beside those before."""
 
 
-@traced
+@kernel()
 def _from_transfer(T: Any, unit: float, length: float, out: Any) -> None:
     """Stiffness for near end and departure into ``out``, from what the near state gives at the far end, ``T``."""
     # Departure d' = E d + F p, far forces p' = G d + (R^-T + H) p with the near motion d and the near forces p; R
@@ -63,7 +62,7 @@ def relative_stiffness(transfer: Any, length: float, T: Any, out: Any) -> None:
     _from_transfer(T, 1.0 / length, length, out)
 
 
-@traced
+@kernel()
 def make_absolute(matrix: Any, length: float) -> None:
     """Turn a relative stiffness (4, 4) into that for (v, theta) at both ends, in place."""
     a, b, c = matrix[2, 2], matrix[2, 3], matrix[3, 3]
@@ -80,7 +79,7 @@ def make_absolute(matrix: Any, length: float) -> None:
             matrix[i, j] = matrix[j, i]
 
 
-@traced
+@kernel()
 def _condense(near: Any, piece: Any, recovery: Any, i00: float, i01: float, i11: float) -> None:
     """Take the node between out, of whose stiffness this is the inverse."""
     for j in range(2):

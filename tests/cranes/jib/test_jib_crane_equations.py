@@ -1,4 +1,4 @@
-"""The jib crane's compiled equations against formulations that share nothing with them.
+"""The jib crane's equations against formulations that share nothing with them.
 
 d'Alembert's principle on positions alone in 40-digit arithmetic (no mass matrix, no chart, no Jacobian), and over
 whole runs the two sway equations in angles.
@@ -12,10 +12,10 @@ import pytest
 from samples.jib_cranes import HEAVY, LOAD, PRINTED, planned, smooth_plan, trapezoid_plan
 from scipy.integrate import solve_ivp
 
-from towercrane.cranes.jib import kernel
+from towercrane.cranes.jib.equations import PLANNED_TENSION, TENSION, TORQUE, structure
 from towercrane.cranes.jib.model import DrivenJibCrane, PlannedJibCrane
 from towercrane.cranes.jib.tracking import TrackingJibCrane
-from towercrane.kernels.payload import AIR_DENSITY, MASS, Load
+from towercrane.kernels.payload import AIR_DENSITY, Load
 from towercrane.motions.motion import Motion
 from towercrane.simulation.simulate import simulate
 
@@ -108,7 +108,7 @@ def test_torques_and_accelerations_fulfil_the_virtual_work_of_positions(crane, l
         asked = rng.normal(size=3)
         inputs = np.array([*np.stack([theta, rates, asked / 2], axis=1), rope])
         slope, guards = PlannedJibCrane(crane, load).system.slope(0.0, np.concatenate([n, p, [0.0]]), inputs)
-        torques = guards[kernel.TORQUE : kernel.TORQUE + 3]
+        torques = guards[TORQUE : TORQUE + 3]
         driven = DrivenJibCrane(crane, load, (0.0, 0.0, 0.0))
         given = np.zeros((4, 3))
         given[:3, 0], given[3] = rng.normal(size=3) * 1e5, rope
@@ -137,7 +137,7 @@ def test_forward_dynamics_undoes_inverse_dynamics():
         slope, guards = tracking.system.slope(0.0, state, inputs)
         assert np.max(abs(slope[6:9] - asked)) < 1e-11
         np.testing.assert_allclose(slope[9:12], slope[16:19], atol=1e-10)
-        np.testing.assert_allclose(guards[kernel.TENSION], guards[kernel.PLANNED_TENSION], rtol=1e-11, atol=1e-5)
+        np.testing.assert_allclose(guards[TENSION], guards[PLANNED_TENSION], rtol=1e-11, atol=1e-5)
 
 
 def test_gains_pull_the_joints_to_their_plan():
@@ -147,7 +147,7 @@ def test_gains_pull_the_joints_to_their_plan():
     late, fast = rng.normal(size=(2, 3))
     state = np.concatenate([theta + late, n, rates + fast, p, [0.0], n, p, [0.0]])
     torque = [
-        TrackingJibCrane(HEAVY, LOAD, *gains).system.slope(0.0, state, inputs)[1][kernel.TORQUE : kernel.TORQUE + 3]
+        TrackingJibCrane(HEAVY, LOAD, *gains).system.slope(0.0, state, inputs)[1][TORQUE : TORQUE + 3]
         for gains in ((0.0, 0.0), (8e6, 4e6))
     ]
     np.testing.assert_allclose(torque[1] - torque[0], -8e6 * late - 4e6 * fast, rtol=1e-9)
@@ -155,16 +155,14 @@ def test_gains_pull_the_joints_to_their_plan():
 
 def test_mass_matrix_is_symmetric_positive_definite_at_5000_states():
     rng = np.random.default_rng(6)
-    work = np.zeros((kernel.ROWS, 3))
     for crane in (PRINTED, HEAVY):
-        numbers = planned(crane).numbers
         for _ in range(2500):
             theta, rates, _, n, _ = random_state(rng)
-            theta *= 2.0
-            kernel.structure(theta, rates, numbers, work)
-            lower = np.tril(work[MASS : MASS + 3])
-            along = work[kernel.JACOBIAN : kernel.JACOBIAN + 3].T @ n
-            mass = lower + np.tril(lower, -1).T + LOAD.mass * np.outer(along, along)
+            booms = structure(crane, 2.0 * theta, rates)
+            mass = np.zeros((3, 3))
+            mass[np.tril_indices(3)] = np.concatenate(booms.mass)
+            along = n @ booms.jacobian
+            mass += np.tril(mass, -1).T + LOAD.mass * np.outer(along, along)
             d = 1 / np.sqrt(np.diag(mass))
             assert np.linalg.eigvalsh(mass * np.outer(d, d)).min() > 1e-6
 

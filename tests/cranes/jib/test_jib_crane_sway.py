@@ -10,7 +10,8 @@ from scipy.optimize import brentq
 from scipy.special import ellipj, ellipk, jv, yv
 
 from towercrane.cranes.jib.linear import LinearSway, static_torques
-from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
+from towercrane.cranes.jib.model import PlannedJibCrane
+from towercrane.cranes.jib.parameters import JibCrane
 from towercrane.cranes.jib.tracking import TrackingJibCrane
 from towercrane.motions.motion import Motion, phases
 from towercrane.motions.profiles import smooth_ramps, trapezoid

@@ -56,6 +56,14 @@ def test_the_plans_torques_drive_the_crane_along_the_plan(crane, motions, durati
     assert imbalance(result) < 1e-10
 
 
+def test_the_error_of_a_joint_is_how_far_it_is_beyond_its_plan():
+    model, plan = TrackingJibCrane(HEAVY, LOAD), standing(fold=0.1)
+    state = model.start(phases(tuple(plan.values()), 1.0).inputs[0])
+    state[:3] += 0.01, 0.02, -0.03
+    seen = model.observe(plan, np.zeros(1), state[None], state[None], np.zeros((1, len(model.system.guards))))
+    assert_allclose(seen["joint_error"].values, [[0.01, 0.02, -0.03]], atol=1e-15)
+
+
 def test_gains_bring_a_crane_back_that_starts_off_its_plan():
     model = TrackingJibCrane(HEAVY, LOAD, 8e6, 4e6)
     cut = phases(tuple(standing()[channel] for channel in model.channels), 30.0)

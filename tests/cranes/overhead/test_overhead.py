@@ -165,6 +165,24 @@ def test_a_trolley_on_its_way_is_where_the_bent_bridge_is():
     assert_allclose(result["trolley_drop"], shape * result["bridge_deflection"].values, rtol=0, atol=1e-15)
 
 
+def test_a_crane_at_rest_stands_on_its_rails_as_moments_say():
+    result, place = run(model(), standing(0.2 * SPAN), 0.1), 0.2
+    bridge = CRANE.bridge_mass_per_length * SPAN + CRANE.bridge_end_carriage_mass
+    carried = CRANE.trolley_mass + LOAD.mass
+    assert_allclose(result["first_rail_load"], CRANE.gravity * (0.5 * bridge + (1.0 - place) * carried), rtol=1e-10)
+    assert_allclose(result["second_rail_load"], CRANE.gravity * (0.5 * bridge + place * carried), rtol=1e-10)
+
+
+def test_sways_are_those_of_the_line_from_trolley_to_load():
+    motions = {"bridge": steady(5.0, 0.3, 0.2), "trolley": steady(4.0, 0.1, -0.08), "rope": rest(8.0)}
+    result = run(model(), motions, 3.0, swing_angle=0.3)
+    x, y, z = result["payload_position"].values.T
+    down = CRANE.runway_height - result["trolley_drop"].values - z
+    assert_allclose(result["sway_along_runway"], np.arctan2(x - result["bridge_position"], down), atol=1e-12)
+    assert_allclose(result["sway_along_bridge"], np.arctan2(y - result["trolley_position"], down), atol=1e-12)
+    assert abs(result["sway_along_bridge"]).max() > 1e-3
+
+
 def test_a_start_of_another_name_is_refused():
     with pytest.raises(ValueError, match="'equilibrium' or 'zero'"):
         model().start(np.zeros((3, 3)), "zero-no-self-weight")

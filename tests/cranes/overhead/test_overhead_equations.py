@@ -6,7 +6,7 @@ import sympy as sp
 from numpy.testing import assert_allclose
 from samples.overhead_crane import SMALL as CRANE
 
-from towercrane.cranes.overhead import kernel
+from towercrane.cranes.overhead import equations
 from towercrane.cranes.overhead.model import OverheadModel
 from towercrane.cranes.overhead.parameters import OverheadCrane
 from towercrane.kernels.payload import Load
@@ -78,8 +78,8 @@ def drawn(random, lagrange):
     """Coordinates, rates, driven accelerations, and the same as state and inputs."""
     low, high = [0, 0.2, 1, -0.3, -1.2, -1.2], [40, 11.8, 7, 0.3, 1.2, 1.2]
     q, v, driven = random.uniform(low, high), random.normal(size=6), random.normal(size=3)
-    state = np.zeros(kernel.SIZE)
-    state[kernel.UPLIFT], state[kernel.RATE] = q[3], v[3]
+    state = np.zeros(equations.SIZE)
+    state[equations.UPLIFT], state[equations.RATE] = q[3], v[3]
     state[1:4], state[5:8] = lagrange.direction(q, v)
     return q, v, driven, state, np.stack([q[:3], v[:3], 0.5 * driven], axis=1)
 
@@ -91,10 +91,10 @@ def test_accelerations_tension_and_forces_of_the_drives_are_those_of_lagrange(la
         q, v, driven, state, inputs = drawn(random, lagrange)
         uplifting, turning, forces = lagrange.solve(q, v, driven, load)
         slope, guards = system.slope(0.0, state, inputs)
-        assert_allclose(slope[kernel.RATE], uplifting, rtol=1e-11, atol=1e-9)
-        assert_allclose(slope[kernel.SWAY : kernel.WORK], turning, rtol=1e-10, atol=1e-10)
-        assert_allclose(guards[kernel.TENSION], -forces[2], rtol=1e-11, atol=1e-7)
-        assert_allclose(guards[[kernel.BRIDGE_FORCE, kernel.TROLLEY_FORCE]], forces[:2], rtol=1e-11, atol=1e-7)
+        assert_allclose(slope[equations.RATE], uplifting, rtol=1e-11, atol=1e-9)
+        assert_allclose(slope[equations.SWAY : equations.WORK], turning, rtol=1e-10, atol=1e-10)
+        assert_allclose(guards[equations.TENSION], -forces[2], rtol=1e-11, atol=1e-7)
+        assert_allclose(guards[[equations.BRIDGE_FORCE, equations.TROLLEY_FORCE]], forces[:2], rtol=1e-11, atol=1e-7)
 
 
 def test_rails_carry_what_is_not_in_free_fall(lagrange):
@@ -108,15 +108,15 @@ def test_rails_carry_what_is_not_in_free_fall(lagrange):
         # The trolley's acceleration upwards is a second difference of its height.
         h = 1e-4
         before, now, after = (
-            (state[0] + slope[0] * e + 0.5 * slope[kernel.RATE] * e * e)
+            (state[0] + slope[0] * e + 0.5 * slope[equations.RATE] * e * e)
             * np.sin(np.pi * np.polyval(inputs[1, ::-1], e) / span)
             for e in (-h, 0.0, h)
         )
-        line = crane.bridge_mass_per_length * (crane.gravity + slope[kernel.RATE] * np.sin(np.pi * places / span))
+        line = crane.bridge_mass_per_length * (crane.gravity + slope[equations.RATE] * np.sin(np.pi * places / span))
         hung = crane.trolley_mass * (crane.gravity + (after - 2.0 * now + before) / h**2)
-        hung -= guards[kernel.TENSION] * state[3]
+        hung -= guards[equations.TENSION] * state[3]
         ends = crane.bridge_end_carriage_mass * crane.gravity
-        first, second = guards[[kernel.FIRST_RAIL, kernel.SECOND_RAIL]]
+        first, second = guards[[equations.FIRST_RAIL, equations.SECOND_RAIL]]
         assert_allclose(first + second, weights @ line + hung + ends, rtol=1e-6, atol=0.01)
         assert_allclose(
             second * span, weights @ (line * places) + hung * q[1] + 0.5 * ends * span, rtol=1e-6, atol=0.1

@@ -21,7 +21,7 @@ from samples.lab_crane import (
 )
 
 from towercrane.cranes.slewing.model import LumpedModel
-from towercrane.cranes.slewing.outputs import position
+from towercrane.cranes.slewing.outputs import point_of
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import trapezoid
@@ -77,7 +77,11 @@ def test_angular_momentum_stays_when_nothing_holds_the_platform(kind):
     assert trajectory.outcome == "finished"
     n, rates, y = model.coordinates, (model.size - 1) // 2, trajectory.states
     q, qd = y[:, :n], y[:, rates : rates + n]
-    hung, moving = position(model, model.crane.points["jib tip"], q, qd)
+    points = [
+        [np.stack(np.broadcast_arrays(*part), axis=1) for part in point_of(body, q.T, qd.T)]
+        for body in model.constants.bodies
+    ]
+    hung, moving = points[model.constants.suspension]
     haul = drive["rope"](trajectory.times, 1)
     if model.elastic:
         haul = haul + y[:, rates + n]
@@ -85,9 +89,9 @@ def test_angular_momentum_stays_when_nothing_holds_the_platform(kind):
     rope = model.rope
     direction, swing = y[:, rope : rope + 3], y[:, rates + rope : rates + rope + 3]
     load = outputs["payload_position"], moving + haul[:, None] * direction + length[:, None] * swing
-    points = [(point.mass, *position(model, point, q, qd)) for point in model.crane.points.values()]
+    masses = [(body.mass, *point) for body, point in zip(model.constants.bodies, points, strict=True)]
     momentum = qd @ model.crane.row(model.crane.inertias)[:-1]
-    for mass, place, velocity in [*points, (50.5, *load)]:
+    for mass, place, velocity in [*masses, (50.5, *load)]:
         momentum = momentum + mass * (place[:, 0] * velocity[:, 1] - place[:, 1] * velocity[:, 0])
     assert_allclose(momentum, momentum[0], rtol=2e-11)
 
@@ -125,9 +129,10 @@ def test_mass_matrix_is_symmetric_positive_definite_anywhere(kind):
     model = crane(kind)
     system, n, rates = model.system, model.coordinates, (model.size - 1) // 2
     # Forces everywhere: the equations are written for what is not zero.
-    forces = np.add(system.vectors, [[0.0], [1.0]])
-    system = replace(system, vectors=forces)
-    pushed = [replace(system, vectors=np.add(forces, [np.zeros(n), 1e6 * (np.arange(n) == i)])) for i in range(n)]
+    system, *pushed = (
+        replace(system, constants=replace(model.constants, steady_force=model.constants.steady_force + 1.0 + force))
+        for force in (np.zeros(n), *1e6 * np.eye(n))
+    )
     drive, least = np.zeros((2, 3)), np.inf
     drive[1, 0] = 2.0
     size = np.ones(model.size)

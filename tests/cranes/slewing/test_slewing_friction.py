@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from oracles.balance import imbalance
 from samples.lab_crane import PARAMETERS, crane, motions, run
 
-from towercrane.cranes.slewing import kernel
+from towercrane.cranes.slewing import equations
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.simulate import simulate
@@ -28,7 +28,7 @@ def test_friction_that_sticks(sticking, kind, sway, platform, switches):
     assert trajectory.outcome == "finished"
     assert_allclose(np.degrees(outputs["sway_tangential"][-1]), sway, atol=6e-5)
     assert_allclose(outputs["platform_angle"][-1], platform, atol=6e-6)
-    assert sum(guard in (kernel.SLIDING, kernel.HOLDING) for guard in met) == switches
+    assert sum(guard in (equations.SLIDING, equations.HOLDING) for guard in met) == switches
     assert imbalance(outputs) < 2e-9
     # At rest the platform does not creep: neither before the coupling has wound up nor at the end.
     still = outputs["platform_angle"][trajectory.times > 24.0]
@@ -47,7 +47,7 @@ def test_friction_never_exceeds_its_limit_and_opposes_sliding(sticking, kind):
     for time, state in zip(trajectory.times[::10], trajectory.states[::10], strict=True):
         phase = min(int(np.searchsorted(cut.times, time + 1e-9, side="right")) - 1, len(cut.inputs) - 1)
         slope, guards = model.system.slope(time - cut.times[phase], state, cut.inputs[phase])
-        assert guards[kernel.HOLDING] >= 0.0
+        assert guards[equations.HOLDING] >= 0.0
         # Power of friction is what the balance lacks against the same crane without it.
         bare = crane(kind, friction_law="none").system.slope(time - cut.times[phase], state, cut.inputs[phase])[0]
         slips = state[(model.size - 1) // 2 + model.crane.coordinates.index("platform_angle")]
@@ -58,25 +58,25 @@ def test_a_breakaway_is_no_reversal_though_rounding_turns_its_first_rates():
     # With a soft stiffness of 750 N m/rad the coupling, wound up by 0.2 rad, pulls more than friction can hold.
     model, drive = crane("enhanced", friction_law="stick-slip", drive_soft_stiffness=750.0), motions()
     cut = phases((drive["shaft"], drive["rope"]), 1.0)
-    rhs, (numbers, *others) = model.system.code(cut.inputs[0])
-    switch, numbers, floors = model.system.switch, numbers.copy(), model.system.floors.copy()
+    system, (rhs, numbers) = model.system, model.system.code(cut.inputs[0])
+    switch, numbers, floors = system.switch, numbers.copy(), system.floors.copy()
     state = model.start(cut.inputs[0])
     driven = (model.size - 1) // 2 + model.crane.coordinates.index("platform_angle")
     state[model.crane.coordinates.index("platform_angle")] = -0.2
 
     def guards_at():
-        slope, guards, work = np.empty(model.size), np.empty(6), np.zeros(model.system.work_shape)
-        rhs(0.0, state, slope, cut.inputs[0], numbers, *others, work, guards)
+        slope, guards = np.empty(model.size), np.empty(6)
+        rhs(0.0, state, slope, cut.inputs[0], numbers, system.table, guards)
         return guards
 
     switch.begin(state, numbers, floors, guards_at)
-    assert numbers[kernel.FRICTION_STATE] == kernel.SLIP_AHEAD
+    assert numbers[system.place_of("friction_state")] == equations.SLIP_AHEAD
     state[driven] = -1e-27
     assert np.all(guards_at() >= floors)
     # A rate that has turned is one.
     state[driven] = -1e-9
-    assert guards_at()[kernel.SLIDING] < floors[kernel.SLIDING]
-    switch.cross(kernel.SLIDING, state, numbers, floors, guards_at)
+    assert guards_at()[equations.SLIDING] < floors[equations.SLIDING]
+    switch.cross(equations.SLIDING, state, numbers, floors, guards_at)
     assert state[driven] == 0.0
 
 
@@ -112,7 +112,7 @@ def test_friction_stronger_than_the_drive_holds_for_ever():
     trajectory, outputs, met = run(crane(friction_law="stick-slip", friction_torque=1e6), motions(), 25.0)
     assert trajectory.outcome == "finished"
     assert np.all(outputs["platform_angle"] == 0.0)
-    assert set(met) <= {kernel.INSIDE, kernel.OUTSIDE}
+    assert set(met) <= {equations.INSIDE, equations.OUTSIDE}
     assert_allclose(outputs["sway_tangential"], 0.0, atol=1e-12)
 
 
@@ -121,7 +121,7 @@ def test_switch_that_does_nothing_ends_the_run_by_name():
         changes_equations = True
 
         def begin(self, state, numbers, floors, guards_at):
-            floors[kernel.INSIDE] = 0.0
+            floors[equations.INSIDE] = 0.0
 
         def cross(self, guard, state, numbers, floors, guards_at):
             return True

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from oracles.balance import imbalance
 from samples.lab_crane import MULTI_MASS, crane, motions, run
 
-from towercrane.cranes.slewing import kernel
+from towercrane.cranes.slewing import equations
 
 
 @pytest.mark.parametrize(("rtol", "error"), [(1e-6, 5e-2), (1e-8, 5e-3), (1e-11, 1e-6)])
@@ -18,7 +18,7 @@ def test_hard_stop_of_the_coupling(rtol, error):
     trajectory, outputs, met = run(crane(drive_stiff_stiffness=7.5e6), motions(), 5.0, rtol=rtol)
     assert trajectory.outcome == "finished"
     assert abs(np.degrees(outputs["sway_radial"][-1]) - 11.444332) < error
-    contacts = [guard for guard in met if guard in (kernel.INSIDE, kernel.OUTSIDE)]
+    contacts = [guard for guard in met if guard in (equations.INSIDE, equations.OUTSIDE)]
     # Never twice the same way through the corner: no crossing is lost.
     assert all(a != b for a, b in pairwise(contacts))
     assert len(contacts) == 206

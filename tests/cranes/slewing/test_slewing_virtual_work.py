@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from samples.lab_crane import BUILDERS, PARAMETERS
 
-from towercrane.cranes.slewing import kernel
+from towercrane.cranes.slewing import equations
 from towercrane.cranes.slewing.model import LumpedModel
 from towercrane.kernels.payload import Load
 
@@ -179,7 +179,7 @@ def test_accelerations_fulfil_the_virtual_work_of_positions(kind, law):
         else:
             # What is left on the coordinate at rest is the torque that friction has to exert.
             assert second[driven] == 0.0
-            assert guards[kernel.HOLDING] == 22.0 - abs(guards[kernel.NEEDED])
-            sums[driven] -= guards[kernel.NEEDED]
+            assert guards[equations.HOLDING] == 22.0 - abs(guards[equations.NEEDED])
+            sums[driven] -= guards[equations.NEEDED]
         assert np.max(abs(sums) / sizes) < 1e-13
-        np.testing.assert_allclose(guards[kernel.TENSION], pull, rtol=1e-11, atol=1e-9)
+        np.testing.assert_allclose(guards[equations.TENSION], pull, rtol=1e-11, atol=1e-9)

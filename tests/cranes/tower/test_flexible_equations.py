@@ -11,8 +11,8 @@ from samples import space_crane as space
 
 from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.slewing.description import Drive
-from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.kernels.layout import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
+from towercrane.cranes.tower.equations.constants import SLIDE_X, SLIDE_Y
+from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import Motion
@@ -81,10 +81,10 @@ class Instant:
         rope = np.array([s * cp, sp, -c * cp])
         swing = cp * theta_rate * e_theta + phi_rate * e_phi
         self.state = np.concatenate([self.q, rope, self.rates, swing, [0.0]])
-        slope, self.guards = model.system.slope(0.0, self.state, self.inputs)
-        bending = slope[2 * n + 3 : -1]
+        self.slope, self.guards = model.system.slope(0.0, self.state, self.inputs)
+        bending = self.slope[2 * n + 3 : -1]
         self.found = np.concatenate([
-            slope[n + 3 : 2 * n + 3],
+            self.slope[n + 3 : 2 * n + 3],
             [bending @ e_theta / cp + 2 * theta_rate * phi_rate * sp / cp, bending @ e_phi - theta_rate**2 * sp * cp],
         ])  # fmt: skip
         self.extra = np.zeros(n + 2)
@@ -117,7 +117,7 @@ class Instant:
     def observed(self):
         span = np.array([0.0, 1.0])
         motions = {c: Motion(span, row[None]) for c, row in zip(self.model.channels, self.inputs, strict=True)}
-        return self.model.observe(motions, np.zeros(1), self.state[None], self.guards[None])
+        return self.model.observe(motions, np.zeros(1), self.state[None], self.slope[None], self.guards[None])
 
 
 @cache
@@ -171,7 +171,7 @@ def test_sections_carry_what_moves_beyond_them(name):
         assert np.max(abs(base + moments)) < 1e-11 * sizes
 
         top = np.zeros(3)
-        top[:2] = model.system.vectors[[layout.SLIDE_X, layout.SLIDE_Y]] @ instant.q
+        top[:2] = model.constants.motions[[SLIDE_X, SLIDE_Y]] @ instant.q
         root = np.zeros(3)
         for beyond in ("jib", "trolley", "load"):
             root += np.cross(points[beyond].derivative(0) - top, felt[beyond]).sum(axis=0)

@@ -13,9 +13,10 @@ from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.mass_sums import point_sums, rigid_sums
 from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
-from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
+from towercrane.cranes.tower.outputs.kinematics import Kinematics
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
+from towercrane.simulation.observed import Instant
 from towercrane.simulation.simulate import simulate
 
 P = lab_crane.MULTI_MASS
@@ -152,5 +153,5 @@ def test_section_and_state_of_the_lumped_scene_have_their_names():
         "jib_vertical_mode_1",
     ]
     assert scene.channels == ("trolley", "rope", "shaft")
-    motion = FlexibleMotion(scene, {}, np.zeros(1), np.zeros((1, scene.size)))
-    assert np.allclose(motion.axes[0], np.eye(3))
+    motion = Kinematics(scene.seen, Instant(np.zeros(scene.size), (), (), np.zeros((3, 3))))
+    assert np.allclose(motion.head.rows, np.eye(3))

@@ -9,7 +9,6 @@ from oracles import space_frame
 from samples import space_crane as space
 
 from towercrane.cranes.tower.equations.small_motions import MOTION_KINDS, linear_matrices, natural_modes
-from towercrane.kernels.payload import JACOBIAN, MASS
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.simulation.system import NoEquilibrium
@@ -21,10 +20,9 @@ STATES = [(0.0, 10.0, 20.0), (0.7, 25.0, 15.0), (1.3, 40.0, 12.0), (-2.0, 40.0, 
 def structural(scene, heading, trolley):
     """Frequencies without gravity: the load moves with the trolley vertically and not at all horizontally."""
     inputs = np.array([[trolley, 0, 0], [10.0, 0, 0], [heading, 0, 0]])
-    n, work = scene.coordinates, scene.at_rest(np.zeros(scene.coordinates), inputs)
-    lower = np.tril(work[MASS : MASS + n, :n])
-    up = work[JACOBIAN + 2, :n]
-    mass = lower + np.tril(lower, -1).T + scene.load.mass * np.outer(up, up)
+    n, at_rest = scene.coordinates, scene.at_rest(np.zeros(scene.coordinates), inputs)
+    up = at_rest.jacobian[2]
+    mass = at_rest.mass_matrix() + scene.load.mass * np.outer(up, up)
     _, stiffness = linear_matrices(scene, inputs[:, 0])
     return 1.0 / np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(stiffness[:n, :n], mass)).real)[::-1])
 

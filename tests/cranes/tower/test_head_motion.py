@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from towercrane.cranes.tower.kernels.head import NEARLY_UPRIGHT, leaning_functions, upright_functions
-from towercrane.cranes.tower.outputs.head_motions import head_motion
+from towercrane.cranes.tower.equations.head import NEARLY_UPRIGHT, leaning_functions, move_head, upright_functions
 
 SIZES = (0.01, 0.99 * NEARLY_UPRIGHT**0.5, 1.01 * NEARLY_UPRIGHT**0.5, 0.5)
 
@@ -43,22 +42,25 @@ def test_axes_and_spin_are_those_of_the_finite_rotation(size):
     tilt, tilting = rng.normal(size=2), rng.normal(size=2)
     tilt *= size / np.linalg.norm(tilt)
     turn, turning, velocity = 0.7, -0.4, rng.normal(size=2)
-    one = [np.array([value]) for value in (tilt, tilting, turn, turning, 0.0, velocity)]
-    found = head_motion(*one)
+
+    def head(since=0.0):
+        at, angle = tilt + since * tilting, turn + since * turning
+        return move_head((*at, *tilting), np.cos(angle), np.sin(angle), turning, 0.0, *velocity)
+
+    found = head()
     exact = rotation(tilt, turn)
-    np.testing.assert_allclose(found.rotation[0], exact, atol=4e-16)
+    np.testing.assert_allclose(found.rows, exact, atol=4e-16)
     h = 1e-4
     steps = [rotation(tilt + k * h * tilting, turn + k * h * turning) for k in (-2, -1, 1, 2)]
     rate = (steps[0] - 8.0 * steps[1] + 8.0 * steps[2] - steps[3]) / (12.0 * h)
     spin = exact.T @ rate
-    np.testing.assert_allclose(found.spin[0], [spin[2, 1], spin[0, 2], spin[1, 0]], atol=2e-11)
-    np.testing.assert_allclose(found.top_velocity[0], exact.T @ [*velocity, 0.0], atol=1e-15)
-    turned = found.turn_x[0] * tilting[0] + found.turn_y[0] * tilting[1] + [0.0, 0.0, turning]
-    np.testing.assert_allclose(found.spin[0], turned, atol=1e-15)
+    np.testing.assert_allclose(found.spin, [spin[2, 1], spin[0, 2], spin[1, 0]], atol=2e-11)
+    np.testing.assert_allclose(found.top, exact.T @ [*velocity, 0.0], atol=1e-15)
+    vector = rng.normal(size=3)
+    np.testing.assert_allclose(found.to_fixed(vector), exact @ vector, atol=1e-15)
+    np.testing.assert_allclose(found.to_head(vector), exact.T @ vector, atol=1e-15)
+    turned = np.array(found.turn_x) * tilting[0] + np.array(found.turn_y) * tilting[1] + [0.0, 0.0, turning]
+    np.testing.assert_allclose(found.spin, turned, atol=1e-15)
     # With constant rates the change of the spin is its bias.
-    later, earlier = (
-        head_motion(*(np.array([v]) for v in (tilt + k * h * tilting, tilting, turn + k * h * turning, turning, 0.0,
-                                              velocity)))
-        for k in (1, -1)
-    )  # fmt: skip
-    np.testing.assert_allclose(found.spin_bias[0], (later.spin[0] - earlier.spin[0]) / (2.0 * h), atol=1e-8)
+    later, earlier = head(h), head(-h)
+    np.testing.assert_allclose(found.spin_bias, np.subtract(later.spin, earlier.spin) / (2.0 * h), atol=1e-8)

@@ -1,4 +1,4 @@
-"""Equations written out for their scene against the same with loops, to the bit, for every kind of crane."""
+"""Equations written out for their scene against the same with numbers, for every kind of crane."""
 
 import os
 import subprocess
@@ -14,10 +14,10 @@ from samples.straight import found, made
 from modal.compiler.folder import CacheWarning
 from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of
-from towercrane.kernels.arrays import lane_rhs_signature
+from towercrane.kernels import algebra
+from towercrane.kernels.straight import written
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases
-from towercrane.simulation import system as systems
 from towercrane.simulation.system import written_of
 
 CASES = {
@@ -60,29 +60,60 @@ def drawn(model, inputs, rng):
     return rng.uniform(0.0, 3.0), state
 
 
+def numbered(system, inputs):
+    """Equations of one system, and all their numbers."""
+    code = written_of([system], inputs.shape)
+    return code, code.numbers(system.numbers)
+
+
 @pytest.mark.parametrize("about", CASES)
-def test_written_out_equations_have_the_bits_of_those_with_loops(about):
+def test_machine_code_has_the_bits_of_what_was_recorded(about):
     model, inputs = scene(*CASES[about])
-    looped = replace(model.system, known=None)
-    rng = np.random.default_rng(11)
+    system, rng = model.system, np.random.default_rng(11)
+    code, numbers = numbered(system, inputs)
     for _ in range(40):
         time, state = drawn(model, inputs, rng)
-        written, wanted = (system.slope(time, state, inputs) for system in (model.system, looped))
-        assert all(map(np.array_equal, written, wanted))
+        found = np.concatenate(system.slope(time, state, inputs))
+        given = {"t": {(): time}, "y": state, "inputs": inputs, "numbers": numbers, "tables": system.table}
+        wanted = np.array(list(code.program.values(given).values()), dtype=float)
+        assert np.array_equal(found, wanted)
+
+
+@pytest.mark.parametrize("about", CASES)
+def test_what_was_recorded_is_what_the_equations_give_for_numbers(about):
+    model, inputs = scene(*CASES[about])
+    system, rng = model.system, np.random.default_rng(14)
+    for _ in range(10):
+        time, state = drawn(model, inputs, rng)
+        found, wanted = system.slope(time, state, inputs), system.equations(system.constants, time, state, inputs)
+        for one, other in zip(found, wanted, strict=True):
+            other = np.array(other, dtype=float)
+            np.testing.assert_allclose(one, other, rtol=1e-11, atol=1e-12 * abs(other[np.isfinite(other)]).max())
+
+
+@pytest.mark.parametrize("about", ["gusts", "a drive", "an elastic rope", "joints that are driven"])
+def test_equations_take_arrays_of_states(about):
+    model, inputs = scene(*CASES[about])
+    system, rng = model.system, np.random.default_rng(15)
+    states = np.stack([drawn(model, inputs, rng)[1] for _ in range(5)], axis=-1)
+    together = system.equations(system.constants, 0.7, states, inputs)[0]
+    for column, state in enumerate(states.T):
+        alone = system.equations(system.constants, 0.7, state, inputs)[0]
+        for one, other in zip(together, alone, strict=True):
+            np.testing.assert_allclose(np.broadcast_to(one, 5)[column], other, rtol=1e-12, atol=1e-12)
 
 
 @pytest.mark.parametrize("about", ["gusts", "a drive", "an elastic rope", "joints that are driven"])
 def test_lanes_of_every_kind_have_the_bits_of_single_states(about):
     model, inputs = scene(*CASES[about])
     system, rng = model.system, np.random.default_rng(12)
-    own = written_of([system], inputs.shape)
+    code, numbers = numbered(system, inputs)
     draws = [drawn(model, inputs, rng) for _ in range(LANES)]
     times = np.array([[time for time, _ in draws]])
     states = np.stack([state for _, state in draws], axis=-1)
     slopes, guards = np.empty((system.size, LANES)), np.empty((len(system.guards), LANES))
-    shared = [np.repeat(array[..., None], LANES, axis=-1) for array in (inputs, own.numbers(system.data))]
-    rhs = own.rhs(lane_rhs_signature(), LANES)
-    call_in_lanes(rhs, times, states, slopes, shared[0], shared[1], system.tables, guards)
+    shared = [np.repeat(array[..., None], LANES, axis=-1) for array in (inputs, numbers)]
+    call_in_lanes(code.rhs(LANES), times, states, slopes, *shared, system.table, guards)
     for lane, (time, state) in enumerate(draws):
         slope, margins = system.slope(time, state, inputs)
         assert np.array_equal(slopes[:, lane], slope)
@@ -91,30 +122,49 @@ def test_lanes_of_every_kind_have_the_bits_of_single_states(about):
 
 def test_what_a_switch_changes_is_not_worked_out_beforehand():
     model, inputs = scene(*CASES["friction that sticks"])
-    system = model.system
-    rhs, (numbers, *others) = system.code(inputs)
-    rng, none = np.random.default_rng(13), np.zeros(system.work_shape)
+    system, place = model.system, model.system.place_of("friction_state")
+    rhs, numbers = system.code(inputs)
+    rng = np.random.default_rng(13)
     time, state = drawn(model, inputs, rng)
-    (place,) = system.known.changing
     slopes = {}
     for value in (-1.0, 0.0, 1.0, 2.0):
         changed, slope, guards = numbers.copy(), np.empty(system.size), np.empty(len(system.guards))
         changed[place] = value
-        rhs(time, state, slope, inputs, changed, *others, none, guards)
-        own = replace(system, known=None, numbers=changed[: len(system.numbers)])
+        rhs(time, state, slope, inputs, changed, system.table, guards)
+        own = replace(system, constants=replace(system.constants, friction_state=value))
         assert np.array_equal(slope, own.slope(time, state, inputs)[0])
         slopes[value] = slope.tobytes()
     assert len(set(slopes.values())) == 3
 
 
-def test_large_systems_keep_their_loops(monkeypatch):
-    model, inputs = scene(*CASES["a crane in the plane"])
-    monkeypatch.setattr(systems, "MOST_WRITTEN", model.size - 1)
-    rhs, constants = replace(model.system).code(inputs)
-    assert rhs is model.system.equations()
-    assert constants == model.system.constants
-    monkeypatch.setattr(systems, "MOST_WRITTEN", model.size)
-    assert replace(model.system).code(inputs)[0] is not rhs
+@pytest.mark.parametrize("lanes", [0, LANES])
+def test_a_system_of_many_unknowns_solved_in_loops_has_the_bits_of_one_written_out(lanes, monkeypatch):
+    model, inputs = scene(*CASES["gusts"])
+    system, rng = model.system, np.random.default_rng(16)
+    draws = [drawn(model, inputs, rng) for _ in range(LANES)]
+    found = []
+    for most in (0, 99):
+        monkeypatch.setattr(algebra, "MOST_UNROLLED", most)
+        monkeypatch.setattr(written, "_WRITTEN", {})
+        own = replace(system)
+        if lanes:
+            code, numbers = numbered(own, inputs)
+            states = np.stack([state for _, state in draws], axis=-1)
+            slopes, guards = np.empty_like(states), np.empty((len(system.guards), LANES))
+            shared = [np.repeat(array[..., None], LANES, axis=-1) for array in (inputs, numbers)]
+            call_in_lanes(code.rhs(LANES), np.full((1, LANES), 0.4), states, slopes, *shared, system.table, guards)
+            found.append(slopes)
+        else:
+            found.append(np.array([own.slope(0.4, state, inputs)[0] for _, state in draws]))
+    assert np.array_equal(*found)
+
+
+def test_forces_at_rest_are_the_same_before_and_after_they_are_compiled(monkeypatch):
+    model, inputs = scene(*CASES["gusts"])
+    q = 0.1 * np.random.default_rng(17).normal(size=(model.coordinates, 6))
+    by_numpy = model.static_forces(q, inputs)
+    monkeypatch.setattr(written, "COMPILED_AFTER", 0)
+    assert np.array_equal(model.static_forces(q, inputs), by_numpy)
 
 
 def test_code_is_kept_by_its_content(tmp_path, monkeypatch):

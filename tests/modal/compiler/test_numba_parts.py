@@ -20,7 +20,7 @@ from modal.compiler import compiled, kernel_cache
 from modal.compiler.folder import is_compiled
 
 CACHE, KERNELS = "modal.compiler.kernel_cache", "modal.compiler.compiled"
-TRACED, LANES = "modal.compiler.traced", "towercrane.kernels.vector and arrays"
+LANES = "towercrane.kernels.vector and arrays"
 STRAIGHT = "towercrane.kernels.straight"
 
 FUNCTIONS = [
@@ -37,16 +37,14 @@ FUNCTIONS = [
     ("numba.core.caching", "IndexDataCacheFile._open_for_write", "self filepath", CACHE),
     ("numba.core.dispatcher", "Dispatcher.compile", "self sig", KERNELS),
     ("numba.core.dispatcher", "Dispatcher.disable_compile", "self val", KERNELS),
-    ("numba.core.base", "BaseContext.cast", "self builder val fromty toty", TRACED),
-    ("numba.core.base", "BaseContext.make_tuple", "self builder typ values", TRACED),
-    ("numba.core.base", "BaseContext.get_dummy_value", "self", TRACED),
-    ("numba.core.cgutils", "get_item_pointer", "context builder aryty ary inds wraparound boundscheck", TRACED),
-    ("numba.np.arrayobj", "make_array", "array_type", TRACED),
-    ("numba.np.arrayobj", "load_item", "context builder arrayty ptr", TRACED),
-    ("numba.np.arrayobj", "store_item", "context builder arrayty val ptr", TRACED),
+    ("numba.core.base", "BaseContext.get_dummy_value", "self", STRAIGHT),
+    ("numba.np.arrayobj", "make_array", "array_type", STRAIGHT),
     ("numba.np.arrayobj", "populate_array", "array data shape strides itemsize meminfo parent", LANES),
     ("numba.core.cgutils", "unpack_tuple", "builder tup count", STRAIGHT),
     ("numba.core.cgutils", "get_or_insert_function", "module fnty name", STRAIGHT),
+    ("numba.core.cgutils", "alloca_once", "builder ty size name zfill", STRAIGHT),
+    ("numba.core.cgutils", "alloca_once_value", "builder value name zfill", STRAIGHT),
+    ("numba.core.cgutils", "for_range", "builder count start intp", STRAIGHT),
     ("numba.core.types", "Type.can_convert_from", "self typingctx other", LANES),
     ("numba.core.base", "BaseContext.get_function", "self fn sig _firstcall", STRAIGHT),
 ]
@@ -150,7 +148,7 @@ def test_an_intrinsic_is_called_by_the_signature_that_it_states():
     typed.__signature__ = inspect.Signature(names)
     second = intrinsic(typed)
     found = numba.njit(lambda x, y: second(x, y))(1.0, 2.0)
-    assert found == 2.0, changed("numba.extending.intrinsic", TRACED, "a call by __signature__", found)
+    assert found == 2.0, changed("numba.extending.intrinsic", STRAIGHT, "a call by __signature__", found)
 
 
 def test_lane_vectors_may_be_made_of_numbers():

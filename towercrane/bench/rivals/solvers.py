@@ -197,11 +197,11 @@ class Counted:
 
 def _compiled_rhs(scene: Scene) -> Counted:
     system = scene.system
-    slope, guards, work = np.empty(system.size), np.empty(len(system.guards)), np.zeros(system.work_shape)
+    slope, guards = np.empty(system.size), np.empty(len(system.guards))
 
     def rhs(t: float, y: Floats, inputs: Floats) -> Floats:
-        compiled, constants = system.code(inputs)
-        compiled(t, np.ascontiguousarray(y).copy(), slope, inputs, *constants, work, guards)
+        compiled, numbers = system.code(inputs)
+        compiled(t, np.ascontiguousarray(y).copy(), slope, inputs, numbers, system.table, guards)
         return slope.copy()
 
     return Counted(rhs)

@@ -13,12 +13,12 @@ from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
-from towercrane.cranes.tower.lanes import LANE_OUTPUTS, PLANE_CRANES
 from towercrane.kernels.vector import LANES
-from towercrane.motions.motion import phases
+from towercrane.motions.motion import Motion, phases
 from towercrane.simulation.integrate import evaluate, integrate
-from towercrane.simulation.lanes.crane import LaneRun
 from towercrane.simulation.lanes.many import available_cores, integrate_many
+from towercrane.simulation.lanes.run import LaneRun
+from towercrane.simulation.observed import observe
 from towercrane.simulation.outcomes import INTERRUPTED
 from towercrane.simulation.simulate import rows_of
 
@@ -38,6 +38,9 @@ MANY_ALONE, FEW_ALONE = 200, 12
 """Runs of the plain loop, spread over the variations."""
 
 RTOL, TIGHT = 1e-4, 1e-11
+
+OUTPUTS = "tower_tip_displacement", "jib_tip_deflection", "sway_radial", "rope_tension"
+"""What is looked at."""
 
 
 def many_runs(repeats: int) -> dict[str, Any]:
@@ -84,7 +87,7 @@ def many_runs(repeats: int) -> dict[str, Any]:
             f"{LANES} lanes; every way finds the extremes of four outputs among 2401 rows, start included",
             f"lanes beside the loop: extremes differ by {same:.0e} of the largest",
             "off runs at rtol 1e-11, lanes as loop: " + ", ".join(
-                f"{name.replace('_', ' ')} {short(error)}" for name, error in zip(LANE_OUTPUTS, errors, strict=True)
+                f"{name.replace('_', ' ')} {short(error)}" for name, error in zip(OUTPUTS, errors, strict=True)
             ),
         ],
     }  # fmt: skip
@@ -105,7 +108,7 @@ def _variations(count: int, duration: float) -> list[LaneRun]:
 
 
 def _lanes(runs: list[LaneRun], grid: Floats, rtol: float, threads: int) -> LaneAnswers:
-    found = integrate_many(PLANE_CRANES, runs, grid, rtol=rtol, atol=1e-2 * rtol, threads=threads)
+    found = integrate_many(runs, grid, outputs=OUTPUTS, rtol=rtol, atol=1e-2 * rtol, threads=threads)
     if INTERRUPTED in found.outcomes:
         raise KeyboardInterrupt
     return found
@@ -119,13 +122,15 @@ def _loop(runs: list[LaneRun], grid: Floats, rtol: float) -> Floats:
     """Extremes of single runs; shape (runs, outputs, 4)."""
     extremes = []
     for run in runs:
-        model = dataclasses.replace(run.model)
+        model: Any = run.model
         start = model.start(run.phases.inputs[0])
         found = whole(integrate(model.system, run.phases, start, grid, rtol=rtol, atol=1e-2 * rtol))
-        _, guards = evaluate(model.system, run.phases, found.times, found.states)
-        n = model.coordinates
-        swing = np.arctan2(found.states[:, n], -found.states[:, n + 1])
-        values = np.column_stack([found.states[:, :n] @ PLANE_CRANES.watched(model).T, swing, guards[:, 0]])
+        evaluated = evaluate(model.system, run.phases, found.times, found.states)
+        motions = {
+            name: Motion(run.phases.times, run.phases.inputs[:, row]) for row, name in enumerate(model.channels)
+        }
+        seen = observe(model, motions, found.times, found.states, *evaluated, OUTPUTS)
+        values = np.column_stack([seen[name].values for name in OUTPUTS])
         high, low = values.argmax(axis=0), values.argmin(axis=0)
         extremes.append(np.stack([values.max(axis=0), grid[high], values.min(axis=0), grid[low]], axis=1))
     return np.array(extremes)

@@ -15,7 +15,8 @@ import numpy as np
 
 from towercrane.cases.case import load_case
 from towercrane.cranes.jib import build as jib
-from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
+from towercrane.cranes.jib.model import PlannedJibCrane
+from towercrane.cranes.jib.parameters import JibCrane
 from towercrane.cranes.parts.wind import gusts
 from towercrane.cranes.slewing import build as slewing
 from towercrane.cranes.slewing.description import Drive

@@ -13,10 +13,11 @@ from towercrane.cranes.tower.equations.small_motions import plane_modes
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.outputs.energy import total_energy
-from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
+from towercrane.cranes.tower.outputs.kinematics import Kinematics
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.methods.method import ATOL_SHARE
+from towercrane.simulation.observed import Instant
 from towercrane.simulation.outcomes import FINISHED
 
 if TYPE_CHECKING:
@@ -63,7 +64,8 @@ class FreeVibration:
         cut = phases((self.motions["trolley"], self.motions["rope"]), 1.0)
         rows = np.vstack([self.model.start(cut.inputs[0]), states])
         with np.errstate(all="ignore"):
-            least, *energy = total_energy(FlexibleMotion(self.model, self.motions, np.zeros(len(rows)), rows))
+            instant = Instant(rows.T, (), (), [(TROLLEY, 0.0, 0.0), (ROPE, 0.0, 0.0)])
+            least, *energy = total_energy(Kinematics(self.model.seen, instant))
             return np.asarray((np.array(energy) - energy[0]) / (energy[0] - least))
 
     def energy_change(self, run: Trajectory) -> float:

@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.kernels import layout
-
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -43,7 +41,7 @@ class Balance:
         jib = np.arange(n) >= tower
         self.tip, self.slope, self.jib_mass, self.base = tip, slope, jib_mass, base
         self.jib_inertia = base * np.outer(jib, jib)
-        self.stiffness = model.system.matrices[layout.STIFFNESS]
+        self.stiffness = model.constants.stiffness
         self.weight = crane.gravity if model.self_weight else 0.0
         self.static, self.gravity = crane.slewing.moment, crane.gravity
         self.trolley, self.load = crane.trolley_mass, model.load.mass
@@ -106,7 +104,7 @@ def plain_rhs(model: FlexibleModel) -> Rhs:
         In the plane, undamped.
     """
     balance, tower, n = Balance(model), model.counts["tower_x"], model.coordinates
-    tables, width = model.system.tables, model.crane.jib_length / len(model.system.tables)
+    tables, width = model.system.table, model.crane.jib_length / len(model.system.table)
     powers = np.arange(tables.shape[2])
 
     def rhs(t: float, y: Floats, inputs: Floats) -> Floats:

@@ -12,8 +12,9 @@ from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
-from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
+from towercrane.cranes.tower.outputs.kinematics import Kinematics
 from towercrane.motions.motion import phases
+from towercrane.simulation.observed import Instant
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -128,16 +129,16 @@ def space_scene(duration: float = 30.0) -> Scene:
         "space",
         f"{duration:g} s of the crane in space (2+2+1 tower, 3+3 jib modes; slewing, trolley and hoist at once)",
         unwatched(model.system), cut, model.start(cut.inputs[0]), grid,
-        lambda states: space_outputs(FlexibleMotion(model, motions, grid, states)),
+        lambda states: space_outputs(model, states),
         "tower top, twist, jib tip and the rope's direction",
     )  # fmt: skip
 
 
-def space_outputs(motion: FlexibleMotion) -> Floats:
+def space_outputs(model: FlexibleModel, states: Floats) -> Floats:
     """Tower top along x and y, its twist, jib tip left and up, rope's direction along x and y; shape (p, 7)."""
-    top, _ = motion.top(motion.coordinates)
-    tip = motion.deflection(motion.model.crane.tip_shapes, motion.coordinates)
-    return np.column_stack([top, motion.twist, tip, motion.rope[:, :2]])
+    at = Kinematics(model.seen, Instant(states.T, (), (), ()))
+    q = at.state.coordinates
+    return np.stack([*at.top(q)[:2], at.twist, *at.deflection(model.seen.tip, q), *at.rope[:2]], axis=1)
 
 
 def lumped_scene(kind: str) -> Scene:

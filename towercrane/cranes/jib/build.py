@@ -19,7 +19,8 @@ def parameters_of(crane: JibCrane) -> dict[str, Any]:
 
 def model_of(tables: JibCase) -> PlannedJibCrane:
     """Model of a jib crane's case."""
-    from towercrane.cranes.jib.model import JibCrane, PlannedJibCrane
+    from towercrane.cranes.jib.model import PlannedJibCrane
+    from towercrane.cranes.jib.parameters import JibCrane
 
     crane = JibCrane(**parameters_of(tables.crane))
     return PlannedJibCrane(crane, load_of(tables.payload), rope_as_rod=tables.rope.slack == "rod")

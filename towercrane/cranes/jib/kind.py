@@ -9,17 +9,12 @@ from towercrane.cranes.parts.height import summed
 HEIGHT = summed("crane.post.height", "crane.primary_boom.length", "crane.secondary_boom.length")
 
 
-def _kernels(tables: JibCase, use: str) -> tuple[str, ...]:
-    return {"run": ("towercrane.cranes.jib.kernel", "towercrane.simulation.stepper")}[use]
-
-
 JIB = Kind(
     name="jib",
     tables=JibCase,
     drives=Drives(HEIGHT, "post and booms upright", joints=(("slew",), ("luff",), ("fold",))),
     build=later("towercrane.cranes.jib.build", "model_of"),
     poses=later("towercrane.cranes.jib.poses", "jib_poses"),
-    kernels=_kernels,
     signals=Signals("sway_in_plane", ("sway_in_plane",)),
     pictures="jib",
     sways={"sway_in_plane": "along the booms", "sway_lateral": "across the booms"},

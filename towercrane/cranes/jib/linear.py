@@ -12,19 +12,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.jib import kernel
+from towercrane.cranes.jib import equations
 from towercrane.cranes.jib.model import PlannedJibCrane
-from towercrane.kernels.payload import FORCE, JACOBIAN, MASS
-from towercrane.kernels.straight.written import Known
-from towercrane.results.recording import Quantity
+from towercrane.cranes.jib.outputs import SWAY_ABOUT, Seen, sway_outputs
+from towercrane.simulation.observed import observe
 from towercrane.simulation.system import System
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.cranes.jib.model import JibCrane
+    from towercrane.cranes.jib.parameters import JibCrane
     from towercrane.kernels.payload import Load
-    from towercrane.motions.motion import Motion
 
     Floats = NDArray[np.float64]
 
@@ -49,6 +47,10 @@ class LinearSway:
     load: Load
     heave: bool = True
 
+    outputs = staticmethod(sway_outputs)
+    about = SWAY_ABOUT
+    observe = observe
+
     @property
     def channels(self) -> tuple[str, ...]:
         """Motions: the three joint angles [rad] and the rope's length [m]."""
@@ -61,20 +63,13 @@ class LinearSway:
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it; the state is (xi, xi')."""
-        numbers = self._planned.numbers
-        numbers[kernel.HEAVE] = float(self.heave)
         return System(
-            equations=lambda: kernel.linear_sway_rhs,
+            equations=equations.linear_sway,
             size=4,
             guards=(),
             floors=np.empty(0),
             scale=np.ones(4),
-            numbers=numbers,
-            vectors=np.empty((0, 0)),
-            matrices=np.empty((0, 0, 0)),
-            tables=np.empty((0, 0, 0)),
-            work_shape=(kernel.ROWS, kernel.JOINTS),
-            known=Known(),
+            constants=equations.Constants(self.crane, self.load, heave=self.heave),
         )
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
@@ -82,20 +77,10 @@ class LinearSway:
         hanging = self._planned.start(inputs, state, swing_angle)
         return np.array([hanging[0], hanging[1], 0.0, 0.0])
 
-    def observe(
-        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
-    ) -> dict[str, Quantity]:
-        """Small sway angles over time."""
-        slew = motions["slew"](times)
-        c, s = np.cos(slew), np.sin(slew)
-        return {
-            "sway_in_plane": Quantity(
-                ("time",), c * states[:, 0] + s * states[:, 1], "rad", "small swing in the booms' plane, outward"
-            ),
-            "sway_lateral": Quantity(
-                ("time",), c * states[:, 1] - s * states[:, 0], "rad", "small swing towards growing slew"
-            ),
-        }
+    @property
+    def seen(self) -> Seen:
+        """What outputs are told beside the instant."""
+        return Seen(self.system.constants)
 
     def provenance(self) -> dict[str, Any]:
         """Crane and load, for a result's attributes."""
@@ -122,20 +107,17 @@ def static_matrices(
         Coordinates are slew, luff, fold, in-plane and lateral sway [rad]. The booms' stiffness is negative above the
         horizontal: they are inverted pendulums.
     """
-    work = np.zeros((kernel.ROWS, kernel.JOINTS))
-    numbers = PlannedJibCrane(crane, load).numbers
-    kernel.structure(np.array([0.0, luff, fold]), np.zeros(3), numbers, work)
-    lower = np.tril(work[MASS : MASS + 3])
+    booms = equations.structure(crane, (0.0, luff, fold), (0.0, 0.0, 0.0))
     # Velocity of the load per rate of each coordinate, booms along x.
-    load_rates = np.hstack([work[JACOBIAN : JACOBIAN + 3], rope_length * np.eye(3)[:, :2]])
+    load_rates = np.hstack([booms.jacobian, rope_length * np.eye(3)[:, :2]])
     mass = load.mass * load_rates.T @ load_rates
+    lower = np.zeros((3, 3))
+    lower[np.tril_indices(3)] = np.concatenate(booms.mass)
     mass[:3, :3] += lower + np.tril(lower, -1).T
 
-    a2, a3 = crane.primary_length, crane.secondary_length
-    primary = crane.primary_mass_per_length * a2
-    secondary = crane.secondary_mass_per_length * a3
-    folding = -crane.gravity * a3 * np.sin(luff + fold) * (secondary / 2 + load.mass)
-    luffing = -crane.gravity * a2 * np.sin(luff) * (primary / 2 + secondary + load.mass)
+    primary, secondary = crane.primary_mass, crane.secondary_mass
+    folding = -crane.gravity * crane.secondary_length * np.sin(luff + fold) * (secondary / 2 + load.mass)
+    luffing = -crane.gravity * crane.primary_length * np.sin(luff) * (primary / 2 + secondary + load.mass)
     stiffness = np.zeros((5, 5))
     stiffness[1:3, 1:3] = folding
     stiffness[1, 1] += luffing
@@ -145,9 +127,8 @@ def static_matrices(
 
 def static_torques(crane: JibCrane, load: Load, luff: float, fold: float) -> Floats:
     """Joint torques that hold crane and load at rest; shape (3,) [N m]."""
-    work = np.zeros((kernel.ROWS, kernel.JOINTS))
-    kernel.structure(np.array([0.0, luff, fold]), np.zeros(3), PlannedJibCrane(crane, load).numbers, work)
-    return np.asarray(-work[FORCE] + load.mass * crane.gravity * work[JACOBIAN + 2])
+    booms = equations.structure(crane, (0.0, luff, fold), (0.0, 0.0, 0.0))
+    return np.asarray(load.mass * crane.gravity * np.array(booms.jacobian[2]) - booms.force)
 
 
 def growth_rates(

@@ -1,7 +1,7 @@
 """Jib crane with slewing post, luffing boom, folding boom and a load on a rope of prescribed length.
 
 Source: Al-Ajmi, Abu-El Yazied, Abu-El-Hagag, Makady, Dynamic modeling and load sway simulation of jib cranes; the
-equations are derived anew, see :mod:`towercrane.cranes.jib.kernel`. Each model answers one question:
+equations are derived anew, see :mod:`towercrane.cranes.jib.equations`. Each model answers one question:
 :class:`PlannedJibCrane` which torques a plan needs and how the load then sways, :class:`DrivenJibCrane` how the
 crane moves under given torques, :class:`towercrane.cranes.jib.tracking.TrackingJibCrane` how it moves under
 the torques of its plan.
@@ -15,19 +15,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modal.checks import check_fields
-from towercrane.cranes.jib import kernel
+from towercrane.cranes.jib import equations
+from towercrane.cranes.jib.outputs import ABOUT, Seen, driven_outputs, planned_outputs
 from towercrane.kernels.payload import SLACK
-from towercrane.kernels.straight.written import Known
+from towercrane.simulation.observed import observe
 from towercrane.simulation.outcomes import SLACK_ROPE
 from towercrane.simulation.system import System
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import ArrayLike, NDArray
 
+    from towercrane.cranes.jib.parameters import JibCrane
     from towercrane.kernels.payload import Load
-    from towercrane.motions.motion import Motion
-    from towercrane.results.recording import Quantity
 
     Floats = NDArray[np.float64]
 
@@ -37,46 +38,8 @@ PLAN = ("slew", "luff", "fold", "rope")
 TORQUES = ("slew_torque", "luff_torque", "fold_torque", "rope")
 """Channels of a driven crane: three joint torques [N m] and the rope's length [m]."""
 
-DRIVEN_ROPE = (kernel.JOINTS, 2 * kernel.JOINTS + kernel.AXES)
+DRIVEN_ROPE = (equations.JOINTS, 2 * equations.JOINTS + equations.AXES)
 """Where the rope's direction and its rate begin in the state of a driven crane."""
-
-
-@dataclass(frozen=True, slots=True)
-class JibCrane:
-    """Parameters of a jib crane with two straight, uniform booms in one vertical plane.
-
-    Parameters
-    ----------
-    name : str
-    post_height : float
-        Height a_1 of the luffing hinge above the post's foot [m].
-    post_inertia : float
-        Moment of inertia J_1 of all that only slews, about the post [kg m^2].
-    primary_length, secondary_length : float
-        Lengths a_2 and a_3 of the booms [m].
-    primary_mass_per_length, secondary_mass_per_length : float
-        Masses per length rho_2 and rho_3 of the booms [kg/m].
-    gravity : float
-        Acceleration of gravity [m/s^2].
-
-    Raises
-    ------
-    ValueError
-        If a length, a mass per length or gravity is not positive, or height or inertia is negative.
-    """
-
-    name: str
-    post_height: float
-    post_inertia: float
-    primary_length: float
-    primary_mass_per_length: float
-    secondary_length: float
-    secondary_mass_per_length: float
-    gravity: float = 9.81
-
-    def __post_init__(self) -> None:
-        booms = [f"{boom}_{what}" for boom in ("primary", "secondary") for what in ("length", "mass_per_length")]
-        check_fields(self, positive=(*booms, "gravity"), not_negative=("post_height", "post_inertia"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +58,9 @@ class JibModel:
     load: Load
     rope_as_rod: bool = field(default=False, kw_only=True)
 
+    about = ABOUT
+    observe = observe
+
     @property
     def channels(self) -> tuple[str, ...]:
         """Motions: the three joint angles [rad] and the rope's length [m]."""
@@ -105,23 +71,20 @@ class JibModel:
         """Units of the motions."""
         return ("rad", "rad", "rad", "m")
 
+    @cached_property
+    def constants(self) -> equations.Constants:
+        """The crane as its equations know it."""
+        return equations.Constants(self.crane, self.load)
+
     @property
-    def numbers(self) -> Floats:
-        """Constants of the compiled structure; shape (13,)."""
-        crane, load = self.crane, self.load
-        numbers = np.zeros(13)
-        numbers[: kernel.STIFFNESS] = (
-            crane.post_height, crane.post_inertia, crane.primary_length, crane.primary_mass_per_length,
-            crane.secondary_length, crane.secondary_mass_per_length, crane.gravity,
-            load.mass, load.drag, load.rope_damping,
-        )  # fmt: skip
-        return numbers
+    def seen(self) -> Seen:
+        """What outputs are told beside the instant."""
+        return Seen(self.constants)
 
     def make_system(
         self,
-        rhs: Any,
+        rhs: Callable[..., Any],
         works: tuple[int, ...],
-        numbers: Floats,
         ropes: tuple[tuple[int, int], ...],
         more_guards: tuple[str, ...] = (),
     ) -> System:
@@ -129,26 +92,21 @@ class JibModel:
 
         ``ropes`` says where the direction of each rope and its rate begin.
         """
-        guards = (SLACK_ROPE, *TORQUES[: kernel.JOINTS], *more_guards)
+        guards = (SLACK_ROPE, *TORQUES[: equations.JOINTS], *more_guards)
         floors = np.full(len(guards), -np.inf)
         if not self.rope_as_rod:
-            floors[kernel.TENSION] = floors[kernel.PLANNED_TENSION :] = SLACK
+            floors[equations.TENSION] = floors[equations.PLANNED_TENSION :] = SLACK
         scale = np.ones(works[-1] + 1)
         reach = self.crane.primary_length + self.crane.secondary_length
         scale[list(works)] = self.load.work_scale(self.crane.gravity, reach)
         return System(
-            equations=lambda: rhs,
+            equations=rhs,
             size=works[-1] + 1,
             guards=guards,
             floors=floors,
             scale=scale,
-            numbers=numbers,
-            vectors=np.empty((0, 0)),
-            matrices=np.empty((0, 0, 0)),
-            tables=np.empty((0, 0, 0)),
-            work_shape=(kernel.ROWS, kernel.JOINTS),
-            known=Known(),
-            directions=np.array([(*rope, kernel.AXES) for rope in ropes]),
+            constants=self.constants,
+            directions=np.array([(*rope, equations.AXES) for rope in ropes]),
         )
 
     def provenance(self) -> dict[str, Any]:
@@ -173,10 +131,12 @@ class PlannedJibCrane(JibModel):
     and losses have put in. Where a joint's acceleration jumps, so does its torque; every row holds the right limit.
     """
 
+    outputs = staticmethod(planned_outputs)
+
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        return self.make_system(kernel.planned_rhs, (2 * kernel.AXES,), self.numbers, ((0, kernel.AXES),))
+        return self.make_system(equations.planned, (2 * equations.AXES,), ((0, equations.AXES),))
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State in which the load hangs at rest in inertial axes.
@@ -199,24 +159,7 @@ class PlannedJibCrane(JibModel):
         ValueError
             If the state is not one of the two.
         """
-        return np.concatenate([hanging(float(inputs[0, 0]), state, swing_angle), np.zeros(kernel.AXES + 1)])
-
-    def observe(
-        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
-    ) -> dict[str, Quantity]:
-        """Outputs over time, see :func:`towercrane.cranes.jib.outputs.observe`."""
-        from towercrane.cranes.jib.outputs import Rows, observe, planned_joints
-
-        angles, rates = planned_joints(motions, times)
-        n = kernel.AXES
-        return observe(
-            self.numbers,
-            self.load,
-            motions,
-            times,
-            Rows(angles, rates, states[:, :n], states[:, n : 2 * n], states[:, -1]),
-            guards,
-        )
+        return np.concatenate([hanging(float(inputs[0, 0]), state, swing_angle), np.zeros(equations.AXES + 1)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,6 +185,8 @@ class DrivenJibCrane(JibModel):
     start_angles: tuple[float, float, float]
     start_rates: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
+    outputs = staticmethod(driven_outputs)
+
     @property
     def channels(self) -> tuple[str, ...]:
         """Motions: the three joint torques [N m] and the rope's length [m]."""
@@ -260,19 +205,11 @@ class DrivenJibCrane(JibModel):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        return self.make_system(kernel.driven_rhs, (kernel.PLAN - 1,), self.numbers, (DRIVEN_ROPE,))
+        return self.make_system(equations.driven, (equations.PLAN - 1,), (DRIVEN_ROPE,))
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State at the start angles with the load at rest; arguments as of :meth:`PlannedJibCrane.start`."""
         return driven_start(self.start_angles, self.start_rates, state, swing_angle)
-
-    def observe(
-        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
-    ) -> dict[str, Quantity]:
-        """Outputs over time, see :func:`towercrane.cranes.jib.outputs.observe`."""
-        from towercrane.cranes.jib.outputs import driven_rows, observe
-
-        return observe(self.numbers, self.load, motions, times, driven_rows(states), guards)
 
 
 def hanging(slew: float, state: str, swing_angle: float) -> Floats:
@@ -286,4 +223,4 @@ def hanging(slew: float, state: str, swing_angle: float) -> Floats:
 def driven_start(angles: ArrayLike, rates: ArrayLike, state: str, swing_angle: float) -> Floats:
     """State (theta, n, theta', p, work) with the load at rest."""
     theta = np.asarray(angles, dtype=float)
-    return np.concatenate([theta, hanging(theta[0], state, swing_angle), rates, np.zeros(kernel.AXES + 1)])
+    return np.concatenate([theta, hanging(theta[0], state, swing_angle), rates, np.zeros(equations.AXES + 1)])

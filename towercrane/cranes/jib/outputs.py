@@ -1,144 +1,130 @@
-"""What an engineer reads off a jib-crane run: sway, torques, tension and energy over time."""
+"""What an engineer reads off a jib crane: sway, torques, tension and energy."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.jib import kernel
-from towercrane.results.recording import Quantity, load_places
+from towercrane.cranes.jib.equations import AXES, JOINTS, PLAN, ROPE, TENSION, TORQUE, Constants, structure
+from towercrane.cranes.parts.points import Point, load_places, load_places_about, turned_back
+from towercrane.kernels.algebra import dot
+from towercrane.kernels.payload import state_of
+from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from towercrane.cranes.jib.parameters import JibCrane
+    from towercrane.kernels.payload import State
+    from towercrane.simulation.observed import Instant
 
-    from towercrane.kernels.payload import Load
-    from towercrane.motions.motion import Motion
+ABOUT = {
+    "joint_angle": About(
+        "rad",
+        "slew about the vertical; elevation of the primary boom; the secondary boom's elevation from it",
+        ("joint",),
+        JOINTS,
+    ),
+    "rope_length": About("m", "rope length"),
+    "sway_in_plane": About(
+        "rad",
+        "swing in the booms' vertical plane, positive outward: atan2(n.e_r, -n_z) of the rope's direction n, "
+        "e_r the horizontal direction of the booms",
+    ),
+    "sway_lateral": About(
+        "rad",
+        "swing out of the booms' vertical plane, positive towards growing slew: atan2(n.e_t, hypot(n.e_r, n_z)) of "
+        "the rope's direction n, e_t the horizontal normal of that plane",
+    ),
+    "joint_torque": About("N m", "torque of each joint's drive; at a jump the right limit", ("joint",), JOINTS),
+    "rope_tension": About("N", "rope tension"),
+    **load_places_about("the post's foot"),
+    "total_energy": About("J", "kinetic and potential energy, zero level at the post's foot"),
+    "input_work": About("J", "work of joints and winch less what damping and drag took, since the start"),
+}
+"""What the outputs are."""
 
-    Floats = NDArray[np.float64]
+TRACKING_ABOUT = {
+    **ABOUT,
+    "joint_error": About("rad", "joint angles less those of the plan", ("joint",), JOINTS),
+}
+"""What the outputs of a crane that follows a plan are."""
 
-JOINT_CHANNELS = ("slew", "luff", "fold")
-
-SWAY_IN_PLANE = (
-    "swing in the booms' vertical plane, positive outward: atan2(n.e_r, -n_z) of the rope's direction n, "
-    "e_r the horizontal direction of the booms"
-)
-SWAY_LATERAL = (
-    "swing out of the booms' vertical plane, positive towards growing slew: atan2(n.e_t, hypot(n.e_r, n_z)) of the "
-    "rope's direction n, e_t the horizontal normal of that plane"
-)
-
-
-@dataclass(frozen=True, eq=False)
-class Rows:
-    """Joints and rope over time.
-
-    Parameters
-    ----------
-    angles, rates : ndarray, shape (p, 3)
-        Joint angles [rad] and rates [rad/s].
-    direction, swing : ndarray, shape (p, 3)
-        Rope's unit vector in inertial axes and its rate [1/s].
-    work : ndarray, shape (p,)
-        Work put in since the start [J].
-    """
-
-    angles: Floats
-    rates: Floats
-    direction: Floats
-    swing: Floats
-    work: Floats
-
-
-def driven_rows(states: Floats) -> Rows:
-    """Rows of states (theta, n, theta', p, work, ...)."""
-    edges = np.cumsum([kernel.JOINTS, kernel.AXES, kernel.JOINTS, kernel.AXES])
-    angles, direction, rates, swing = np.split(states[:, : edges[-1]], edges[:-1], axis=1)
-    return Rows(angles, rates, direction, swing, states[:, edges[-1]])
+SWAY_ABOUT = {
+    "sway_in_plane": About("rad", "small swing in the booms' plane, outward"),
+    "sway_lateral": About("rad", "small swing towards growing slew"),
+}
+"""What the outputs of linear sway are."""
 
 
-def planned_joints(motions: dict[str, Motion], times: Floats) -> tuple[Floats, Floats]:
-    """Joint angles [rad] and rates [rad/s] of a plan; shapes (p, 3)."""
-    angles, rates = (
-        np.stack([motions[channel](times, derivative) for channel in JOINT_CHANNELS], axis=1) for derivative in (0, 1)
-    )
-    return angles, rates
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """The crane as its equations know it."""
+
+    crane: Constants
 
 
-def joint_error(motions: dict[str, Motion], times: Floats, states: Floats) -> Quantity:
-    """How far the joints are off their plan."""
-    error = states[:, : kernel.JOINTS] - planned_joints(motions, times)[0]
-    return Quantity(("time", "joint"), error, "rad", "joint angles less those of the plan")
+def planned_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
+    """Outputs of a crane on its plan, see :data:`ABOUT`."""
+    angles, rates, _ = zip(*instant.drives[:JOINTS], strict=True)
+    state = state_of(instant.state, 0, AXES)._replace(coordinates=angles, rates=rates)
+    return _outputs(seen.crane, instant, state, instant.state[-1])
 
 
-def sway_angles(slew: Floats, direction: Floats) -> tuple[Floats, Floats]:
-    """In-plane and lateral swing of a rope's direction; shapes (p,) [rad].
-
-    Parameters
-    ----------
-    slew : ndarray, shape (p,)
-        Direction of the booms about the vertical [rad].
-    direction : ndarray, shape (p, 3)
-    """
-    outward = direction[:, 0] * np.cos(slew) + direction[:, 1] * np.sin(slew)
-    sideways = -direction[:, 0] * np.sin(slew) + direction[:, 1] * np.cos(slew)
-    down = -direction[:, 2]
-    return np.arctan2(outward, down), np.arctan2(sideways, np.hypot(outward, down))
+def driven_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
+    """Outputs of a crane under torques, see :data:`ABOUT`."""
+    own = instant.state[:PLAN]
+    return _outputs(seen.crane, instant, state_of(own, JOINTS, AXES), own[-1])
 
 
-def observe(
-    numbers: Floats, load: Load, motions: dict[str, Motion], times: Floats, rows: Rows, guards: Floats
-) -> dict[str, Quantity]:
-    """Outputs of a run.
+def tracking_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
+    """Outputs of a crane under the torques of its plan, see :data:`TRACKING_ABOUT`."""
+    found = driven_outputs(seen, instant)
+    late = [own - plan for own, (plan, _, _) in zip(found["joint_angle"], instant.drives[:JOINTS], strict=True)]
+    return {**found, "joint_error": late}
 
-    Parameters
-    ----------
-    numbers : ndarray
-        Constants of the compiled structure.
-    load : Load
-    motions : dict
-        With "rope".
-    times : ndarray, shape (p,)
-    rows : Rows
-    guards : ndarray, shape (p, g)
-        Tension and joint torques.
 
-    Returns
-    -------
-    dict of str to Quantity
-    """
-    length, hauling = motions["rope"](times), motions["rope"](times, 1)
-    positions, velocities = np.empty((2, len(times), kernel.AXES))
-    energies = np.empty(len(times))
-    kernel.survey(
-        np.ascontiguousarray(rows.angles), np.ascontiguousarray(rows.rates), numbers,
-        positions, velocities, energies, np.zeros((kernel.ROWS, kernel.JOINTS)),
-    )  # fmt: skip
-    place = positions + length[:, None] * rows.direction
-    speed = velocities + hauling[:, None] * rows.direction + length[:, None] * rows.swing
-    energies += load.mass * (0.5 * (speed**2).sum(axis=1) + numbers[kernel.GRAVITY] * place[:, 2])
-    in_plane, lateral = sway_angles(rows.angles[:, 0], rows.direction)
-    torque = guards[:, kernel.TORQUE : kernel.TORQUE + kernel.JOINTS]
+def sway_outputs(_seen: Seen, instant: Instant) -> dict[str, Any]:
+    """Outputs of linear sway, see :data:`SWAY_ABOUT`."""
+    return dict(zip(SWAY_ABOUT, turned_back(instant.drives[0][0], instant.state), strict=True))
+
+
+def _outputs(own: Constants, instant: Instant, state: State, work: Any) -> dict[str, Any]:
+    """Outputs of joints and rope in a state, with the work put in."""
+    crane, angles, (length, hauling, _) = own.crane, state.coordinates, instant.drives[ROPE]
+    suspension, energy = survey(crane, angles, state.rates)
+    load = suspension.hung(length, hauling, state.direction, state.swing)
+    outward, sideways = turned_back(angles[0], state.direction)
+    down = -state.direction[2]
     return {
-        "joint_angle": Quantity(
-            ("time", "joint"),
-            rows.angles,
-            "rad",
-            "slew about the vertical; elevation of the primary boom; the secondary boom's elevation from it",
-        ),
-        "rope_length": Quantity(("time",), length, "m", "rope length"),
-        "sway_in_plane": Quantity(("time",), in_plane, "rad", SWAY_IN_PLANE),
-        "sway_lateral": Quantity(("time",), lateral, "rad", SWAY_LATERAL),
-        "joint_torque": Quantity(
-            ("time", "joint"), torque, "N m", "torque of each joint's drive; at a jump the right limit"
-        ),
-        "rope_tension": Quantity(("time",), guards[:, kernel.TENSION], "N", "rope tension"),
-        **load_places(place, rows.angles[:, 0], "the post's foot"),
-        "total_energy": Quantity(
-            ("time",), energies, "J", "kinetic and potential energy, zero level at the post's foot"
-        ),
-        "input_work": Quantity(
-            ("time",), rows.work, "J", "work of joints and winch less what damping and drag took, since the start"
-        ),
+        "joint_angle": [*angles],
+        "rope_length": length,
+        "sway_in_plane": np.arctan2(outward, down),
+        "sway_lateral": np.arctan2(sideways, np.sqrt(outward * outward + down * down)),
+        "joint_torque": [*instant.guards[TORQUE : TORQUE + JOINTS]],
+        "rope_tension": instant.guards[TENSION],
+        **load_places(load.place, angles[0]),
+        "total_energy": energy + load.energy(own.load.mass, crane.gravity),
+        "input_work": work,
     }
+
+
+def survey(crane: JibCrane, angles: Any, rates: Any) -> tuple[Point, Any]:
+    """Suspension point, and kinetic and potential energy of post and booms [J]; zero is at the post's foot.
+
+    Parameters
+    ----------
+    crane : JibCrane
+    angles, rates : sequence of 3
+        Joint angles [rad] and rates [rad/s].
+    """
+    booms = structure(crane, angles, rates)
+    primary = crane.primary_length * np.sin(angles[1])
+    secondary = crane.secondary_length * np.sin(angles[1] + angles[2])
+    middles = crane.post_height + 0.5 * primary, crane.post_height + primary + 0.5 * secondary
+    energy = crane.gravity * dot((crane.primary_mass, crane.secondary_mass), middles)
+    for i, row in enumerate(booms.mass):
+        energy = energy + rates[i] * (dot(row, rates) - 0.5 * row[i] * rates[i])
+    # A rate of slewing moves the point across where it is.
+    place = [booms.jacobian[1][0], -booms.jacobian[0][0], crane.post_height + primary + secondary]
+    return Point(place, booms.velocity), energy

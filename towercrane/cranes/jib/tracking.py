@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.checks import check_fields
-from towercrane.cranes.jib import kernel
+from towercrane.cranes.jib import equations
 from towercrane.cranes.jib.model import DRIVEN_ROPE, JibModel, driven_start, hanging
+from towercrane.cranes.jib.outputs import TRACKING_ABOUT, tracking_outputs
 from towercrane.simulation.outcomes import SLACK_ROPE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.motions.motion import Motion
-    from towercrane.results.recording import Quantity
     from towercrane.simulation.system import System
 
     Floats = NDArray[np.float64]
@@ -50,30 +49,26 @@ class TrackingJibCrane(JibModel):
     stiffness: float = 0.0
     damping: float = 0.0
 
+    outputs = staticmethod(tracking_outputs)
+    about = TRACKING_ABOUT
+
     def __post_init__(self) -> None:
         check_fields(self, not_negative=("stiffness", "damping"))
 
     @cached_property
+    def constants(self) -> equations.Constants:
+        """Crane and gains as the equations know them."""
+        return equations.Constants(self.crane, self.load, self.stiffness, self.damping)
+
+    @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        numbers = self.numbers
-        numbers[kernel.STIFFNESS], numbers[kernel.DAMPING] = self.stiffness, self.damping
-
-        ropes = DRIVEN_ROPE, (kernel.PLAN, kernel.PLAN + kernel.AXES)
-        works = (kernel.PLAN - 1, kernel.PLAN + 2 * kernel.AXES)
-        return self.make_system(kernel.tracking_rhs, works, numbers, ropes, (f"{SLACK_ROPE} in the plan",))
+        ropes = DRIVEN_ROPE, (equations.PLAN, equations.PLAN + equations.AXES)
+        works = (equations.PLAN - 1, equations.PLAN + 2 * equations.AXES)
+        return self.make_system(equations.tracking, works, ropes, (f"{SLACK_ROPE} in the plan",))
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
         """State on the plan with both loads at rest; arguments as of :meth:`PlannedJibCrane.start`."""
-        angles, rates = inputs[: kernel.JOINTS, 0], inputs[: kernel.JOINTS, 1]
+        angles, rates = inputs[: equations.JOINTS, 0], inputs[: equations.JOINTS, 1]
         crane = driven_start(angles, rates, state, swing_angle)
-        return np.concatenate([crane, hanging(float(angles[0]), state, swing_angle), np.zeros(kernel.AXES + 1)])
-
-    def observe(
-        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
-    ) -> dict[str, Quantity]:
-        """Outputs over time, with the joints' errors; see :func:`towercrane.cranes.jib.outputs.observe`."""
-        from towercrane.cranes.jib.outputs import driven_rows, joint_error, observe
-
-        outputs = observe(self.numbers, self.load, motions, times, driven_rows(states), guards)
-        return {**outputs, "joint_error": joint_error(motions, times, states)}
+        return np.concatenate([crane, hanging(float(angles[0]), state, swing_angle), np.zeros(equations.AXES + 1)])

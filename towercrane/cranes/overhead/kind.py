@@ -36,10 +36,6 @@ PICTURES: Pictures = {
 }
 
 
-def _kernels(tables: OverheadCase, use: str) -> tuple[str, ...]:
-    return {"run": ("towercrane.cranes.overhead.kernel", "towercrane.simulation.stepper")}[use]
-
-
 OVERHEAD = Kind(
     name="overhead",
     tables=OverheadCase,
@@ -57,7 +53,6 @@ OVERHEAD = Kind(
     ),
     build=later("towercrane.cranes.overhead.build", "model_of"),
     poses=later("towercrane.cranes.overhead.poses", "overhead_poses"),
-    kernels=_kernels,
     lengths=later("towercrane.cranes.overhead.build", "lengths_of"),
     signals=Signals("bridge_deflection", ("sway_along_runway",)),
     pictures=PICTURES,

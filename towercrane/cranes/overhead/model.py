@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.overhead import kernel
-from towercrane.kernels.payload import SLACK, work_shape
-from towercrane.kernels.straight.written import Known
+from towercrane.cranes.overhead import equations
+from towercrane.cranes.overhead.outputs import ABOUT, Seen, overhead_outputs
+from towercrane.kernels.payload import SLACK
+from towercrane.simulation.observed import observe
 from towercrane.simulation.outcomes import SLACK_ROPE
 from towercrane.simulation.system import System
 
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.overhead.parameters import OverheadCrane
     from towercrane.kernels.payload import Load
-    from towercrane.motions.motion import Motion
-    from towercrane.results.recording import Quantity
 
     Floats = NDArray[np.float64]
 
@@ -46,6 +45,10 @@ class OverheadModel:
     load: Load
     rope_as_rod: bool = False
 
+    outputs = staticmethod(overhead_outputs)
+    about = ABOUT
+    observe = observe
+
     @property
     def channels(self) -> tuple[str, ...]:
         """Motions: place of the bridge on the runway, of the trolley on the bridge, and the rope's length [m]."""
@@ -66,24 +69,19 @@ class OverheadModel:
         """The model as the solver sees it."""
         crane, load = self.crane, self.load
         guards = (SLACK_ROPE, "bridge force", "trolley force", "first rail", "second rail")
-        scale = np.ones(kernel.SIZE)
-        scale[kernel.WORK] = load.work_scale(crane.gravity, crane.bridge_span)
+        scale = np.ones(equations.SIZE)
+        scale[equations.WORK] = load.work_scale(crane.gravity, crane.bridge_span)
         return System(
-            equations=lambda: kernel.rhs,
-            size=kernel.SIZE,
+            equations=equations.equations,
+            size=equations.SIZE,
             guards=guards,
             floors=np.array([-np.inf if self.rope_as_rod else SLACK, *[-np.inf] * (len(guards) - 1)]),
             scale=scale,
-            numbers=np.array([
+            constants=equations.Constants(
                 crane.bridge_span, crane.stiffness, crane.damping, crane.girder_mass, crane.bridge_end_carriage_mass,
-                crane.trolley_mass, crane.gravity, load.mass, load.drag, load.rope_damping,
-            ]),
-            vectors=np.empty((0, 0)),
-            matrices=np.empty((0, 0, 0)),
-            tables=np.empty((0, 0, 0)),
-            work_shape=work_shape(1),
-            known=Known(),
-            directions=np.array([[kernel.ROPE_DIRECTION, kernel.SWAY, kernel.AXES]]),
+                crane.trolley_mass, crane.gravity, load,
+            ),
+            directions=np.array([[equations.ROPE_DIRECTION, equations.SWAY, equations.AXES]]),
             # A trolley on it only adds inertia.
             fastest=lambda: crane.frequency,
         )  # fmt: skip
@@ -111,20 +109,17 @@ class OverheadModel:
         """
         if state not in ("equilibrium", "zero"):
             raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
-        y = np.zeros(kernel.SIZE)
+        y = np.zeros(equations.SIZE)
         if state == "equilibrium":
-            y[kernel.UPLIFT] = self.crane.uplift_at_rest(inputs[kernel.TROLLEY, 0], self.load.mass)
+            y[equations.UPLIFT] = self.crane.uplift_at_rest(inputs[equations.TROLLEY, 0], self.load.mass)
         direction = np.sin(swing_angle), 0.0, -np.cos(swing_angle)
-        y[kernel.ROPE_DIRECTION : kernel.ROPE_DIRECTION + kernel.AXES] = direction
+        y[equations.ROPE_DIRECTION : equations.ROPE_DIRECTION + equations.AXES] = direction
         return y
 
-    def observe(
-        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
-    ) -> dict[str, Quantity]:
-        """Outputs over time, see :func:`towercrane.cranes.overhead.outputs.observe`."""
-        from towercrane.cranes.overhead.outputs import observe
-
-        return observe(self.crane, self.load, motions, times, states, guards)
+    @property
+    def seen(self) -> Seen:
+        """What outputs are told beside the instant."""
+        return Seen(self.system.constants, self.crane.runway_height)
 
     def provenance(self) -> dict[str, Any]:
         """Crane and load, for a result's attributes."""

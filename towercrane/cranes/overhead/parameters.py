@@ -62,7 +62,7 @@ class OverheadCrane:
 
     @property
     def stiffness(self) -> float:
-        """Of the uplift at mid-span, pi^4 E I / (2 S^3) [N/m], see :mod:`towercrane.cranes.overhead.kernel`."""
+        """Of the uplift at mid-span, pi^4 E I / (2 S^3) [N/m], see :mod:`towercrane.cranes.overhead.equations`."""
         bending = self.bridge_youngs_modulus * self.bridge_second_moment_of_area
         return float(0.5 * np.pi**4 * bending / self.bridge_span**3)
 

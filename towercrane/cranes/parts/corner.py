@@ -26,13 +26,10 @@ class Corner:
     ----------
     inside, outside : int
         Guards: way to the corner from within, and from beyond it.
-    bends : bool
-        Whether the two lines differ.
     """
 
     inside: int
     outside: int
-    bends: bool
 
     @property
     def changes_equations(self) -> bool:
@@ -54,5 +51,5 @@ class Corner:
 
     def watch(self, inside: bool, floors: Floats) -> None:
         """Watch the way out from inside, or the way back from beyond."""
-        floors[self.inside] = 0.0 if self.bends and inside else -np.inf
-        floors[self.outside] = 0.0 if self.bends and not inside else -np.inf
+        floors[self.inside] = 0.0 if inside else -np.inf
+        floors[self.outside] = -np.inf if inside else 0.0

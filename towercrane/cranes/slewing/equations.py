@@ -1,219 +1,217 @@
-"""Equations of motion of lumped cranes, for any description in :mod:`towercrane.cranes.slewing.description`."""
+"""Equations of lumped cranes: point masses on chains of turned arms, springs, a drive and friction.
+
+The horizontal position of a point is a sum of arms, each of which turns about the vertical with one of the
+coordinates: in complex notation W = sum exp(i phi) (a + i b) with a and b linear in the coordinates. Its height is
+linear in them. With e = exp(i phi) an arm r = a + i b gives the columns e dr/dq and i e r, and the bias acceleration
+e (2 i phi' r' - phi'^2 r). Marinovic, Sprecic and Jerman (2012), Eq. 2-13, are of this kind.
+
+The load is not in this file: :func:`towercrane.kernels.payload.hang_load` adds it.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from towercrane.cranes.slewing import kernel
-from towercrane.cranes.slewing.friction import Transitions
-from towercrane.kernels.payload import FORCE, JACOBIAN, MASS, SLACK, Load, work_shape
-from towercrane.kernels.straight.written import Known
-from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
-from towercrane.simulation.outcomes import SLACK_ROPE, UNSTABLE
-from towercrane.simulation.system import NoEquilibrium, System
+from towercrane.cranes.parts.coupling import coupling_torque
+from towercrane.kernels.algebra import dot
+from towercrane.kernels.choices import below, choose
+from towercrane.kernels.payload import Hung, Load, Rope, Structure, hang_load, slopes, state_of
+from towercrane.kernels.polynomial import polynomial
+from towercrane.kernels.straight.leaves import CHANGING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
-    from towercrane.cranes.slewing.description import LumpedCrane
+    from towercrane.cranes.slewing.description import Drive
 
     Floats = NDArray[np.float64]
+    Pair = tuple[Any, Any]
+
+SHAFT, ROPE = range(2)
+"""Rows of ``inputs``."""
+
+TENSION, INSIDE, OUTSIDE, SLIDING, HOLDING, NEEDED = range(6)
+"""Guards: rope tension [N]; way to the drive's corner from inside and from outside [rad]; rate in the direction of
+slip [rad/s]; torque that friction can still take, and the torque that holds the coordinate at rest [N m]."""
+
+SLIP_BACK, STICK, SLIP_AHEAD, BY_RATE = -1.0, 0.0, 1.0, 2.0
+"""States of set-valued friction; BY_RATE reads it off the rate, which is exactly zero while it sticks."""
+
+AXES = 3
 
 
-@dataclass(frozen=True, eq=False)
-class Equations:
-    """Equations of motion of a lumped crane with its load, always in space.
+@dataclass(frozen=True, eq=False, slots=True)
+class Arm:
+    """Linear forms of the coordinates along an arm and to its left, their constants last; what turns it, if any."""
 
-    Parameters
-    ----------
-    crane : LumpedCrane
-    load : Load
-    rope_as_rod : bool
-        Let the rope push. Without it a slack rope ends the run.
-    """
+    turned_by: int | None
+    ahead: Floats
+    across: Floats
 
-    crane: LumpedCrane
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Body:
+    """A point mass: drag per squared speed along its last arm, across it and up; height as a linear form."""
+
+    mass: float
+    drag: Floats
+    arms: tuple[Arm, ...]
+    height: Floats
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Constants:
+    """Matrices and vectors are those of the n coordinates; ``driven`` is the one that drive and friction act on."""
+
+    bodies: tuple[Body, ...]
+    suspension: int
+    inertia: Floats
+    steady_force: Floats
+    stiffness: Floats
+    damping: Floats
+    driven: int
+    drive: Drive
+    rope_stiffness: float
+    rope_damping: float
+    gravity: float
     load: Load
-    rope_as_rod: bool = False
+    friction_state: float = field(default=BY_RATE, metadata=CHANGING)
 
-    @property
-    def channels(self) -> tuple[str, ...]:
-        """Motions: angle of the drive's shaft [rad] and length of the unstretched rope [m]."""
-        return ("shaft", "rope")
 
-    @property
-    def coordinates(self) -> int:
-        """Number of structural coordinates."""
-        return len(self.crane.coordinates)
+class Motion(NamedTuple):
+    """Of a point: velocity, bias acceleration, what a rate of each coordinate moves it, direction of its last arm."""
 
-    @property
-    def elastic(self) -> bool:
-        """Whether the rope stretches."""
-        return self.crane.rope_stiffness > 0.0
+    velocity: Sequence[Any]
+    bias: Sequence[Any]
+    columns: list[tuple[Any, ...]]
+    unit: Pair
 
-    @property
-    def rope(self) -> int:
-        """Where the rope's direction begins in the state: after the coordinates and the stretch, if there is one."""
-        return self.coordinates + self.elastic
 
-    @property
-    def size(self) -> int:
-        """Number of states."""
-        return 2 * (self.rope + 3) + 1
+def turned(unit: Pair, ahead: Any, across: Any) -> Pair:
+    """Product of two complex numbers."""
+    return unit[0] * ahead - unit[1] * across, unit[1] * ahead + unit[0] * across
 
-    @property
-    def channel_units(self) -> tuple[str, ...]:
-        """Units of the motions."""
-        return ("rad", "m")
 
-    @property
-    def state_names(self) -> dict[str, str]:
-        """Coordinates with their units, and the rope's stretch."""
-        names = {name: "rad" if name in self.crane.angles else "m" for name in self.crane.coordinates}
-        return names | ({"rope_stretch": "m"} if self.elastic else {})
+def motion_of(body: Body, q: Any, rates: Any) -> Motion:
+    """How a point moves."""
+    unit, total = (1.0, 0.0), [(0.0, 0.0)] * (2 + len(q))
+    for arm in body.arms:
+        angle, turning = (0.0, 0.0) if arm.turned_by is None else (q[arm.turned_by], rates[arm.turned_by])
+        unit = np.cos(angle), np.sin(angle)
+        a, b = dot(arm.ahead, (*q, 1.0)), dot(arm.across, (*q, 1.0))
+        da, db = dot(arm.ahead, rates), dot(arm.across, rates)
+        parts = [
+            (da - turning * b, db + turning * a),
+            (-2.0 * turning * db - turning * turning * a, 2.0 * turning * da - turning * turning * b),
+        ]
+        for i, (ahead, across) in enumerate(zip(arm.ahead[:-1], arm.across[:-1], strict=True)):
+            parts.append((ahead - b, across + a) if i == arm.turned_by else (ahead, across))
+        total = [
+            (x + ahead, y + across)
+            for (x, y), (ahead, across) in zip(total, (turned(unit, *part) for part in parts), strict=True)
+        ]
+    velocity, bias, *columns = total
+    return Motion(
+        (*velocity, dot(body.height, rates)),
+        (*bias, 0.0),
+        [(*column, up) for column, up in zip(columns, body.height, strict=False)],
+        unit,
+    )
 
-    @cached_property
-    def system(self) -> System:
-        """The model as the solver sees it."""
-        crane, drive, n = self.crane, self.crane.drive, self.coordinates
-        names = list(crane.points)
-        links = [(p, link) for p, point in enumerate(crane.points.values()) for link in point.links]
-        tables = np.zeros((len(links) + len(names), 3, max(n + 1, 4)))
-        for row, (p, link) in enumerate(links):
-            turned = crane.coordinates.index(link.turns_with) if link.turns_with else -1
-            tables[row, kernel.AHEAD, : n + 1] = crane.row(link.ahead)
-            tables[row, kernel.ACROSS, : n + 1] = crane.row(link.across)
-            tables[row, kernel.OWNER, :2] = p, turned
-        for p, point in enumerate(crane.points.values()):
-            tables[len(links) + p, kernel.HEIGHT, : n + 1] = crane.row(point.height)
-            tables[len(links) + p, kernel.PROPERTIES, :4] = point.mass, *np.broadcast_to(point.drag, 3)
-        matrices = np.zeros((2, n, n))
-        for spring in crane.springs:
-            stretch = crane.row(spring.stretch)[:-1]
-            matrices[kernel.STIFFNESS] += spring.stiffness * np.outer(stretch, stretch)
-            matrices[kernel.DAMPING] += spring.damping * np.outer(stretch, stretch)
-        laws = {"none": kernel.NO_FRICTION, "tanh": kernel.TANH, "stick-slip": kernel.STICK_SLIP}
-        numbers = np.zeros(18)
-        numbers[kernel.GRAVITY] = crane.gravity
-        numbers[kernel.LOAD_MASS] = self.load.mass
-        numbers[kernel.DRAG] = self.load.drag
-        numbers[kernel.HINGE_DAMPING] = self.load.rope_damping
-        numbers[kernel.ROPE_STIFFNESS] = crane.rope_stiffness
-        numbers[kernel.ROPE_LOSS] = crane.rope_damping
-        numbers[kernel.LINKS], numbers[kernel.POINTS] = len(links), len(names)
-        numbers[kernel.SUSPENSION] = names.index(crane.suspension)
-        numbers[kernel.DRIVEN] = crane.coordinates.index(drive.on)
-        numbers[kernel.SOFT], numbers[kernel.STIFF] = drive.soft, drive.stiff
-        numbers[kernel.CORNER], numbers[kernel.DRIVE_DAMPING] = drive.corner, drive.damping
-        numbers[kernel.FRICTION_LAW] = laws[drive.friction]
-        numbers[kernel.FRICTION_TORQUE], numbers[kernel.FRICTION_RATE] = drive.friction_torque, drive.friction_rate
-        numbers[kernel.FRICTION_STATE] = kernel.BY_RATE
-        scale = np.ones(self.size)
-        reach = sum(abs(link.ahead.get("", 0.0)) for link in crane.points[crane.suspension].links)
-        scale[-1] = self.load.work_scale(crane.gravity, reach)
-        rows, width = work_shape(n)
-        owners = tuple((link, kernel.OWNER, k) for link in range(len(links)) for k in range(2))
-        return System(
-            equations=lambda: kernel.rhs,
-            size=self.size,
-            guards=(SLACK_ROPE, "corner", "corner", "slip", "stick", "needed"),
-            floors=np.array([-np.inf if self.rope_as_rod else SLACK, *[-np.inf] * 5]),
-            scale=scale,
-            numbers=numbers,
-            vectors=np.array([crane.row(crane.inertias)[:-1], crane.row(crane.steady_force)[:-1]]),
-            matrices=matrices,
-            tables=tables,
-            # Three rows more for the point that is being added, or for the row of a coordinate that sticks.
-            work_shape=(rows + 3, max(width, 4)),
-            known=Known(kernel.KNOWN, owners, (kernel.FRICTION_STATE,)),
-            directions=np.array([[self.rope, (self.size - 1) // 2 + self.rope, 3]]),
-            switch=Transitions(
-                driven=crane.coordinates.index(drive.on),
-                rates=(self.size - 1) // 2,
-                changes_equations=drive.friction == "stick-slip",
-            ),
-            fastest=lambda: self.fastest,
-        )
 
-    @cached_property
-    def fastest(self) -> float:
-        """Highest angular frequency of its small motions, the coupling at its stiffest [rad/s].
+def drag_on(body: Body, motion: Motion) -> Sequence[Any]:
+    """Force of the air on a point."""
+    (cosine, sine), (vx, vy, vz) = motion.unit, motion.velocity
+    speed = np.sqrt(dot(motion.velocity, motion.velocity))
+    ahead, aside, up = (-drag * speed for drag in body.drag)
+    along, across = turned((cosine, -sine), vx, vy)
+    return *turned(motion.unit, ahead * along, aside * across), up * vz
 
-        A load on an inextensible rope only adds inertia; on an elastic one it vibrates along the rope, whose
-        direction is taken along each of the axes.
-        """
-        from scipy.linalg import eigh
 
-        n, rope = self.coordinates, self.crane.rope_stiffness
-        work, constants = np.zeros(self.system.work_shape), self.system.constants
-        kernel.structure(0.0, np.zeros(self.size), np.array([[0.0] * 3, [1.0, 0.0, 0.0]]), *constants, work)
-        lower = np.tril(work[MASS : MASS + n, :n])
-        driven = self.crane.coordinates.index(self.crane.drive.on)
-        stiffness = np.zeros((n + self.elastic, n + self.elastic))
-        stiffness[:n, :n] = constants[2][kernel.STIFFNESS]
-        stiffness[driven, driven] += max(self.crane.drive.soft, self.crane.drive.stiff)
-        stiffness[n:, n:] = rope
-        squares = []
-        for axis in range(3):
-            mass = np.zeros_like(stiffness)
-            mass[:n, :n] = lower + np.tril(lower, -1).T
-            if self.elastic:
-                along = np.append(work[JACOBIAN + axis, :n], 1.0)
-                mass += self.load.mass * np.outer(along, along)
-            squares.append(eigh(stiffness, mass, eigvals_only=True)[-1])
-        return float(np.sqrt(max(squares)))
+def structure(crane: Constants, q: Any, rates: Any, shaft: Pair, friction: Any = 0.0) -> tuple[Structure, Any]:
+    """Crane without its load, the shaft at an angle and a rate; power of shaft, dampers, drag and friction [W]."""
+    force, power = list(crane.steady_force), 0.0
+    for i, (springs, dampers) in enumerate(zip(crane.stiffness, crane.damping, strict=True)):
+        for spring, damper, own, rate in zip(springs, dampers, q, rates, strict=True):
+            force[i] = force[i] - (spring * own + damper * rate)
+            power = power - rates[i] * damper * rate
+    mass = [[0.0] * i + [inertia] for i, inertia in enumerate(crane.inertia)]
+    motions = [motion_of(body, q, rates) for body in crane.bodies]
+    for body, motion in zip(crane.bodies, motions, strict=True):
+        air, gravity = drag_on(body, motion), (0.0, 0.0, crane.gravity)
+        power = power + dot(air, motion.velocity)
+        pull = [f - body.mass * (b + g) for f, b, g in zip(air, motion.bias, gravity, strict=True)]
+        for i, column in enumerate(motion.columns):
+            force[i] = force[i] + dot(column, pull)
+            carried = [body.mass * moved for moved in column]
+            mass[i] = [own + dot(carried, other) for own, other in zip(mass[i], motion.columns, strict=False)]
 
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
-        """State at rest at the start: "equilibrium", or "zero" with all weights on; swing positive outward.
+    drive, driven = crane.drive, crane.driven
+    twist, slip = q[driven] - shaft[0], rates[driven] - shaft[1]
+    torque = -coupling_torque(twist, drive.soft, drive.stiff, drive.corner) - drive.damping * slip
+    force[driven] = force[driven] + torque + friction
+    # What the shaft puts in is stored in the coupling, turns the platform or is lost between them and in its bearing.
+    power = power + torque * shaft[1] - drive.damping * slip * slip + friction * rates[driven]
+    tip = motions[crane.suspension]
+    return Structure(mass, force, tip.velocity, tip.bias, list(zip(*tip.columns, strict=True))), power
 
-        Returns
-        -------
-        ndarray, shape (size,)
 
-        Raises
-        ------
-        NoEquilibrium
-            If there is no stable equilibrium.
-        ValueError
-            If the state is not one of the two.
-        """
-        if state not in ("equilibrium", "zero"):
-            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
-        n, y = self.coordinates, np.zeros(self.size)
-        y[:n] = self.equilibrium(inputs) if state == "equilibrium" else self.undeformed(inputs)
-        if self.elastic and state == "equilibrium":
-            y[n] = self.load.mass * self.crane.gravity * np.cos(swing_angle) / self.crane.rope_stiffness
-        heading = y[self.crane.coordinates.index(self.crane.jib_angle)]
-        sideways = np.sin(swing_angle)
-        y[self.rope : self.rope + 3] = sideways * np.cos(heading), sideways * np.sin(heading), -np.cos(swing_angle)
-        return y
+def held(crane: Structure, i: int, sticks: Any) -> Structure:
+    """A crane whose coordinate i is at rest where it sticks: its row is taken out of the equations."""
 
-    def undeformed(self, inputs: Floats) -> Floats:
-        """Coordinates that stretch no spring and do not twist the drive's coupling; shape (n,)."""
-        crane = self.crane
-        forms = [*(spring.stretch for spring in crane.springs), {crane.drive.on: 1.0}]
-        held = np.array([crane.row(form)[:-1] for form in forms])
-        values = np.append(np.zeros(len(crane.springs)), inputs[kernel.SHAFT, 0])
-        return np.asarray(np.linalg.lstsq(held, values, rcond=None)[0])
+    def out(value: Any, instead: float = 0.0) -> Any:
+        return choose(sticks, instead, value)
 
-    def equilibrium(self, inputs: Floats) -> Floats:
-        """Coordinates at rest under all weights, load hanging straight down; shape (n,)."""
-        n, origin = self.coordinates, self.undeformed(inputs)
-        fixed = np.zeros_like(inputs)
-        fixed[:, 0] = inputs[:, 0]
+    return crane._replace(
+        mass=[
+            [out(own, float(j == k)) if i in (j, k) else own for k, own in enumerate(row)]
+            for j, row in enumerate(crane.mass)
+        ],
+        force=[out(own) if j == i else own for j, own in enumerate(crane.force)],
+        jacobian=[[out(own) if j == i else own for j, own in enumerate(row)] for row in crane.jacobian],
+    )
 
-        def residual(departure: Floats) -> Floats:
-            y = np.zeros(self.size)
-            y[:n] = origin + departure
-            work = np.zeros(self.system.work_shape)
-            kernel.structure(0.0, y, fixed, *self.system.constants, work)
-            return work[FORCE, :n] - self.load.mass * self.crane.gravity * work[JACOBIAN + 2, :n]
 
-        try:
-            return origin + stable_equilibrium(residual, np.ones(n))
-        except Unstable as failure:
-            raise NoEquilibrium(UNSTABLE, str(failure)) from failure
+def needed_at_rest(crane: Structure, i: int, hung: Hung) -> Any:
+    """Torque on coordinate i without which the crane would not accelerate as it does."""
+    needed = -crane.force[i]
+    for j, acceleration in enumerate(hung.accelerations):
+        needed = needed + crane.mass[max(i, j)][min(i, j)] * acceleration
+    for axis, row in enumerate(crane.jacobian):
+        needed = needed - row[i] * hung.pull(axis)
+    return needed
+
+
+def forces_at_rest(crane: Constants, _t: Any, q: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
+    """Forces on the coordinates while nothing moves, friction apart, the load hanging straight down; no guards."""
+    bare, _ = structure(crane, q, [0.0] * len(q), (inputs[SHAFT][0], 0.0))
+    weight = crane.load.mass * crane.gravity
+    return [force - weight * up for force, up in zip(bare.force, bare.jacobian[-1], strict=True)], []
+
+
+def equations(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
+    """Slopes of the state (q, n, q', p, work), or (q, e, n, q', e', p, work) with an elastic rope, and guards."""
+    state = state_of(y, len(crane.inertia), AXES)
+    rope = Rope(*polynomial(inputs[ROPE], t), crane.rope_stiffness, crane.rope_damping)
+    angle, shaft_rate, _ = polynomial(inputs[SHAFT], t)
+    drive, driven = crane.drive, crane.driven
+    rate, limit = state.rates[driven], drive.friction_torque
+    way, sticks, sliding = 0.0, 0.0, np.inf
+    if drive.friction == "tanh":
+        way = np.tanh(rate / drive.friction_rate)
+    elif drive.friction == "stick-slip":
+        way = choose(below(SLIP_AHEAD, crane.friction_state), np.sign(rate), crane.friction_state)
+        sticks, sliding = below(abs(way), SLIP_AHEAD), way * rate
+    bare, power = structure(crane, state.coordinates, state.rates, (angle, shaft_rate), -limit * way)
+    hung = hang_load(held(bare, driven, sticks), state, rope, crane.load, crane.gravity)
+    needed = needed_at_rest(bare, driven, hung)
+    beyond = abs(state.coordinates[driven] - angle) - drive.corner
+    return slopes(state, hung, hung.power + power), [
+        hung.tension, -beyond, beyond, sliding,
+        choose(sticks, limit - abs(needed), np.inf), choose(sticks, needed, 0.0),
+    ]  # fmt: skip

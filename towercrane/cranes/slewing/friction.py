@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.parts.corner import Corner
-from towercrane.cranes.slewing import kernel
+from towercrane.cranes.slewing.equations import HOLDING, NEEDED, SLIDING, STICK
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
+
+    from towercrane.cranes.parts.corner import Corner
 
     Floats = NDArray[np.float64]
 
@@ -31,56 +32,54 @@ class Transitions:
 
     Parameters
     ----------
-    driven : int
-        Coordinate that drive and friction act on.
-    rates : int
-        Where the rates begin in the state.
+    rate : int
+        Where the state has the rate of the coordinate that drive and friction act on.
+    friction_state : int
+        Where the numbers have the state of friction.
+    corner : Corner or None
+        Of a coupling whose two lines differ.
     changes_equations : bool
         Whether friction is set-valued. Otherwise only the coupling's corner is watched.
     """
 
-    driven: int
-    rates: int
+    rate: int
+    friction_state: int
+    corner: Corner | None
     changes_equations: bool
 
     def begin(self, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
         """Set corner and friction from the state."""
-        if numbers[kernel.FRICTION_LAW] == kernel.STICK_SLIP:
-            rate = state[self.rates + self.driven]
+        if self.changes_equations:
+            rate = state[self.rate]
             if abs(rate) <= REST:
-                state[self.rates + self.driven] = 0.0
+                state[self.rate] = 0.0
                 self._settle(numbers, floors, guards_at)
             else:
                 self._slip(float(np.sign(rate)), numbers, floors)
-        self._corner(numbers).begin(state, numbers, floors, guards_at)
+        if self.corner is not None:
+            self.corner.begin(state, numbers, floors, guards_at)
 
     def cross(
         self, guard: int, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]
     ) -> bool:
         """Set what holds after a guard; a slack rope ends the run."""
-        if self._corner(numbers).cross(guard, state, numbers, floors, guards_at):
+        if self.corner is not None and self.corner.cross(guard, state, numbers, floors, guards_at):
             return True
-        if guard == kernel.SLIDING:
-            state[self.rates + self.driven] = 0.0
-            self._settle(numbers, floors, guards_at)
-        elif guard == kernel.HOLDING:
-            self._settle(numbers, floors, guards_at)
-        else:
+        if guard not in (SLIDING, HOLDING):
             return False
+        if guard == SLIDING:
+            state[self.rate] = 0.0
+        self._settle(numbers, floors, guards_at)
         return True
-
-    @staticmethod
-    def _corner(numbers: Floats) -> Corner:
-        return Corner(kernel.INSIDE, kernel.OUTSIDE, bool(numbers[kernel.SOFT] != numbers[kernel.STIFF]))
 
     def _settle(self, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
         """At rest: stick if friction can hold, else give way to the side that pushes."""
-        numbers[kernel.FRICTION_STATE] = kernel.STICK
+        numbers[self.friction_state] = STICK
         guards = guards_at()
-        floors[kernel.SLIDING], floors[kernel.HOLDING] = -np.inf, 0.0
-        if guards[kernel.HOLDING] < 0.0:
-            self._slip(-float(np.sign(guards[kernel.NEEDED])), numbers, floors)
+        floors[SLIDING], floors[HOLDING] = -np.inf, 0.0
+        if guards[HOLDING] < 0.0:
+            self._slip(-float(np.sign(guards[NEEDED])), numbers, floors)
 
     def _slip(self, direction: float, numbers: Floats, floors: Floats) -> None:
-        numbers[kernel.FRICTION_STATE] = direction
-        floors[kernel.SLIDING], floors[kernel.HOLDING] = -REST, -np.inf
+        numbers[self.friction_state] = direction
+        floors[SLIDING], floors[HOLDING] = -REST, -np.inf

@@ -15,10 +15,6 @@ if TYPE_CHECKING:
 HEIGHT = summed("crane.geometry.tower_height", "crane.geometry.top_height")
 
 
-def _kernels(tables: SlewingCase, use: str) -> tuple[str, ...]:
-    return {"run": ("towercrane.cranes.slewing.kernel", "towercrane.simulation.stepper")}[use]
-
-
 def _kind(name: str, tables: type[SlewingCase], *ranges: Range) -> Kind:
     """A kind of slewing crane, which differs from the others by its parameters."""
     return Kind(
@@ -28,7 +24,6 @@ def _kind(name: str, tables: type[SlewingCase], *ranges: Range) -> Kind:
         ranges=ranges,
         build=later("towercrane.cranes.slewing.build", "model_of"),
         poses=later("towercrane.cranes.slewing.poses", "slewing_poses"),
-        kernels=_kernels,
         signals=Signals("jib_moment_vertical", ("sway_radial",)),
         pictures="slewing",
         sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},

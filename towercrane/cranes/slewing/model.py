@@ -3,33 +3,35 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cranes.slewing import kernel
-from towercrane.cranes.slewing.equations import Equations
+from towercrane.cranes.slewing.outputs import about_of, lumped_outputs, seen_of
+from towercrane.cranes.slewing.system import LumpedSystem
+from towercrane.simulation.observed import observe
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from towercrane.motions.motion import Motion
-    from towercrane.results.recording import Quantity
-
-    Floats = NDArray[np.float64]
+    from towercrane.cranes.slewing.outputs import Seen
+    from towercrane.simulation.observed import About
 
 
 @dataclass(frozen=True, eq=False)
-class LumpedModel(Equations):
+class LumpedModel(LumpedSystem):
     """A lumped crane with its load, always in space; its parameters are those of
-    :class:`towercrane.cranes.slewing.equations.Equations`."""
+    :class:`towercrane.cranes.slewing.system.LumpedSystem`."""
 
-    def observe(
-        self, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
-    ) -> dict[str, Quantity]:
-        """Outputs over time, see :func:`towercrane.cranes.slewing.outputs.observe`."""
-        from towercrane.cranes.slewing.outputs import observe
+    outputs = staticmethod(lumped_outputs)
+    observe = observe
 
-        return observe(self, motions, times, states, guards[:, kernel.TENSION])
+    @cached_property
+    def about(self) -> dict[str, About]:
+        """What the outputs are, by name."""
+        return about_of(self.crane)
+
+    @cached_property
+    def seen(self) -> Seen:
+        """What outputs are told beside the instant."""
+        return seen_of(self.crane, self.constants)
 
     def provenance(self) -> dict[str, Any]:
         """Crane and load, for a result's attributes."""

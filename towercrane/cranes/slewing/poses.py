@@ -9,7 +9,7 @@ import numpy as np
 from towercrane.cranes.parts.poses import Poses, sampled
 from towercrane.cranes.slewing.build import parameters_of
 from towercrane.cranes.slewing.models import PLATFORM, TOWER, TOWER_X, TOWER_Y
-from towercrane.cranes.slewing.outputs import position
+from towercrane.cranes.slewing.outputs import point_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -60,7 +60,11 @@ def slewing_poses(model: LumpedModel, tables: SlewingCase, result: xr.Dataset, t
 
 def _members(model: LumpedModel, parameters: SlewingParameters, q: Floats) -> dict[str, Floats]:
     """Lines of the crane at given coordinates (f, n); shapes (f, points, 3)."""
-    crane, names, still = model.crane, model.crane.coordinates, np.zeros_like(q)
+    crane, names = model.crane, model.crane.coordinates
+    points = {
+        name: np.stack(np.broadcast_arrays(*point_of(body, q.T, np.zeros_like(q.T)).place), axis=1)
+        for name, body in zip(crane.points, model.constants.bodies, strict=True)
+    }
     bend = np.zeros(len(q), dtype=complex)
     if TOWER_X in names:
         x, y, turned = (q[:, names.index(name)] for name in (TOWER_X, TOWER_Y, TOWER))
@@ -70,13 +74,12 @@ def _members(model: LumpedModel, parameters: SlewingParameters, q: Floats) -> di
     up, share = np.append(up, parameters.suspension_height), np.append((up / up[-1]) ** 2, 1.0)
     across = bend[:, None] * share
     tower = np.stack([across.real, across.imag, np.broadcast_to(up, across.shape)], axis=-1)
-    tip = position(model, crane.points[crane.suspension], q, still)[0]
+    tip = points[crane.suspension]
     members = {
         "tower": tower,
         "jib": np.stack([tower[:, -1], tip], axis=1),
         "suspension": tip[:, None],
     }
-    if "counterweight" in crane.points:
-        weight = position(model, crane.points["counterweight"], q, still)[0]
-        members["counter-jib"] = np.stack([tower[:, -1], weight], axis=1)
+    if "counterweight" in points:
+        members["counter-jib"] = np.stack([tower[:, -1], points["counterweight"]], axis=1)
     return members

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
@@ -12,6 +14,7 @@ from numba.np.arrayobj import make_array
 
 from modal.compiler.folder import cache_folder
 from modal.compiler.kernel_cache import keep
+from towercrane.kernels.arrays import lane_rhs_signature, rhs_signature
 from towercrane.kernels.straight.emitter import Emitter
 
 if TYPE_CHECKING:
@@ -23,14 +26,17 @@ _njit: Any = njit
 
 DOUBLES = ir.DoubleType().as_pointer()
 
-ARGUMENTS = ("t", "y", "dy", "inputs", "numbers", "vectors", "matrices", "tables", "work", "guards")
-"""Arguments of a right-hand side, see :func:`towercrane.simulation.system.rhs_signature`."""
-
-LANE_ARGUMENTS = ("t", "y", "dy", "inputs", "numbers", "tables", "guards")
-"""Those of one for lane vectors, see :func:`towercrane.kernels.arrays.lane_rhs_signature`."""
+ARGUMENTS = ("t", "y", "dy", "inputs", "numbers", "tables", "guards")
+"""Arguments of a right-hand side, see :func:`towercrane.kernels.arrays.rhs_signature`."""
 
 
-def straight_code(program: Program, shapes: dict[str, tuple[int, ...]], signature: Any, lanes: int) -> Any:
+@cache
+def _sources() -> bytes:
+    """What writes machine code, as text: other sources write other code for the same program."""
+    return b"".join(source.read_bytes() for source in sorted(Path(__file__).parent.glob("*.py")))
+
+
+def straight_code(program: Program, shapes: dict[str, tuple[int, ...]], lanes: int) -> Any:
     """Compiled right-hand side of a program.
 
     Parameters
@@ -38,8 +44,6 @@ def straight_code(program: Program, shapes: dict[str, tuple[int, ...]], signatur
     program : Program
     shapes : dict of str to tuple of int
         Shapes of the arrays that are given.
-    signature : numba signature
-        For numbers, or for lane vectors.
     lanes : int
         Runs side by side; 0 for a single run.
     """
@@ -48,7 +52,7 @@ def straight_code(program: Program, shapes: dict[str, tuple[int, ...]], signatur
     def emitted(_context: Any, arguments: Any) -> Any:
         def build(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
             kinds_and_values = zip(arguments, cgutils.unpack_tuple(builder, values[0]), strict=True)
-            given = dict(zip(names, kinds_and_values, strict=True))
+            given = dict(zip(ARGUMENTS, kinds_and_values, strict=True))
             arrays = {"t": given.pop("t")[1]}
             for name, (kind, value) in given.items():
                 data = make_array(kind)(context, builder, value).data
@@ -58,22 +62,15 @@ def straight_code(program: Program, shapes: dict[str, tuple[int, ...]], signatur
 
         return types.none(arguments), build
 
-    def rhs(
-        t: Any, y: Any, dy: Any, inputs: Any, numbers: Any, vectors: Any, matrices: Any, tables: Any, work: Any,
-        guards: Any,
-    ) -> None:  # fmt: skip
-        emitted((t, y, dy, inputs, numbers, vectors, matrices, tables, work, guards))
-
-    def lane_rhs(t: Any, y: Any, dy: Any, inputs: Any, numbers: Any, tables: Any, guards: Any) -> None:
+    def rhs(t: Any, y: Any, dy: Any, inputs: Any, numbers: Any, tables: Any, guards: Any) -> None:
         emitted((t, y, dy, inputs, numbers, tables, guards))
 
-    function, names = (lane_rhs, LANE_ARGUMENTS) if lanes else (rhs, ARGUMENTS)
-    digest = program.digest(shapes)
+    digest = program.digest(shapes, _sources())
     # Numba names machine code by the function's name and a counter of this process: code from the cache and code that
     # is compiled here would be taken for each other.
-    function.__name__ = function.__qualname__ = f"{function.__name__}_{digest}"
-    made = _njit(error_model="numpy", _nrt=False)(function)
-    keep(made, function, cache_folder(), digest)
-    made.compile(signature)
+    rhs.__name__ = rhs.__qualname__ = f"{'lane_rhs' if lanes else 'rhs'}_{digest}"
+    made = _njit(error_model="numpy", _nrt=False)(rhs)
+    keep(made, rhs, cache_folder(), digest)
+    made.compile(lane_rhs_signature() if lanes else rhs_signature())
     made.disable_compile()
     return made

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
+
+from towercrane.kernels.straight.solution import Solution
 
 if TYPE_CHECKING:
     from towercrane.kernels.straight.program import Program
@@ -87,6 +90,10 @@ class Emitter:
             return self._item(*operands)
         if operation == "branch":
             return self._branch(*operands)
+        if operation == "solve":
+            root = partial(self._intrinsic, "sqrt")
+            solution = Solution(builder, operands[0], self._constant(1.0), root)
+            return solution.write([self._number(self.values[entry]) for entry in operands[1:]])
         if operation == "part":
             return self.values[operands[0]][operands[1]]
         if operation == "nth":
@@ -101,8 +108,8 @@ class Emitter:
             return getattr(builder, f"f{operation}")(*given)
         if operation == "sign":
             return self._sign(*given)
-        if operation == "tanh":
-            return self._each(math.tanh, *given)
+        if operation in ("tanh", "atan2"):
+            return self._each(getattr(math, operation), *given)
         return self._intrinsic({"abs": "fabs"}.get(operation, operation), *given)
 
     def _constant(self, number: float) -> Any:
@@ -201,15 +208,15 @@ class Emitter:
         kind = ir.FunctionType(self.kind, [self.kind])
         return self.builder.call(_insert(self.builder.module, kind, f"llvm.{name}.{suffix}"), [value])
 
-    def _each(self, function: Any, value: Any) -> Any:
-        """A function of one number, lane by lane."""
-        called = self.context.get_function(function, types.float64(types.float64))
+    def _each(self, function: Any, *values: Any) -> Any:
+        """A function of numbers, lane by lane."""
+        called = self.context.get_function(function, types.float64(*[types.float64] * len(values)))
         if not self.lanes:
-            return called(self.builder, [value])
+            return called(self.builder, values)
         found = ir.Constant(self.kind, ir.Undefined)
         for lane in range(self.lanes):
             number = ir.Constant(ir.IntType(32), lane)
-            own = called(self.builder, [self.builder.extract_element(value, number)])
+            own = called(self.builder, [self.builder.extract_element(value, number) for value in values])
             found = self.builder.insert_element(found, own, number)
         return found
 

@@ -12,12 +12,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Sequence
 
 COMMUTATIVE = frozenset(("add", "mul"))
 """Operations whose operands may be exchanged without a change of a bit."""
 
-PAIRS: dict[Any, str] = {np.add: "add", np.subtract: "sub", np.multiply: "mul", np.divide: "div"}
+PAIRS: dict[Any, str] = {
+    np.add: "add",
+    np.subtract: "sub",
+    np.multiply: "mul",
+    np.divide: "div",
+    np.arctan2: "atan2",
+}
 """Functions of two numbers."""
 
 SINGLES: dict[Any, str] = {
@@ -40,7 +46,8 @@ class Node(NamedTuple):
     operation : str
         "number" with its value, "given" with the name of an array and the place in it, "item" with the name of a
         table, a node of the first index and the other indices, "branch" with a condition and two tuples of nodes,
-        "part" with a branch and a place in its tuples, or an operation on nodes.
+        "solve" with a number of unknowns and nodes, "part" with one of these two and which of its results, or an
+        operation on nodes.
     operands : tuple
     """
 
@@ -75,12 +82,22 @@ class Graph:
         # Minus zero and zero are one key of a dictionary, and one number to every equation here.
         return self.add("number", float(value))
 
+    def solve(self, entries: Sequence[Any], count: int) -> list[Operand]:
+        """Solution of a symmetric system: right sides, then the rows of its lower triangle, are entries."""
+        solved = self.add("solve", count, *(self.place(entry) for entry in entries))
+        return [self.operand("part", solved, k) for k in range(count)]
+
     def given(self, name: str, *shape: int) -> np.ndarray[Any, Any]:
         """Array of operands that are given when the code runs."""
         array = np.empty(shape, dtype=object)
         for index in np.ndindex(*shape):
             array[index] = self.operand("given", name, index)
         return array
+
+
+def graph_of(values: Iterable[Any]) -> Graph | None:
+    """Graph of the operands among values; None if there are none."""
+    return next((value.graph for value in values if isinstance(value, Operand)), None)
 
 
 class Operand:
@@ -134,6 +151,9 @@ class Operand:
 
 def _pair(graph: Graph, operation: str, a: Any, b: Any) -> Any:
     """Result of an operation on two values of which one at least is an operand."""
+    if operation == "atan2":
+        # Which way zero points depends on the other.
+        return graph.operand(operation, graph.place(a), graph.place(b))
     if not isinstance(a, Operand):
         if operation in COMMUTATIVE:
             return _pair(graph, operation, b, a)

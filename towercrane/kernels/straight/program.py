@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import pickle
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.kernels.algebra import solved
+
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from towercrane.kernels.straight.graph import Graph
 
     Values = Mapping[str, Any]
 
-CONSTANT = frozenset(("constant", "vectors", "matrices", "tables"))
-"""Arrays whose entries do not change during a run, but for the items of a table. A switch changes some of
-``numbers``: the others are called constant."""
+CONSTANT = "constant"
+"""Name of the numbers that do not change during a run; those that a switch changes are called ``numbers``."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +51,8 @@ class Program:
             return (operands[1],)
         if operation == "branch":
             return (operands[0], *operands[1], *operands[2])
+        if operation == "solve":
+            return operands[1:]
         return operands[:1] if operation in ("part", "nth") else operands
 
     @cached_property
@@ -69,9 +74,11 @@ class Program:
         for place in self.needed:
             operation, operands = self.graph.nodes[place]
             if operation == "given":
-                settles = operands[0] in CONSTANT
+                settles = operands[0] == CONSTANT
             else:
-                settles = operation not in ("branch", "part", "item") and found.issuperset(self.operands(place))
+                settles = operation not in ("branch", "part", "item", "solve") and found.issuperset(
+                    self.operands(place)
+                )
             if settles:
                 found.add(place)
         return frozenset(found)
@@ -86,26 +93,44 @@ class Program:
         wanted = (place for place in sorted(asked & self.settled) if self.graph.nodes[place].operation != "number")
         return {place: self.count + slot for slot, place in enumerate(wanted)}
 
-    def constants(self, given: Values) -> Any:
-        """What stands behind the numbers; shape (slots, ...) with arrays whose last axes count many runs.
+    def constants(self, numbers: Any) -> Any:
+        """What stands behind the numbers; shape (slots, ...) where the last axes of the numbers count many runs."""
+        settled = (place for place in self.needed if place in self.settled)
+        values = evaluate(self.graph, settled, {CONSTANT: numbers})
+        return np.array([values[place] for place in self.slots], dtype=float).reshape(-1, *numbers.shape[1:])
 
-        Parameters
-        ----------
-        given : mapping of str to ndarray
-            The arrays of constants by name.
-        """
-        values = evaluate(self.graph, (place for place in self.needed if place in self.settled), given)
-        return np.array([values[place] for place in self.slots], dtype=float)
+    def values(self, given: Values) -> dict[tuple[str, int], Any]:
+        """All outputs, with what is worked out from constants among the given numbers."""
+        slots = {place: given["numbers"][slot] for place, slot in self.slots.items()}
+        running = (
+            place
+            for place in self.needed
+            if place not in self.settled or self.graph.nodes[place].operation == "number"
+        )
+        values = evaluate(self.graph, running, given, slots)
+        return {output: values[place] for output, place in self.outputs.items()}
 
-    def digest(self, shapes: Mapping[str, Any]) -> str:
-        """Text that is equal for programs, with arrays of these shapes, that are the same."""
-        content = [self.graph.nodes[place] for place in self.needed], self.needed, self.outputs, shapes, self.count
+    def digest(self, shapes: Mapping[str, Any], sources: bytes) -> str:
+        """Text that is equal for the same programs, with arrays of these shapes, written by the same sources."""
+        content = (
+            [self.graph.nodes[place] for place in self.needed],
+            self.needed,
+            self.outputs,
+            shapes,
+            self.count,
+            sources,
+        )
         return hashlib.sha256(pickle.dumps(content)).hexdigest()[:24]
 
 
-def evaluate(graph: Graph, places: Iterable[int], given: Values) -> dict[int, Any]:
-    """Values of nodes, with what is given as arrays by name: numbers, or arrays of many instants or runs."""
-    values: dict[int, Any] = {}
+def evaluate(
+    graph: Graph, places: Iterable[int], given: Values, known: Mapping[int, Any] | None = None
+) -> dict[int, Any]:
+    """Values of nodes, with what is given as arrays by name: numbers, or arrays of many instants or runs.
+
+    Values of some nodes may be known already.
+    """
+    values: dict[int, Any] = dict(known or {})
     with np.errstate(all="ignore"):
         for place in places:
             operation, operands = graph.nodes[place]
@@ -119,6 +144,8 @@ def evaluate(graph: Graph, places: Iterable[int], given: Values) -> dict[int, An
                 condition, *ways = operands
                 pairs = zip(*ways, strict=True)
                 values[place] = [_where(values[condition], values[a], values[b]) for a, b in pairs]
+            elif operation == "solve":
+                values[place] = solved(*system_of(operands[0], [values[entry] for entry in operands[1:]]))
             elif operation == "part":
                 values[place] = values[operands[0]][operands[1]]
             elif operation == "nth":
@@ -128,9 +155,27 @@ def evaluate(graph: Graph, places: Iterable[int], given: Values) -> dict[int, An
     return values
 
 
+def system_of(count: int, entries: Sequence[Any]) -> tuple[list[Sequence[Any]], Sequence[Any]]:
+    """Rows of the lower triangle of a symmetric system, and its right sides, from :meth:`Graph.solve`'s entries."""
+    ends = [count + i * (i + 1) // 2 for i in range(count + 1)]
+    return [entries[first:last] for first, last in pairwise(ends)], entries[:count]
+
+
 def _where(condition: Any, a: Any, b: Any) -> Any:
     found: Any = np.where(condition, a, b)
     return found[()]
+
+
+def _of_each(function: Callable[..., float]) -> Callable[..., Any]:
+    """A function of the C library, as machine code has it, of numbers and arrays; NumPy's differ in the last bit."""
+
+    def done(*values: Any) -> Any:
+        given = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values))
+        rows = zip(*(array.ravel().tolist() for array in given), strict=True)
+        found = [function(*row) if all(map(math.isfinite, row)) else np.nan for row in rows]
+        return np.array(found).reshape(given[0].shape)[()]
+
+    return done
 
 
 DONE: dict[str, Any] = {
@@ -138,11 +183,12 @@ DONE: dict[str, Any] = {
     "sub": np.subtract,
     "mul": np.multiply,
     "div": np.divide,
+    "atan2": _of_each(math.atan2),
     "neg": np.negative,
     "sqrt": np.sqrt,
-    "sin": np.sin,
-    "cos": np.cos,
-    "tanh": np.tanh,
+    "sin": _of_each(math.sin),
+    "cos": _of_each(math.cos),
+    "tanh": _of_each(math.tanh),
     "sign": np.sign,
     "abs": np.abs,
     "below": np.less,

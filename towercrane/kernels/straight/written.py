@@ -8,34 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.kernels.straight.graph import Graph, Table
+from towercrane.kernels.straight.leaves import changing, known_of, numbers_of, table_of, with_numbers
 from towercrane.kernels.straight.program import Program
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
-    Data = Mapping[str, Floats]
-
-
-@dataclass(frozen=True)
-class Known:
-    """What is known of a system's data when its equations are written out, beside which of it is zero.
-
-    Parameters
-    ----------
-    numbers : tuple of int
-        Entries of ``numbers`` that equations count or choose with.
-    tables : tuple of tuples of int
-        Entries of ``tables`` of the same kind.
-    changing : tuple of int
-        Entries of ``numbers`` that a switch changes during a run.
-    """
-
-    numbers: tuple[int, ...] = ()
-    tables: tuple[tuple[int, ...], ...] = ()
-    changing: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,107 +28,112 @@ class Written:
     program : Program
     shapes : dict of str to tuple of int
         Shapes of the arrays that the equations are given.
+    counts : tuple of int
+        Numbers of slopes and of guards.
     """
 
     program: Program
     shapes: dict[str, tuple[int, ...]]
+    counts: tuple[int, int]
     compiled: dict[int, Any] = field(default_factory=dict)
+    asked: list[int] = field(default_factory=lambda: [0])
 
-    def rhs(self, signature: Any, lanes: int = 0) -> Any:
+    def rhs(self, lanes: int = 0) -> Any:
         """Compiled right-hand side, of a single run or of so many side by side."""
         if lanes not in self.compiled:
             from towercrane.kernels.straight.code import straight_code
 
-            self.compiled[lanes] = straight_code(self.program, self.shapes, signature, lanes)
+            self.compiled[lanes] = straight_code(self.program, self.shapes, lanes)
         return self.compiled[lanes]
 
-    def numbers(self, data: Data) -> Floats:
-        """Numbers of a system, and behind them what follows from constants alone."""
-        return np.concatenate([data["numbers"], self.program.constants({**data, "constant": data["numbers"]})])
+    def values(self, constants: Any, states: Floats, inputs: Floats) -> Floats:
+        """Slopes when a phase begins in each column of states; where they are asked for often, they are compiled.
 
-    def numbers_of_many(self, systems: Sequence[Data]) -> Floats:
-        """:meth:`numbers` of systems, each in a column."""
-        return self.numbers({name: np.stack([system[name] for system in systems], axis=-1) for name in systems[0]})
+        Parameters
+        ----------
+        constants : dataclass
+        states : ndarray, shape (states, p)
+        inputs : ndarray
+
+        Returns
+        -------
+        ndarray, shape (slopes, p)
+        """
+        self.asked[0] += states.shape[1]
+        if self.asked[0] <= COMPILED_AFTER:
+            return self.rows(numbers_of(constants), table_of(constants), states, inputs)
+        numbers, table = self.numbers(numbers_of(constants)), table_of(constants)
+        rhs, rows = self.rhs(), np.ascontiguousarray(states.T)
+        slopes, guards = (np.empty((len(rows), count)) for count in self.counts)
+        for state, slope, guard in zip(rows, slopes, guards, strict=True):
+            rhs(0.0, state, slope, inputs, numbers, table, guard)
+        return slopes.T
+
+    def rows(self, numbers: Floats, table: Floats, states: Floats, inputs: Floats) -> Floats:
+        """:meth:`values` without a compiler; each column of states may have numbers and inputs of its own."""
+        given = {"t": {(): 0.0}, "y": states, "inputs": inputs, "numbers": self.numbers(numbers), "tables": table}
+        found, slopes = self.program.values(given), np.empty((self.counts[0], states.shape[1]))
+        for index in range(len(slopes)):
+            slopes[index] = found["dy", index]
+        return slopes
+
+    def numbers(self, numbers: Floats) -> Floats:
+        """Numbers of a system, and behind them what follows from constants alone; of many, in columns."""
+        return np.concatenate([numbers, self.program.constants(numbers)])
 
 
 _WRITTEN: dict[Any, Written] = {}
 """What has been written last, by all that it depends on."""
 
+COMPILED_AFTER = 3_000
+"""States whose slopes are worked out by NumPy, operation by operation, before equations are compiled for it."""
+
 MOST_KEPT = 64
 """Equations kept in memory beside those that a system holds."""
 
 
-def written(
-    equations: Callable[..., None],
-    sizes: tuple[int, int],
-    known: Known,
-    systems: Sequence[Data],
-    inputs: tuple[int, int],
-    work: tuple[int, int],
-) -> Written:
-    """Equations of systems with the same zeros, or of one, written out.
+def written(equations: Callable[..., Any], constants: Sequence[Any], states: int, inputs: tuple[int, int]) -> Written:
+    """Equations with constants that have the same zeros, or with one, written out.
 
     Parameters
     ----------
     equations : callable
-        As :func:`towercrane.simulation.system.rhs_signature` has them, in Python.
-    sizes : tuple of int
-        Number of states and of guards.
-    known : Known
-    systems : sequence of mappings of str to ndarray
-        numbers, vectors, matrices and tables of each.
-    inputs, work : tuple of int
-        Shapes of the inputs' polynomials and of scratch.
+        ``equations(constants, t, y, inputs)`` gives two sequences of numbers: what stands for slopes, and guards.
+    constants : sequence of dataclass
+        See :mod:`towercrane.kernels.straight.leaves`; alike in all but their numbers.
+    states : int
+        Entries of y.
+    inputs : tuple of int
+        Shape of the inputs' polynomials.
     """
-    first = systems[0]
-    # Systems share what they do not differ in.
-    distinct = {name: {id(system[name]): system[name] for system in systems}.values() for name in first}
-    zeros = {name: np.all([array == 0.0 for array in arrays], axis=0) for name, arrays in distinct.items()}
-    tables = first["tables"][_index(known)]
-    patterns = (*((array.shape, array.tobytes()) for array in zeros.values()),)
-    numbers = first["numbers"][list(known.numbers)]
-    key = equations, sizes, known, inputs, work, patterns, numbers.tobytes(), tables.tobytes()
+    zeros = np.all([numbers_of(own) == 0.0 for own in constants], axis=0)
+    key = equations, known_of(constants[0]), states, inputs, zeros.tobytes()
     found = _WRITTEN.get(key)
     if found is None:
-        found = _record(equations, sizes, known, first, zeros, inputs, work)
+        found = _record(equations, constants[0], zeros, states, inputs)
         if len(_WRITTEN) >= MOST_KEPT:
             del _WRITTEN[next(iter(_WRITTEN))]
         _WRITTEN[key] = found
     return found
 
 
-def _index(known: Known) -> tuple[NDArray[np.int64], ...]:
-    """The known entries of the tables as an index."""
-    return tuple(np.array(known.tables, dtype=int).reshape(-1, 3).T)
-
-
 def _record(
-    equations: Callable[..., None], sizes: tuple[int, int], known: Known, data: Data, zeros: Mapping[str, Any],
-    inputs: tuple[int, int], work: tuple[int, int],
-) -> Written:  # fmt: skip
+    equations: Callable[..., Any], constants: Any, zeros: NDArray[np.bool_], states: int, inputs: tuple[int, int]
+) -> Written:
     graph = Graph()
-    numbers = graph.given("constant", *data["numbers"].shape)
-    numbers[zeros["numbers"]] = 0.0
-    for place in known.changing:
+    numbers = graph.given("constant", len(zeros))
+    numbers[zeros] = 0.0
+    for place in changing(constants):
         numbers[place] = graph.operand("given", "numbers", (place,))
-    for place in known.numbers:
-        numbers[place] = float(data["numbers"][place])
-    vectors, matrices = (graph.given(name, *data[name].shape) for name in ("vectors", "matrices"))
-    vectors[zeros["vectors"]], matrices[zeros["matrices"]] = 0.0, 0.0
-    tables = Table(graph, "tables", data["tables"].shape)
-    if known.tables:
-        tables.entries = graph.given("tables", *tables.shape)
-        tables.entries[zeros["tables"]] = 0.0
-        tables.entries[_index(known)] = data["tables"][_index(known)]
-    slopes, guards, scratch = (np.zeros(shape, dtype=object) for shape in (*sizes, work))
-    equations(
-        graph.operand("given", "t", ()), graph.given("y", sizes[0]), slopes, graph.given("inputs", *inputs), numbers,
-        vectors, matrices, tables, scratch, guards,
-    )  # fmt: skip
+    table = table_of(constants)
+    given = with_numbers(constants, numbers, Table(graph, "tables", table.shape))
+    slopes, guards = equations(
+        given, graph.operand("given", "t", ()), graph.given("y", states), graph.given("inputs", *inputs)
+    )
     outputs = {
         (name, index): graph.place(value)
         for name, values in (("dy", slopes), ("guards", guards))
         for index, value in enumerate(values)
     }
-    shapes = {"y": (sizes[0],), "inputs": inputs} | {name: array.shape for name, array in data.items()}
-    return Written(Program(graph, outputs, len(numbers)), shapes)
+    shapes = {"y": (states,), "inputs": inputs, "numbers": zeros.shape, "tables": table.shape}
+    return Written(Program(graph, outputs, len(numbers)), shapes, (len(slopes), len(guards)))

@@ -13,10 +13,9 @@ import numpy as np
 from numba import types
 
 from modal.compiler.compiled import kernel
-from towercrane.kernels.arrays import borrowed, in_lanes, lane_observer_signature, lane_rhs_signature
-from towercrane.kernels.choices import choose
-from towercrane.kernels.vector import LANES
-from towercrane.simulation.directions import longest_turn, restore
+from towercrane.kernels.arrays import borrowed, in_lanes, lane_rhs_signature
+from towercrane.kernels.vector import LANES, choose
+from towercrane.simulation.directions import longest_turn, restore, restore_state
 from towercrane.simulation.guards import FEW_LOOKS, LOOKS, widen
 from towercrane.simulation.lanes import dense_output as looks
 from towercrane.simulation.lanes import queue as lane_queue
@@ -61,7 +60,7 @@ def _take_stages(
 
 @kernel(
     types.boolean(
-        types.FunctionType(lane_rhs_signature()), types.FunctionType(lane_observer_signature()),
+        types.FunctionType(lane_rhs_signature()), types.FunctionType(lane_rhs_signature()),
         queue_type(), answers_type(), lanes_type(),
         types.int64, types.float64[:, ::1], types.float64[::1], types.float64[:, ::1], types.float64[:, ::1],
         types.int64, types.float64, types.float64, types.int64,
@@ -91,7 +90,7 @@ def advance(
     rhs : compiled function
         As in :func:`towercrane.kernels.arrays.lane_rhs_signature`.
     observe : compiled function
-        As in :func:`towercrane.kernels.arrays.lane_observer_signature`.
+        Outputs in place of slopes, and the guards.
     queue, answers, lanes
         See :mod:`towercrane.simulation.lanes.queue`.
     stages, a, c, error, dense, error_order
@@ -119,7 +118,7 @@ def advance(
         in_lanes(lanes.y), in_lanes(lanes.new), in_lanes(lanes.trial), in_lanes(lanes.slope), in_lanes(lanes.k),
     )  # fmt: skip
     inputs, numbers, tables = in_lanes(lanes.inputs), in_lanes(lanes.numbers), borrowed(queue.tables)
-    watched, outputs, sample_times = in_lanes(lanes.watched), in_lanes(lanes.outputs), borrowed(queue.sample_times)
+    seen, outputs, sample_times = in_lanes(lanes.seen), in_lanes(lanes.outputs), borrowed(queue.sample_times)
     directions = borrowed(queue.directions)
     counts, smallest_steps, extremes, series = (
         borrowed(answers.counts), borrowed(answers.smallest_steps),
@@ -193,8 +192,8 @@ def advance(
             wanted = looks.wanted_samples(places, clock, sample_times)
             while wanted:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
-                rhs(clocks[MOMENT], trial, slope, inputs, numbers, tables, guards)
-                observe(trial, lane_trial, guards, watched, outputs, lane_outputs)
+                restore_state(trial, directions)
+                observe(clocks[MOMENT], trial, outputs, inputs, seen, tables, guards)
                 looks.record(lane_outputs, wanted, places, counts, sample_times, extremes, series)
                 wanted = looks.wanted_samples(places, clock, sample_times)
         accepted = clocks[ACCEPTED_STEP]

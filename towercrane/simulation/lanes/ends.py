@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.kernels.polynomial import polynomial
 from towercrane.simulation.lanes.queue import FINISHED, LARGEST, SMALLEST, WAITING, WRITTEN
+from towercrane.simulation.observed import observed_rows
 from towercrane.simulation.trajectory import phase_of
 
 if TYPE_CHECKING:
@@ -14,18 +16,18 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.simulation.lanes.crane import LaneCrane, LaneRun
     from towercrane.simulation.lanes.queue import Answers, Queue
+    from towercrane.simulation.lanes.run import LaneRun
 
     Floats = NDArray[np.float64]
 
 
-def record_ends(crane: LaneCrane, runs: Sequence[LaneRun], queue: Queue, answers: Answers) -> None:
+def record_ends(outputs: tuple[str, ...], runs: Sequence[LaneRun], queue: Queue, answers: Answers) -> None:
     """Let the states in which runs ended count among their extremes, as they do in the rows of single runs.
 
     Parameters
     ----------
-    crane : LaneCrane
+    outputs : tuple of str
     runs : sequence of LaneRun
     queue, answers
         The same runs before their lanes, and after.
@@ -38,8 +40,9 @@ def record_ends(crane: LaneCrane, runs: Sequence[LaneRun], queue: Queue, answers
     due = np.flatnonzero(np.where(finished, written < len(samples), (answers.outcomes != WAITING) & (last < times)))
     if not len(due):
         return
-    guards = np.array([_guards(runs[run], times[run], states[run]) for run in due.tolist()])
-    values = crane.observed(queue.watched[due], states[due], guards)
+    found = [_evaluated(runs[run], times[run], states[run]) for run in due.tolist()]
+    slopes, guards, drives = (np.array(part) for part in zip(*found, strict=True))
+    values = observed_rows([runs[run].model for run in due.tolist()], outputs, states[due], slopes, guards, drives)
     for extreme, beyond in ((LARGEST, np.greater), (SMALLEST, np.less)):
         farther, place = np.nonzero(beyond(values, answers.extremes[due, :, extreme]))
         answers.extremes[due[farther], place, extreme] = values[farther, place]
@@ -50,9 +53,11 @@ def record_ends(crane: LaneCrane, runs: Sequence[LaneRun], queue: Queue, answers
                 answers.series[run, written[run] :] = row
 
 
-def _guards(run: LaneRun, time: float, state: Floats) -> Floats:
-    """Guards of a run where it ended; at a switch time those of the phase which begins."""
+def _evaluated(run: LaneRun, time: float, state: Floats) -> tuple[Floats, Floats, Floats]:
+    """Slope, guards and drives of a run where it ended; at a switch time those of the phase which begins."""
     cut = run.phases
     phase = int(phase_of(np.asarray(time), cut))
     inputs = cut.inputs[phase] if phase < len(cut.inputs) else cut.after
-    return np.asarray(run.model.system.slope(time - cut.times[phase], state, inputs)[1])
+    local = time - cut.times[phase]
+    drives = np.transpose(polynomial(inputs.T, local))
+    return *run.model.system.slope(local, state, inputs), drives

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.kernels.arrays import lane_rhs_signature
+from towercrane.kernels.straight.leaves import numbers_of
+from towercrane.kernels.straight.written import written
 from towercrane.kernels.vector import LANES
 from towercrane.simulation.arguments import check_times, check_tolerances
 from towercrane.simulation.directions import restore_rows
@@ -41,6 +42,7 @@ from towercrane.simulation.lanes.queue import FINISHED as FINISHED_CODE
 from towercrane.simulation.lanes.queue import NOT_FINITE as NOT_FINITE_CODE
 from towercrane.simulation.methods.method import DEFAULT
 from towercrane.simulation.methods.registry import pair_of
+from towercrane.simulation.observed import Looked, scalars
 from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE
 from towercrane.simulation.system import NoEquilibrium, written_of
 from towercrane.simulation.trajectory import phase_of
@@ -51,7 +53,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.kernels.straight.written import Written
-    from towercrane.simulation.lanes.crane import LaneCrane, LaneRun
+    from towercrane.simulation.lanes.run import LaneRun
     from towercrane.simulation.methods.runge_kutta import RungeKutta
     from towercrane.simulation.system import System
 
@@ -96,10 +98,10 @@ class LaneAnswers:
 
 
 def integrate_many(
-    crane: LaneCrane,
     runs: Sequence[LaneRun],
     sample_times: Floats,
     *,
+    outputs: Sequence[str] | None = None,
     method: str = DEFAULT,
     rtol: float = 1e-8,
     atol: float = 1e-10,
@@ -111,12 +113,12 @@ def integrate_many(
 
     Parameters
     ----------
-    crane : LaneCrane
-        Of all runs, such as :data:`towercrane.cranes.tower.lanes.PLANE_CRANES`.
     runs : sequence of LaneRun
-        With the same numbers of modes and the same shapes of the jib's modes.
+        Whose equations are alike but for their numbers, and have no switch.
     sample_times : ndarray, shape (p,)
         Increasing times at which the outputs are looked at [s].
+    outputs : sequence of str, optional
+        Names of single numbers that the model shows; all by default.
     method : str
         Name of a Runge-Kutta pair.
     rtol, atol : float
@@ -140,30 +142,38 @@ def integrate_many(
         raise ValueError(f"threads: wanted one or more, got {threads!r}")
     if not runs:
         raise ValueError("runs: wanted one or more, got none")
-    system = runs[0].model.system
-    if any(not _alike(run.model.system, system) for run in runs):
+    model, system = runs[0].model, runs[0].model.system
+    if any(not run.model.system.alike(system) for run in runs):
         raise ValueError("runs: wanted the same numbers and shapes of modes in all, got different ones")
-    answers = _answers(len(runs), system, len(crane.outputs), len(sample_times) if series else 0)
+    if system.switch is not None:
+        raise ValueError("runs: wanted equations that do not switch, got some that do")
+    names = scalars(model) if outputs is None else tuple(outputs)
+    if unknown := set(names) - set(scalars(model)):
+        raise ValueError(f"outputs: wanted some of {', '.join(scalars(model))}, got {min(unknown)!r}")
+    answers = _answers(len(runs), system, len(names), len(sample_times) if series else 0)
     workers = threads or available_cores()
     share = min(RUNS_PER_TASK, max(LANES, -(-len(runs) // (4 * workers))))
     turn, stop = pair.longest_turn(rtol), threading.Event()
     # Runs with polynomials of lower degree are padded.
-    code = written_of([run.model.system for run in runs], max(run.phases.inputs.shape[1:] for run in runs))
-    rhs = code.rhs(lane_rhs_signature(), LANES)
+    shape = max(run.phases.inputs.shape[1:] for run in runs)
+    code = written_of([run.model.system for run in runs], shape)
+    looked = Looked(system.equations, model.outputs, names)
+    looks = written(looked, [run.model.seen for run in runs], system.size, shape)
+    rhs, observe = code.rhs(LANES), looks.rhs(LANES)
 
     def work(first: int) -> None:
         task = slice(first, first + share)
         mine = Answers(*(array[task] for array in answers))
-        queue = _queue(crane, runs[task], mine, sample_times, atol, pair, code)
-        lanes = lanes_for(queue, len(pair.a), len(crane.outputs))
+        queue = _queue(runs[task], mine, sample_times, atol, pair, code, looks)
+        lanes = lanes_for(queue, len(pair.a), len(names))
         left = True
         while left and not stop.is_set():
             left = advance(
-                rhs, crane.observe, queue, mine, lanes, pair.stages, pair.a, pair.c, pair.error, pair.dense,
+                rhs, observe, queue, mine, lanes, pair.stages, pair.a, pair.c, pair.error, pair.dense,
                 pair.error_order, rtol, turn, STEPS_PER_CALL,
             )  # fmt: skip
-        record_ends(crane, runs[task], queue, mine)
-        off = off_balance(crane, runs[task], queue, mine, rtol, atol)
+        record_ends(names, runs[task], queue, mine)
+        off = off_balance(runs[task], queue, mine, rtol, atol)
         mine.outcomes[(mine.outcomes > NO_START) & off] = OFF_BALANCE
 
     with ThreadPoolExecutor(workers) as pool:
@@ -180,7 +190,7 @@ def integrate_many(
         for future in futures:
             if not future.cancelled():
                 future.result()
-    return _told(crane, runs, answers)
+    return _told(runs, answers)
 
 
 def available_cores() -> int:
@@ -189,25 +199,27 @@ def available_cores() -> int:
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
-def _alike(one: System, other: System) -> bool:
-    """Whether two systems can share lanes."""
-    if one.size != other.size or one.tables.shape != other.tables.shape:
-        return False
-    return one.tables is other.tables or np.array_equal(one.tables, other.tables)
-
-
 def _start(run: LaneRun) -> tuple[Floats, int]:
     """State at the start of a run, and whether it waits for a lane or has no equilibrium to start from."""
-    inputs = run.phases.inputs[0]
+    inputs = run.start_inputs
     try:
         return run.model.start(inputs, run.state, run.swing_angle), WAITING
     except NoEquilibrium:
         return run.model.start(inputs, "zero", run.swing_angle), NO_START
 
 
+def _refusal(run: LaneRun) -> str:
+    """Outcome of a run that has no equilibrium to start from."""
+    try:
+        run.model.start(run.start_inputs, run.state, run.swing_angle)
+    except NoEquilibrium as failure:
+        return failure.outcome
+    raise AssertionError("a start that was refused is refused again")
+
+
 def _queue(
-    crane: LaneCrane, runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, pair: RungeKutta,
-    code: Written,
+    runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, pair: RungeKutta, code: Written,
+    looks: Written,
 ) -> Queue:  # fmt: skip
     """The runs' data as the compiled steps want them; runs with fewer phases are padded."""
     systems = [run.model.system for run in runs]
@@ -215,7 +227,7 @@ def _queue(
     # Runs that differ in their motions alone begin in the same state.
     found: dict[tuple[Any, ...], tuple[Floats, int]] = {}
     for number, run in enumerate(runs):
-        data = (run.phases.inputs[0, :, 0], *run.model.system.constants[:3])
+        data = run.start_inputs, run.model.system.numbers
         key = (run.state, run.swing_angle, *(array.tobytes() for array in data))
         if key not in found:
             found[key] = _start(run)
@@ -239,15 +251,15 @@ def _queue(
         starts=starts,
         atol=atol * np.array([system.scale for system in systems]),
         longest_steps=np.array([pair.longest_step(system.fastest) for system in systems]),
-        numbers=np.ascontiguousarray(code.numbers_of_many([system.data for system in systems]).T),
+        numbers=np.ascontiguousarray(code.numbers(np.array([system.numbers for system in systems]).T).T),
         floors=np.array([system.floors for system in systems]),
-        watched=np.array([crane.watched(run.model) for run in runs]),
+        seen=np.ascontiguousarray(looks.numbers(np.array([numbers_of(run.model.seen) for run in runs]).T).T),
         phase_counts=np.array([len(run.phases.inputs) for run in runs]),
         phase_times=times,
         inputs=inputs,
         first_samples=first_samples,
         sample_times=np.array(sample_times, dtype=float),
-        tables=systems[0].tables,
+        tables=systems[0].table,
         directions=systems[0].directions,
     )
 
@@ -266,14 +278,17 @@ def _answers(count: int, system: System, outputs: int, samples: int) -> Answers:
     )
 
 
-def _told(crane: LaneCrane, runs: Sequence[LaneRun], answers: Answers) -> LaneAnswers:
+def _told(runs: Sequence[LaneRun], answers: Answers) -> LaneAnswers:
     """Outcomes by name; nothing of runs that were interrupted."""
     names = {
-        WAITING: INTERRUPTED, NO_START: crane.unstable, FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED,
+        WAITING: INTERRUPTED, FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED,
         NOT_FINITE_CODE: NOT_FINITE, OFF_BALANCE: NOT_CONSERVED,
     }  # fmt: skip
     codes = zip(runs, answers.outcomes.tolist(), strict=True)
-    outcomes = [names[code] if code in names else run.model.system.guards[code - FIRST_GUARD] for run, code in codes]
+    outcomes = [
+        _refusal(run) if code == NO_START else names.get(code) or run.model.system.guards[code - FIRST_GUARD]
+        for run, code in codes
+    ]
     answers.extremes[answers.outcomes == WAITING] = np.nan
     counts = answers.counts
     return LaneAnswers(

@@ -12,7 +12,7 @@ from numba import types
 
 from modal.compiler.compiled import kernel
 from towercrane.kernels.vector import LANES
-from towercrane.simulation.step_size import FREELY
+from towercrane.simulation.methods.step_size import FREELY
 
 RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED = range(7)
 """Rows of a lane's places: run (-1: idle), phase, next sample, first sample of the next phase, whether the slope at
@@ -43,11 +43,9 @@ class Queue(NamedTuple):
         The runs to take, in this order.
     starts, atol : ndarray, shapes (runs, size)
     longest_steps : ndarray, shape (runs,)
-    numbers : ndarray, shape (runs, ...)
-        Numbers of each run, and behind them what follows from its constants.
+    numbers, seen : ndarray, shape (runs, ...)
+        Numbers of each run's equations and of its outputs, and behind them what follows from its constants.
     floors : ndarray, shape (runs, guards)
-    watched : ndarray, shape (runs, linear outputs, coordinates)
-        Outputs that are linear in the coordinates.
     phase_counts : ndarray of int, shape (runs,)
     phase_times : ndarray, shape (runs, phases + 1)
     inputs : ndarray, shape (runs, phases, channels, k)
@@ -64,8 +62,8 @@ class Queue(NamedTuple):
     atol: Any
     longest_steps: Any
     numbers: Any
+    seen: Any
     floors: Any
-    watched: Any
     phase_counts: Any
     phase_times: Any
     inputs: Any
@@ -109,7 +107,7 @@ class Lanes(NamedTuple):
     y, new, trial, slope, atol : ndarray, shape (size, lanes)
     k : ndarray, shape (m, size, lanes)
     guards, lowest, highest, floors : ndarray, shape (guards, lanes)
-    inputs, numbers, watched : ndarray, shapes (..., lanes)
+    inputs, numbers, seen : ndarray, shapes (..., lanes)
         Of the run in each lane.
     norms : ndarray, shape (2, lanes)
     outputs : ndarray, shape (outputs, lanes)
@@ -130,7 +128,7 @@ class Lanes(NamedTuple):
     floors: Any
     inputs: Any
     numbers: Any
-    watched: Any
+    seen: Any
     norms: Any
     outputs: Any
 
@@ -140,7 +138,7 @@ def queue_type() -> Any:
     one, two, three, four = (types.Array(types.float64, axes, "C") for axes in (1, 2, 3, 4))
     integers = types.Array(types.int64, 1, "C")
     indices = types.int64[:, ::1]
-    fields = [integers, two, two, one, two, two, three, integers, two, four, indices, one, three, indices]
+    fields = [integers, two, two, one, two, two, two, integers, two, four, indices, one, three, indices]
     return types.NamedTuple(fields, Queue)
 
 
@@ -155,7 +153,7 @@ def lanes_type() -> Any:
     """Numba type of :class:`Lanes`."""
     two, three = (types.Array(types.float64, axes, "C") for axes in (2, 3))
     states, guards = [two] * 5, [two] * 4
-    fields = [types.int64[::1], types.int64[:, ::1], two, *states, three, *guards, three, two, three, two, two]
+    fields = [types.int64[::1], types.int64[:, ::1], two, *states, three, *guards, three, two, two, two, two]
     return types.NamedTuple(fields, Lanes)
 
 
@@ -185,7 +183,7 @@ def lanes_for(queue: Queue, stages: int, outputs: int) -> Lanes:
         # Before its first run a lane computes with ones: zeros would divide by zero.
         inputs=lanes(*queue.inputs.shape[2:]) + 1.0,
         numbers=lanes(queue.numbers.shape[1]) + 1.0,
-        watched=lanes(*queue.watched.shape[1:]),
+        seen=lanes(queue.seen.shape[1]) + 1.0,
         norms=lanes(2),
         outputs=lanes(outputs),
     )
@@ -208,9 +206,8 @@ def fill(queue: Any, lanes: Any, lane: int) -> None:
         lanes.numbers[i, lane] = queue.numbers[run, i]
     for g in range(lanes.floors.shape[0]):
         lanes.floors[g, lane] = queue.floors[run, g]
-    for i in range(lanes.watched.shape[0]):
-        for j in range(lanes.watched.shape[1]):
-            lanes.watched[i, j, lane] = queue.watched[run, i, j]
+    for i in range(lanes.seen.shape[0]):
+        lanes.seen[i, lane] = queue.seen[run, i]
 
 
 @kernel()

@@ -36,7 +36,7 @@ from towercrane.simulation.lanes.queue import (
     TRIAL,
     end_run,
 )
-from towercrane.simulation.step_size import SHORTEST, SLOWLY, first_step, step_factor
+from towercrane.simulation.methods.step_size import SHORTEST, SLOWLY, first_step, step_factor
 
 
 @kernel()

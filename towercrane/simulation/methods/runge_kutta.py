@@ -130,17 +130,15 @@ class RungeKutta(Method):
     def carry(self, run: Run, phases: Phases, sample_times: Floats, split: bool, progress: Progress | None) -> str:
         """Carry a run on through its phases, in place; how it ended."""
         from towercrane.simulation import stepper
-        from towercrane.simulation.step_size import FREELY
+        from towercrane.simulation.methods.step_size import FREELY
 
         system = run.system
         guards, floors = np.empty(len(system.guards)), system.floors.copy()
-        rhs, (numbers, *others) = system.code(phases.inputs[0])
-        numbers = numbers.copy()
-        constants = (numbers, *others)
+        rhs, own = system.code(phases.inputs[0])
+        numbers, table = own.copy(), system.table
         ranges = np.empty((2, len(guards)))
         k, scratch = np.empty((len(self.a), system.size)), np.empty((3, system.size))
-        work, turn = np.zeros(system.work_shape), self.longest_turn(run.rtol)
-        step, growth = 0.0, FREELY
+        step, growth, turn = 0.0, FREELY, self.longest_turn(run.rtol)
         owner = phase_of(sample_times, phases)
         for phase, inputs in enumerate(phases.inputs):
             begin, t_end = float(phases.times[phase]), float(phases.times[phase + 1] - phases.times[phase])
@@ -153,7 +151,7 @@ class RungeKutta(Method):
             counts = np.zeros(len(run.counts), dtype=np.int64)
 
             def guards_at(inputs: Floats = inputs, clock: Floats = clock) -> Floats:
-                rhs(clock[stepper.TIME], run.state, scratch[0], inputs, *constants, work, guards)
+                rhs(clock[stepper.TIME], run.state, scratch[0], inputs, numbers, table, guards)
                 return guards
 
             if system.switch is not None:
@@ -162,7 +160,7 @@ class RungeKutta(Method):
                 rhs, self.stages, self.a, self.c, self.error, self.dense,
                 self.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, system.directions, k, scratch,
                 np.minimum(sample_times[mine] - begin, t_end), run.samples[first : first + np.count_nonzero(mine)],
-                STEPS_PER_CALL, inputs, *constants, work, guards, ranges, floors,
+                STEPS_PER_CALL, inputs, numbers, table, guards, ranges, floors,
             )  # fmt: skip
             status, interrupted, stalled, fresh = stepper.PAUSED, False, 0, True
             while status == stepper.PAUSED and not interrupted:
@@ -211,7 +209,7 @@ def _enter(
 ) -> int:
     """Whether the run goes on, with the slope and the guards where it stands; a first step if it has none."""
     from towercrane.simulation import stepper
-    from towercrane.simulation.step_size import first_step
+    from towercrane.simulation.methods.step_size import first_step
 
     counts[EVALUATIONS] += 1
     if not np.all(np.isfinite(slope)):

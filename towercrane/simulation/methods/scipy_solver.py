@@ -10,8 +10,8 @@ import scipy.integrate
 
 from towercrane.simulation.directions import restore_rows
 from towercrane.simulation.guards import first_fall
+from towercrane.simulation.methods.step_size import SHORTEST
 from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE
-from towercrane.simulation.step_size import SHORTEST
 from towercrane.simulation.trajectory import ACCEPTED, EVALUATIONS, REJECTED, WRITTEN, phase_of
 
 if TYPE_CHECKING:
@@ -49,13 +49,13 @@ def solve(
         Name of its class in :mod:`scipy.integrate`.
     """
     system = run.system
-    slope, guards, work = np.empty(system.size), np.empty(len(system.guards)), np.zeros(system.work_shape)
-    current, (compiled, constants) = 0, system.code(phases.inputs[0])
+    slope, guards = np.empty(system.size), np.empty(len(system.guards))
+    current, (compiled, numbers) = 0, system.code(phases.inputs[0])
 
     def rhs(t: float, y: Floats) -> Floats:
         phase = current if split else min(int(phase_of(np.array([t]), phases)[0]), len(phases.inputs) - 1)
         local = t - phases.times[phase]
-        compiled(local, np.ascontiguousarray(y), slope, phases.inputs[phase], *constants, work, guards)
+        compiled(local, np.ascontiguousarray(y), slope, phases.inputs[phase], numbers, system.table, guards)
         return slope.copy()
 
     def margins(t: float, y: Floats) -> Floats:

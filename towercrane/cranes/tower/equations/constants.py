@@ -1,23 +1,150 @@
-"""The constants of a flexible crane's compiled equations, as :mod:`towercrane.cranes.tower.kernels.layout` orders
-them."""
+"""The constants of a flexible crane's equations."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.tower.kernels import layout
+from towercrane.cranes.tower.modes.mass_sums import Straight
+from towercrane.cranes.tower.modes.shape_table import shape_table
+from towercrane.kernels.algebra import Row
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.equations.coordinates import Coordinates
+    from towercrane.kernels.payload import Load
 
     Floats = NDArray[np.float64]
+    Table = Floats
 
 TILT_LIMIT = 0.5
 """Tilt of the tower top at which a run ends as buckled [rad]: far beyond what a beam theory of small slopes holds."""
+
+TROLLEY, ROPE, SLEWING = range(3)
+"""Motions that drive it; a slewing motion is there unless the head is fixed, the wind's three come last."""
+
+SLIDE_X, SLIDE_Y, TILT_X, TILT_Y, TURN = range(5)
+"""Motions of the head: u_x and u_y of the tower's top, tilt vector th_x and th_y, turning."""
+
+Drives = Row
+"""Value, rate and acceleration of each of these motions."""
+
+KINDS = "tower_x", "tower_y", "torsion", "slewing", "jib_lateral", "jib_vertical"
+"""Kinds of coordinates in the order of the state."""
+
+
+@dataclass(frozen=True, eq=False)
+class Constants:
+    """What the equations know of a crane; n coordinates.
+
+    Parameters
+    ----------
+    axes : {2, 3}
+        Of space for the load, the vertical last; with 2 the coordinates must leave the crane in its plane.
+    counts : tuple of 6 int
+        Coordinates of each kind.
+    slewing : {"fixed", "prescribed", "driven"}
+    wind : bool
+    load : Load
+    drive : Drive or None
+        Of a head that is driven.
+    trolley_mass, gravity, self_gravity : float
+        [kg], [m/s^2]; the last, of the structure, is zero where its own weight is left out.
+    slewing_mass, static_moment, roll, pitch, yaw : float
+        Mass, first moment and moments of inertia of what turns [kg, kg m, kg m^2].
+    jib_length, tilt_limit : float
+        [m], [rad]
+    head_area, head_area_moment : float
+        Drag per squared speed of jib and counter-jib, and its first moment [kg/m, kg].
+    plane_cosine, plane_sine : float
+        Of the angle from the fixed x axis to the first axis of the coordinates, not zero in a plane alone.
+    motions : ndarray, shape (5, n)
+        What a coordinate moves the head: SLIDE_X to TURN.
+    jib_mass, jib_moment : ndarray, shape (n,)
+        int m phi and int m x phi of the jib's modes, zero elsewhere.
+    damping, exposure, cap : ndarray, shape (n,)
+        Viscous damping; int c phi with the drag c per squared speed; mass added where a frequency is capped.
+    own_mass, stiffness : ndarray, shape (n, n)
+        Mass of the tower alone, of the drive, and int m phi_i phi_j of all jib modes, lateral with vertical too.
+    shapes : ndarray, shape (cells, jib modes, terms)
+        Shapes of the jib's modes as polynomials about the middle of equal cells.
+    """
+
+    axes: int
+    counts: tuple[int, ...]
+    slewing: str
+    wind: bool
+    load: Load
+    drive: Drive | None
+    trolley_mass: float
+    gravity: float
+    self_gravity: float
+    slewing_mass: float
+    static_moment: float
+    roll: float
+    pitch: float
+    yaw: float
+    jib_length: float
+    tilt_limit: float
+    head_area: float
+    head_area_moment: float
+    plane_cosine: float
+    plane_sine: float
+    motions: Floats
+    jib_mass: Floats
+    jib_moment: Floats
+    damping: Floats
+    exposure: Floats
+    cap: Floats
+    own_mass: Floats
+    stiffness: Floats
+    shapes: Table
+
+    @property
+    def coordinates(self) -> int:
+        """Number of coordinates."""
+        return sum(self.counts)
+
+    def part(self, kind: str) -> range:
+        """Coordinates of a kind."""
+        ends = [0, *accumulate(self.counts)]
+        at = KINDS.index(kind)
+        return range(ends[at], ends[at + 1])
+
+    @property
+    def lateral(self) -> range:
+        """Jib modes to the left."""
+        return self.part("jib_lateral")
+
+    @property
+    def vertical(self) -> range:
+        """Jib modes up."""
+        return self.part("jib_vertical")
+
+    @property
+    def movers(self) -> int:
+        """Number of coordinates that move the head; the jib's modes follow them."""
+        return self.lateral.start
+
+    @property
+    def straight(self) -> Straight:
+        """Mass of what turns, while nothing bends."""
+        return Straight(self.slewing_mass, self.static_moment, self.roll, self.pitch, self.yaw)
+
+    @property
+    def turns(self) -> bool:
+        """Whether the head can turn."""
+        return self.slewing != "fixed" or len(self.part("torsion")) > 0
+
+    @property
+    def fixed_axes(self) -> tuple[int, ...]:
+        """Which of the axes x, y, z a load has."""
+        return (0, 1, 2) if self.axes == 3 else (0, 2)
 
 
 def geometric_stiffness(model: Coordinates) -> Floats:
@@ -32,77 +159,87 @@ def geometric_stiffness(model: Coordinates) -> Floats:
     return np.asarray(crane.gravity * (above * slopes + own * weights))
 
 
-def numbers(model: Coordinates) -> Floats:
-    """Places of coordinates, rigid masses, load, channels, drive; shape (layout.NUMBERS,)."""
-    crane, load, drive, slewing = model.crane, model.load, model.drive, model.crane.slewing
-    values = np.zeros(layout.NUMBERS)
-    values[: len(model.counts)] = np.cumsum(list(model.counts.values()))
-    values[layout.TROLLEY_MASS] = crane.trolley_mass
-    values[layout.GRAVITY] = crane.gravity
-    values[layout.SELF_GRAVITY] = crane.gravity if model.self_weight else 0.0
-    values[layout.SLEWING_MASS], values[layout.STATIC_MOMENT] = slewing.mass, slewing.moment
-    values[layout.ROLL], values[layout.PITCH], values[layout.YAW] = slewing.roll, slewing.pitch, slewing.yaw
-    values[layout.JIB_LENGTH] = crane.jib_length
-    values[layout.TILT_LIMIT] = TILT_LIMIT
-    values[layout.LOAD_MASS] = load.mass
-    values[layout.DRAG] = load.drag
-    values[layout.HINGE_DAMPING] = load.rope_damping
-    values[layout.SLEWING_CHANNEL] = -1 if model.slewing == "fixed" else layout.SLEWING
-    values[layout.WIND_CHANNEL] = len(model.channels) - 3 if model.wind else -1
-    values[layout.PLANE_COSINE], values[layout.PLANE_SINE] = np.cos(model.heading), np.sin(model.heading)
-    values[layout.FRICTION_RATE] = 1.0
-    if drive is not None:
-        values[layout.SOFT], values[layout.STIFF] = drive.soft, drive.stiff
-        values[layout.CORNER], values[layout.DRIVE_DAMPING] = drive.corner, drive.damping
-        if drive.friction == "tanh":
-            values[layout.FRICTION_TORQUE] = drive.friction_torque
-            values[layout.FRICTION_RATE] = drive.friction_rate
-    if crane.exposure is not None:
-        values[layout.HEAD_AREA], values[layout.HEAD_AREA_MOMENT] = crane.exposure.mass, crane.exposure.moment
-    return values
+def constants_of(model: Coordinates) -> Constants:
+    """Constants of a crane in its chosen coordinates."""
+    crane, drive, slewing, exposure = model.crane, model.drive, model.crane.slewing, model.crane.exposure
+    return Constants(
+        axes=model.axes,
+        counts=tuple(model.counts[kind] for kind in KINDS),
+        slewing="driven" if drive is not None else str(model.slewing),
+        wind=model.wind,
+        load=model.load,
+        drive=drive,
+        trolley_mass=crane.trolley_mass,
+        gravity=crane.gravity,
+        self_gravity=crane.gravity if model.self_weight else 0.0,
+        slewing_mass=slewing.mass,
+        static_moment=slewing.moment,
+        roll=slewing.roll,
+        pitch=slewing.pitch,
+        yaw=slewing.yaw,
+        jib_length=crane.jib_length,
+        tilt_limit=TILT_LIMIT,
+        head_area=0.0 if exposure is None else exposure.mass,
+        head_area_moment=0.0 if exposure is None else exposure.moment,
+        plane_cosine=np.cos(model.heading),
+        plane_sine=np.sin(model.heading),
+        cap=model.added_mass,
+        shapes=shape_table((crane.lateral, crane.vertical), crane.jib_length),
+        **_of_coordinates(model),
+        own_mass=own_mass(model),
+        stiffness=stiffness(model),
+    )
 
 
-def vectors(model: Coordinates) -> Floats:
-    """What each coordinate moves, carries, loses and shows the wind; shape (layout.VECTORS, coordinates)."""
+def _of_coordinates(model: Coordinates) -> dict[str, Floats]:
+    """What each coordinate moves, carries, loses and shows the wind."""
     crane, parts, n = model.crane, model.parts, model.coordinates
-    values = np.zeros((layout.VECTORS, n))
+    motions, exposure, jib_mass, jib_moment = np.zeros((TURN + 1, n)), np.zeros(n), np.zeros(n), np.zeros(n)
     # One mode list per plane of the tower: both see the same tip, slope and wind.
     swept = crane.tower_drag * crane.tower.deflection_integrals()
-    planes = ("tower_x", layout.SLIDE_X, layout.TILT_Y, 1.0), ("tower_y", layout.SLIDE_Y, layout.TILT_X, -1.0)
-    for plane, slide, tilt, sense in planes:
+    for plane, slide, tilt, sense in (("tower_x", SLIDE_X, TILT_Y, 1.0), ("tower_y", SLIDE_Y, TILT_X, -1.0)):
         if model.counts[plane]:
-            values[slide, parts[plane]] = crane.tower(crane.tower_height)
-            values[tilt, parts[plane]] = sense * crane.top_slope
-            values[layout.EXPOSURE, parts[plane]] = swept
-    values[layout.TURN, parts["torsion"]] = crane.torsion(crane.tower_height)
-    values[layout.TURN, parts["slewing"]] = 1.0
+            motions[slide, parts[plane]] = crane.tower(crane.tower_height)
+            motions[tilt, parts[plane]] = sense * crane.top_slope
+            exposure[parts[plane]] = swept
+    motions[TURN, parts["torsion"]] = crane.torsion(crane.tower_height)
+    motions[TURN, parts["slewing"]] = 1.0
     jib = slice(parts["jib_lateral"].start, n)
-    values[layout.JIB_MASS, jib] = crane.slewing.first
-    values[layout.JIB_MOMENT, jib] = crane.slewing.second
+    jib_mass[jib], jib_moment[jib] = crane.slewing.first, crane.slewing.second
     if crane.exposure is not None:
-        values[layout.EXPOSURE, jib] = crane.exposure.first
+        exposure[jib] = crane.exposure.first
     d = model.damping
     ratios = np.repeat([d.tower, d.tower, d.torsion, 0.0, d.lateral, d.vertical], list(model.counts.values()))
     # Of a mode that a cap slows, of its slowed frequency and greater mass: the ratio is as stated.
-    values[layout.DAMPING] = 2.0 * ratios * model.angular_frequencies * np.sqrt(1.0 + model.added_mass)
-    values[layout.CAP] = model.added_mass
-    return values
+    damping = 2.0 * ratios * model.angular_frequencies * np.sqrt(1.0 + model.added_mass)
+    return {
+        "motions": motions, "exposure": exposure, "jib_mass": jib_mass, "jib_moment": jib_moment, "damping": damping,
+    }  # fmt: skip
 
 
-def matrices(model: Coordinates) -> Floats:
-    """Own mass and stiffness of the coordinates; shape (2, coordinates, coordinates)."""
+def own_mass(model: Coordinates) -> Floats:
+    """Mass of the tower alone, of the drive and of the jib's modes; shape (n, n)."""
     crane, parts, n = model.crane, model.parts, model.coordinates
-    own, stiffness = np.zeros((n, n)), np.diag(model.angular_frequencies**2)
+    own = np.zeros((n, n))
     for plane in ("tower_x", "tower_y"):
         if model.counts[plane]:
-            own[parts[plane], parts[plane]], stiffness[parts[plane], parts[plane]] = crane.tower_matrices
-            if model.weight_softening:
-                stiffness[parts[plane], parts[plane]] -= geometric_stiffness(model)
+            own[parts[plane], parts[plane]] = crane.tower_matrices[0]
     own[parts["torsion"], parts["torsion"]] = crane.torsion.mass_matrix()
     own[parts["slewing"], parts["slewing"]] = model.drive_inertia
     jib = slice(parts["jib_lateral"].start, n)
     own[jib, jib] = crane.slewing.products
-    return np.array([own, stiffness])
+    return own
+
+
+def stiffness(model: Coordinates) -> Floats:
+    """Stiffness of the coordinates, less what the weight takes; shape (n, n)."""
+    found = np.diag(model.angular_frequencies**2)
+    for plane in ("tower_x", "tower_y"):
+        if model.counts[plane]:
+            found[model.parts[plane], model.parts[plane]] = model.crane.tower_matrices[1]
+            if model.weight_softening:
+                found[model.parts[plane], model.parts[plane]] -= geometric_stiffness(model)
+    return found
 
 
 def scale(model: Coordinates) -> Floats:

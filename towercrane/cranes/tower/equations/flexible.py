@@ -4,26 +4,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from towercrane.cranes.parts.corner import Corner
-from towercrane.cranes.tower.equations.constants import geometric_stiffness, matrices, numbers, scale, vectors
+from towercrane.cranes.tower.equations import motion
+from towercrane.cranes.tower.equations.constants import (
+    SLEWING,
+    Constants,
+    constants_of,
+    geometric_stiffness,
+    scale,
+    stiffness,
+)
 from towercrane.cranes.tower.equations.coordinates import Coordinates
-from towercrane.cranes.tower.kernels import drive as drive_kernel
-from towercrane.cranes.tower.kernels import layout
-from towercrane.cranes.tower.kernels import structure as flexible_kernel
-from towercrane.cranes.tower.modes.shape_table import shape_table
-from towercrane.kernels.payload import FORCE, JACOBIAN, MASS, SLACK, WIND, Load, work_shape
-from towercrane.kernels.straight.written import Known
+from towercrane.cranes.tower.equations.structure import load_force, static_force, structure
+from towercrane.kernels.payload import SLACK, Load, State, Structure
+from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB
 from towercrane.simulation.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
@@ -37,29 +40,28 @@ class Equations(Coordinates):
     """Equations of motion of a flexible crane with its load."""
 
     @cached_property
+    def constants(self) -> Constants:
+        """Constants of the equations."""
+        return constants_of(self)
+
+    @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
         n, drive = self.coordinates, self.drive
-        floors = np.full(layout.GUARDS, -np.inf)
-        floors[layout.TENSION] = -np.inf if self.rope_as_rod else SLACK
-        floors[[layout.INNER_END, layout.OUTER_END]] = -ROUNDING
-        floors[layout.TILT] = 0.0
-        rows, columns = work_shape(n)
+        floors = np.full(motion.GUARDS, -np.inf)
+        floors[motion.TENSION] = -np.inf if self.rope_as_rod else SLACK
+        floors[[motion.INNER_END, motion.OUTER_END]] = -ROUNDING
+        floors[motion.TILT] = 0.0
         recorded = ("corner", "corner", "slewing torque", "trolley force")
         return System(
-            equations=_equations,
+            equations=motion.motion,
             size=self.size,
             guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded),
             floors=floors,
             scale=scale(self),
-            numbers=numbers(self),
-            vectors=vectors(self),
-            matrices=matrices(self),
-            tables=shape_table((self.crane.lateral, self.crane.vertical), self.crane.jib_length),
-            work_shape=(rows + layout.ROWS, columns),
-            known=Known(layout.KNOWN),
+            constants=self.constants,
             directions=np.array([[n, 2 * n + self.axes, self.axes]]),
-            switch=Corner(layout.INSIDE, layout.OUTSIDE, drive.soft != drive.stiff) if drive else None,
+            switch=Corner(motion.INSIDE, motion.OUTSIDE) if drive and drive.soft != drive.stiff else None,
             fastest=lambda: self.fastest,
         )
 
@@ -77,24 +79,24 @@ class Equations(Coordinates):
             return 0.0
         inputs = np.zeros((len(self.channels), 3))
         inputs[1, 0] = 1.0
-        # Only the lower triangle is there, and read.
-        mass = self.at_rest(np.zeros(n), inputs)[MASS : MASS + n, :n]
-        stiffness = self.system.matrices[layout.STIFFNESS].copy()
+        mass = self.at_rest(np.zeros(n), inputs).mass_matrix()
+        held = self.constants.stiffness.copy()
         if self.drive is not None:
             turned = self.parts["slewing"].start
-            stiffness[turned, turned] += max(self.drive.soft, self.drive.stiff)
-        return float(np.sqrt(max(eigh(stiffness, mass, eigvals_only=True)[-1], 0.0)))
+            held[turned, turned] += max(self.drive.soft, self.drive.stiff)
+        return float(np.sqrt(max(eigh(held, mass, eigvals_only=True)[-1], 0.0)))
 
     def with_load(self, load: Load) -> Self:
         """The same crane with another load: what does not depend on the load is shared, not made again."""
         other = replace(self, load=load)
         steered = np.append(self.system.scale[:-1], load.work_scale(self.crane.gravity, self.crane.jib_length))
-        system = replace(self.system, numbers=numbers(other), scale=steered)
+        constants, fastest = replace(self.constants, load=load), self.system.fastest
         if self.weight_softening:
             # The load's weight takes stiffness, and with it speed, from the tower.
-            system = replace(system, matrices=matrices(other), fastest=lambda: other.fastest)
-        # A cached property that is filled beforehand.
-        vars(other)["system"] = system
+            constants, fastest = replace(constants, stiffness=stiffness(other)), lambda: other.fastest
+        # Cached properties that are filled beforehand.
+        vars(other)["constants"] = constants
+        vars(other)["system"] = replace(self.system, constants=constants, scale=steered, fastest=fastest)
         return other
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
@@ -124,13 +126,13 @@ class Equations(Coordinates):
         if state not in ("equilibrium", "zero"):
             raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
         n, y = self.coordinates, np.zeros(self.size)
-        heading = 0.0 if self.slewing == "fixed" else float(inputs[layout.SLEWING, 0])
+        heading = 0.0 if self.slewing == "fixed" else float(inputs[SLEWING, 0])
         if self.drive is not None:
             y[self.parts["slewing"]] = heading
         hung, outward = -np.eye(self.axes)[-1], np.zeros(self.axes)
         if state == "equilibrium":
             y[:n] = self.equilibrium(inputs)
-            force = self.load_force(self.at_rest(y[:n], inputs))
+            force = np.array(load_force(self.constants, self.at_rest(y[:n], inputs)))
             # Without weight and wind any direction will do.
             hung = force / np.linalg.norm(force) if force.any() else hung
         outward[: self.axes - 1] = np.array([np.cos(heading), np.sin(heading)])[: self.axes - 1]
@@ -154,30 +156,20 @@ class Equations(Coordinates):
         """
         n, origin = self.coordinates, np.zeros(self.coordinates)
         if self.drive is not None:
-            origin[self.parts["slewing"]] = inputs[layout.SLEWING, 0]
-        at_rest = self.rests(inputs)
-        # The wind does not depend on where the crane is.
-        pull = self.load_force(at_rest(origin))
+            origin[self.parts["slewing"]] = inputs[SLEWING, 0]
 
-        def residual(departure: Floats) -> Floats:
-            return _static_force(at_rest(origin + departure), pull, n)
+        def residual(departures: Floats) -> Floats:
+            return self.static_forces(origin[:, None] + departures, inputs)
 
         try:
             return origin + stable_equilibrium(residual, self.system.scale[:n])
         except Unstable as failure:
             raise NoEquilibrium(TOWER_BUCKLED, f"{failure}; {self.buckling_message()}") from failure
 
-    def static_force(self, q: Floats, inputs: Floats) -> Floats:
-        """Generalised forces on the crane at rest with its load hanging at rest; shape (coordinates,)."""
-        work = self.at_rest(q, inputs)
-        return _static_force(work, self.load_force(work), self.coordinates)
-
-    def load_force(self, work: Floats) -> Floats:
-        """Force of weight and wind on the load at rest, as scratch knows the wind [N]; shape (axes,)."""
-        wind = work[WIND, : self.axes]
-        force = self.load.drag * np.linalg.norm(wind) * wind
-        force[-1] -= self.load.mass * self.crane.gravity
-        return np.asarray(force)
+    def static_forces(self, q: Floats, inputs: Floats) -> Floats:
+        """Generalised forces on the crane at rest with its load hanging at rest; shapes (coordinates, p)."""
+        held = np.ascontiguousarray(inputs[:, :1])
+        return written(static_force, [self.constants], self.coordinates, held.shape).values(self.constants, q, held)
 
     def buckling_message(self) -> str:
         """How far the tower is from buckling."""
@@ -186,33 +178,8 @@ class Equations(Coordinates):
         geometric = np.linalg.eigvals(np.linalg.solve(self.crane.tower.stiffness_matrix(), geometric_stiffness(self)))
         return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
 
-    def at_rest(self, q: Floats, inputs: Floats) -> Floats:
-        """Scratch array of the structure at rest at these coordinates, in the wind of the inputs."""
-        return self.rests(inputs)(q)
-
-    def rests(self, inputs: Floats) -> Callable[[Floats], Floats]:
-        """:meth:`at_rest` with these inputs, for many coordinates: every call fills the same array."""
-        n, axes, driven, constants = self.coordinates, self.axes, self.drive is not None, self.system.constants
-        y, work, fixed = np.zeros(self.size), np.zeros(self.system.work_shape), np.zeros_like(inputs)
-        fixed[:, 0] = inputs[:, 0]
-
-        def at_rest(q: Floats) -> Floats:
-            y[:n] = q
-            flexible_kernel.structure(axes, 0.0, y, fixed, *constants, work)
-            if driven:
-                drive_kernel.drive(0.0, y, fixed, constants[0], work)
-            return work
-
-        return at_rest
-
-
-def _equations() -> Any:
-    # Here, since what is asked at rest need not wait until these are compiled.
-    from towercrane.cranes.tower.kernels.rhs import rhs
-
-    return rhs
-
-
-def _static_force(work: Floats, pull: Floats, n: int) -> Floats:
-    """Forces on the coordinates in a scratch array, with a force on the load."""
-    return np.asarray(work[FORCE, :n] + pull @ work[JACOBIAN : JACOBIAN + len(pull), :n])
+    def at_rest(self, q: Floats, inputs: Floats) -> Structure:
+        """The structure at rest at these coordinates, in the wind of the inputs, its drives held."""
+        held = [(value, 0.0, 0.0) for value in inputs[:, 0].tolist()]
+        state = State(q.tolist(), (), (), [0.0] * self.coordinates, (), ())
+        return structure(self.constants, state, held).hanging

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.tower.kernels import layout
-from towercrane.kernels.payload import JACOBIAN, MASS
 from towercrane.simulation.differences import jacobian
 from towercrane.simulation.outcomes import TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
@@ -71,19 +69,18 @@ def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None
     inputs = np.zeros((len(model.channels), 3))
     inputs[:, 0] = np.ravel(np.asarray(drives, dtype=float))
     n, sways, load = model.coordinates, model.axes - 1, model.load.mass
-    work = model.at_rest(np.zeros(n) if about is None else about, inputs)
-    lower = np.tril(work[MASS : MASS + n, :n])
-    columns = work[JACOBIAN : JACOBIAN + model.axes, :n]
+    at_rest = model.at_rest(np.zeros(n) if about is None else about, inputs)
+    columns = np.array(at_rest.jacobian, dtype=float).reshape(model.axes, n)
     mass = np.zeros((n + sways, n + sways))
-    mass[:n, :n] = lower + np.tril(lower, -1).T + load * columns.T @ columns
+    mass[:n, :n] = at_rest.mass_matrix() + load * columns.T @ columns
     mass[n:, :n] = load * columns[:sways]
     mass[:n, n:] = mass[n:, :n].T
     mass[n:, n:] = load * np.eye(sways)
     stiffness = np.zeros_like(mass)
     if about is None:
-        stiffness[:n, :n] = model.system.matrices[layout.STIFFNESS]
+        stiffness[:n, :n] = model.constants.stiffness
     elif n:
-        slope, _ = jacobian(lambda q: -model.static_force(q, inputs), about, model.system.scale[:n])
+        slope, _ = jacobian(lambda q: -model.static_forces(q, inputs), about, model.system.scale[:n])
         stiffness[:n, :n] = 0.5 * (slope + slope.T)
     stiffness[n:, n:] = load * model.crane.gravity / inputs[1, 0] * np.eye(sways)
     return mass, stiffness

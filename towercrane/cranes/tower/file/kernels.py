@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 ROOTS = "modal.beams.roots"
 STRUCTURE, SHAPES = "modal.structures.kernels.structure", "modal.structures.kernels.shapes"
 STEPPER = "towercrane.simulation.stepper"
-AT_REST = ("towercrane.cranes.tower.kernels.structure", ROOTS)
-LANES = ("towercrane.cranes.tower.kernels.lane_outputs", "towercrane.simulation.lanes.advance")
+AT_REST = (ROOTS,)
+LANES = "towercrane.simulation.lanes.advance"
 
 
 def kernels(tables: TowerCase, use: str) -> tuple[str, ...]:
@@ -23,7 +23,7 @@ def kernels(tables: TowerCase, use: str) -> tuple[str, ...]:
     chain = () if uniform_of(tables.crane) is not None else (STRUCTURE, SHAPES)
     uses = {
         "run": (*AT_REST, *chain, STEPPER),
-        "lanes": (*LANES, STEPPER),
+        "lanes": (*AT_REST, *chain, LANES, STEPPER),
         "modes": (*AT_REST, STRUCTURE, SHAPES) if stays_in_plane(tables) else (*AT_REST, *chain),
         "map": (STRUCTURE, SHAPES),
         "lattice": (STRUCTURE,),

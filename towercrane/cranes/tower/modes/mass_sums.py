@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -52,6 +52,16 @@ class Basis(Protocol):
         """Integrals of the shapes over the length."""
 
 
+class Straight(NamedTuple):
+    """What a distribution of mass is while nothing bends: :class:`MassSums` has the same."""
+
+    mass: Any
+    moment: Any
+    roll: Any
+    pitch: Any
+    yaw: Any
+
+
 @dataclass(frozen=True, eq=False)
 class MassSums:
     """Sums over mass along the axis e1 of a head, and over shapes of bending across it.
@@ -81,6 +91,11 @@ class MassSums:
     first: Floats
     second: Floats
     products: Floats
+
+    @property
+    def straight(self) -> Straight:
+        """The sums without shapes."""
+        return Straight(self.mass, self.moment, self.roll, self.pitch, self.yaw)
 
     def __add__(self, other: MassSums) -> MassSums:
         return MassSums(

@@ -1,68 +1,67 @@
-"""Kinetic and potential energy of a flexible crane with its load."""
+"""Kinetic and potential energy of a flexible crane with its load.
+
+The kinetic energy is summed from velocities, without the equations' mass matrix: the balance of energy tests both.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from towercrane.cranes.tower.kernels import layout
+from towercrane.cranes.parts.coupling import coupling_energy
+from towercrane.cranes.tower.equations.constants import SLEWING
+from towercrane.kernels.algebra import dot, form
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
-
-    Floats = NDArray[np.float64]
+    from towercrane.cranes.tower.outputs.kinematics import Kinematics
 
 
-def total_energy(motion: FlexibleMotion) -> Floats:
-    """Kinetic and potential energy, zero level at the undeformed tower top; shape (p,) [J]."""
-    return kinetic_energy(motion) + potential_energy(motion)
+def total_energy(at: Kinematics) -> Any:
+    """Kinetic and potential energy, zero level at the undeformed tower top [J]."""
+    return kinetic_energy(at) + potential_energy(at)
 
 
-def kinetic_energy(motion: FlexibleMotion) -> Floats:
-    """Kinetic energy of crane and load, shape (p,) [J]."""
-    model = motion.model
-    sums, own, rates = model.crane.slewing, model.system.matrices[layout.OWN], motion.rates
-    jib = model.parts["jib_lateral"].start
-    energy = 0.5 * np.einsum("ti,ij,tj->t", rates[:, :jib], own[:jib, :jib], rates[:, :jib])
-    energy += 0.5 * rates**2 @ model.added_mass
-    velocity, spin = np.zeros((len(rates), 3)), motion.spin
-    velocity[:, :2] = motion.top(rates)[0]
-    velocity = motion.to_head(velocity)
-    moment, moment_rate = motion.first_moment(sums), motion.jib_sum(sums.first, rates)
-    squares = motion.products(sums, rates, rates)
-    energy += 0.5 * sums.mass * (velocity**2).sum(axis=1) + 0.5 * (squares[:, 0, 0] + squares[:, 1, 1])
-    energy += (velocity * (np.cross(spin, moment) + moment_rate)).sum(axis=1)
-    energy += 0.5 * np.einsum("ti,tij,tj->t", spin, motion.inertia(sums), spin)
-    energy += (spin * _own_momentum(motion)).sum(axis=1)
-    for mass, speed in (
-        (model.crane.trolley_mass, motion.trolley_in_space[1]),
-        (model.load.mass, motion.load_in_space[1]),
+def kinetic_energy(at: Kinematics) -> Any:
+    """Kinetic energy of crane and load [J]."""
+    crane, rates = at.seen.crane, at.state.rates
+    own = rates[: crane.movers]
+    energy = 0.5 * form(own, crane.own_mass[: len(own), : len(own)], own)
+    energy = energy + 0.5 * dot(crane.cap, [rate * rate for rate in rates])
+    energy = energy + _turning_energy(at)
+    for mass, (_, speed) in ((crane.trolley_mass, at.trolley_in_space), (crane.load.mass, at.load_in_space)):
+        energy = energy + 0.5 * mass * dot(speed, speed)
+    return energy
+
+
+def potential_energy(at: Kinematics) -> Any:
+    """Elastic energy, and weights over the undeformed tower top [J]."""
+    crane, q = at.seen.crane, at.state.coordinates
+    moment = crane.static_moment, *at.deflection(crane.jib_mass[crane.movers :], q)
+    energy = 0.5 * form(q, crane.stiffness, q) + crane.self_gravity * dot(at.head.rows[2], moment)
+    for mass, (place, _) in ((crane.trolley_mass, at.trolley_in_space), (crane.load.mass, at.load_in_space)):
+        energy = energy + crane.gravity * mass * place[2]
+    if (drive := crane.drive) is not None:
+        twist = at.slewing[0] - at.instant.drives[SLEWING][0]
+        energy = energy + coupling_energy(twist, drive.soft, drive.stiff, drive.corner)
+    return energy
+
+
+def _turning_energy(at: Kinematics) -> Any:
+    """Kinetic energy of what turns, without trolley.
+
+    Along each axis of the head its points at x move with v = constant + slope x + sum of bent phi(x).
+    """
+    crane, (wx, wy, wz), (vx, vy, vz) = at.seen.crane, at.head.spin, at.head.top
+    mass, moment, roll, pitch, yaw = crane.straight
+    (left, up), (left_rates, up_rates) = at.of_jib(at.state.coordinates), at.of_jib(at.state.rates)
+    energy = roll * wx * wx
+    for constant, slope, inertia, bent in (
+        (vx, 0.0, 0.0, [*(-wz * q for q in left), *(wy * q for q in up)]),
+        (vy, wz, yaw, [*left_rates, *(-wx * q for q in up)]),
+        (vz, -wy, pitch, [*(wx * q for q in left), *up_rates]),
     ):
-        energy += 0.5 * mass * (speed**2).sum(axis=1)
-    return np.asarray(energy)
-
-
-def potential_energy(motion: FlexibleMotion) -> Floats:
-    """Elastic energy, and weights over the undeformed tower top; shape (p,) [J]."""
-    model, q, crane = motion.model, motion.coordinates, motion.model.crane
-    energy = 0.5 * np.einsum("ti,ij,tj->t", q, model.system.matrices[layout.STIFFNESS], q)
-    weight = crane.gravity if model.self_weight else 0.0
-    energy += weight * motion.to_fixed(motion.first_moment(crane.slewing))[:, 2]
-    energy += crane.gravity * crane.trolley_mass * motion.trolley_in_space[0][:, 2]
-    energy += crane.gravity * model.load.mass * motion.load_in_space[0][:, 2]
-    if (drive := model.drive) is not None:
-        twist = abs(motion.slewing[0] - motion.drive("shaft"))
-        beyond, within = np.maximum(twist - drive.corner, 0.0), np.minimum(twist, drive.corner)
-        energy += 0.5 * drive.soft * within**2 + drive.soft * drive.corner * beyond + 0.5 * drive.stiff * beyond**2
-    return np.asarray(energy)
-
-
-def _own_momentum(motion: FlexibleMotion) -> Floats:
-    """Angular momentum of the jib's bending in the head's axes, sum of m s x s'; shape (p, 3)."""
-    sums = motion.model.crane.slewing
-    mixed = motion.products(sums, motion.coordinates, motion.rates)
-    second = motion.jib_sum(sums.second, motion.rates)
-    return np.stack([mixed[:, 0, 1] - mixed[:, 1, 0], -second[:, 2], second[:, 1]], axis=1)
+        jib = slice(crane.movers, None)
+        # Sums of m (constant + slope x)^2, of twice that times the bending, and of its square.
+        energy = energy + (mass * constant * constant + 2.0 * moment * constant * slope + inertia * slope * slope)
+        energy = energy + 2.0 * (constant * dot(crane.jib_mass[jib], bent) + slope * dot(crane.jib_moment[jib], bent))
+        energy = energy + form(bent, crane.own_mass[jib, jib], bent)
+    return 0.5 * energy

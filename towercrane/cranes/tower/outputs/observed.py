@@ -2,167 +2,189 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.kernels import layout
+from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
+from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
 from towercrane.cranes.tower.outputs.energy import total_energy
-from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
-from towercrane.cranes.tower.outputs.sections import SectionLoads
+from towercrane.cranes.tower.outputs.kinematics import Kinematics
+from towercrane.cranes.tower.outputs.sections import Sections
 from towercrane.cranes.tower.targets import absent
-from towercrane.results.recording import Quantity, load_places
+from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Callable, Sequence
 
     from towercrane.cranes.tower.equations.flexible import Equations
-    from towercrane.motions.motion import Motion
+    from towercrane.cranes.tower.outputs.seen import Seen
+    from towercrane.simulation.observed import Instant
 
-    Floats = NDArray[np.float64]
+
+class Sight(Kinematics):
+    """What outputs are read off."""
+
+    @cached_property
+    def sections(self) -> Sections:
+        """What sections carry."""
+        return Sections(self)
+
+    @cached_property
+    def sways(self) -> tuple[Any, Any, Any]:
+        """Rope outward along the jib's root, to its left, and down."""
+        return (*self.by_jib(*self.rope[:2]), -self.rope[2])
+
+    @cached_property
+    def swing_rate(self) -> Any:
+        """Rate of the swing along the direction that the jib's root has at that time."""
+        (outward, _, down), (rate, _) = self.sways, self.by_jib(*self.swing[:2])
+        return (down * rate + outward * self.swing[2]) / (outward * outward + down * down)
+
+    @cached_property
+    def displacement(self) -> tuple[Any, Any]:
+        """Of the tower's top, along the jib's root and to its left."""
+        return self.by_jib(*self.placed[:2])
+
+    @cached_property
+    def tilt(self) -> tuple[Any, Any]:
+        """Tilt vector along the same."""
+        return self.by_jib(*self.placed[2:4])
+
+    @cached_property
+    def tip(self) -> tuple[Any, Any]:
+        """Deflection of the jib's tip, to the left and up."""
+        return self.deflection(self.seen.tip, self.state.coordinates)
+
+    def amplitudes(self, kind: str) -> Sequence[Any]:
+        """Coordinates of a kind, the tower's along the fixed axes."""
+        crane, q = self.seen.crane, self.state.coordinates
+        if crane.axes == 2 and kind in ("tower_x", "tower_y"):
+            return [self.from_plane(q[i], 0.0)[kind == "tower_y"] for i in crane.part("tower_x")]
+        return [q[i] for i in crane.part(kind)]
 
 
-def observe(
-    model: Equations, motions: dict[str, Motion], times: Floats, states: Floats, guards: Floats
-) -> dict[str, Quantity]:
-    """Outputs of a run; where all stays in the jib's plane, without those that tell nothing there.
+ORIGIN, TURNING_AXES = "the undeformed tower top", "outward along its jib, sideways, up"
 
-    Parameters
-    ----------
-    model : Equations
-    motions : dict
-        One for each of the model's channels.
-    times, states, guards : ndarray, shapes (p,), (p, size) and (p, guards)
+OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
+    "trolley_position": (lambda at: at.instant.drives[TROLLEY][0], About("m", "trolley position along the jib")),
+    "trolley_speed": (lambda at: at.instant.drives[TROLLEY][1], About("m/s", "trolley speed")),
+    "trolley_force": (
+        lambda at: at.instant.guards[TROLLEY_FORCE],
+        About("N", "force of the trolley's drive along the deflected jib, positive outward"),
+    ),
+    "rope_length": (lambda at: at.instant.drives[ROPE][0], About("m", "rope length")),
+    "rope_tension": (lambda at: at.instant.guards[TENSION], About("N", "rope tension, the force of the hoist")),
+    "slewing_angle": (lambda at: at.slewing[0], About("rad", "angle of the head on the tower's top")),
+    "slewing_speed": (lambda at: at.slewing[1], About("rad/s", "rate of that angle")),
+    "slewing_torque": (
+        lambda at: at.instant.guards[SLEWING_TORQUE],
+        About("N m", "torque of the slewing drive on the head; of a coupling with its damper"),
+    ),
+    "shaft_angle": (
+        lambda at: at.instant.drives[SLEWING][0], About("rad", "angle of the drive's shaft, referred to the head"),
+    ),
+    "shaft_speed": (lambda at: at.instant.drives[SLEWING][1], About("rad/s", "speed of the drive's shaft")),
+    "wind_x": (lambda at: at.instant.drives[-3][0], About("m/s", "wind along x")),
+    "wind_y": (lambda at: at.instant.drives[-2][0], About("m/s", "wind along y")),
+    "wind_z": (lambda at: at.instant.drives[-1][0], About("m/s", "wind along z")),
+    "sway_tangential": (
+        lambda at: np.arctan2(at.sways[1], at.sways[2]),
+        About("rad", "sway across the jib's root, atan2(across, down), positive in the turning sense"),
+    ),
+    "sway_radial": (
+        lambda at: np.arctan2(at.sways[0], at.sways[2]),
+        About("rad", "sway along the jib's root, atan2(along, down), positive outward"),
+    ),
+    "swing_rate": (
+        lambda at: at.swing_rate,
+        About("rad/s", "rate of the swing along the direction that the jib's root has at that time"),
+    ),
+    "tower_tip_displacement": (
+        lambda at: at.displacement[0],
+        About("m", "horizontal displacement of the tower top along the jib's root, positive outward"),
+    ),
+    "tower_tip_displacement_sideways": (
+        lambda at: at.displacement[1],
+        About("m", "horizontal displacement of the tower top across the jib's root, positive in the turning sense"),
+    ),
+    "tower_tip_tilt": (
+        lambda at: at.tilt[1], About("rad", "tilt of the tower top along the jib, positive: jib tip down"),
+    ),
+    "tower_tip_roll": (lambda at: at.tilt[0], About("rad", "tilt of the tower top about the jib's root")),
+    "tower_tip_twist": (lambda at: at.twist, About("rad", "twist of the tower top, positive in the turning sense")),
+    "jib_tip_deflection": (
+        lambda at: at.tip[1], About("m", "deflection of the jib tip from the tilted straight jib, positive up"),
+    ),
+    "jib_tip_deflection_sideways": (
+        lambda at: at.tip[0],
+        About("m", "deflection of the jib tip from the straight jib, positive in the turning sense"),
+    ),
+    "jib_root_moment": (
+        lambda at: at.sections.jib_root.moment[1],
+        About("N m", "bending moment at the jib's root, positive under a load"),
+    ),
+    "jib_root_moment_sideways": (
+        lambda at: -at.sections.jib_root.moment[2],
+        About("N m", "bending moment at the jib's root, positive where it speeds the jib up in the turning sense"),
+    ),
+    "base_moment_x": (
+        lambda at: at.sections.base[0],
+        About("N m", "moment of the crane on its base about x, positive: tips towards -y"),
+    ),
+    "base_moment_y": (
+        lambda at: at.sections.base[1],
+        About("N m", "moment of the crane on its base about y, positive: tips towards +x"),
+    ),
+    "base_torque": (
+        lambda at: at.sections.base[2], About("N m", "moment of the crane on its base about the vertical"),
+    ),
+    "total_energy": (total_energy, About("J", "kinetic and potential energy")),
+    "input_work": (
+        lambda at: at.instant.state[-1],
+        About("J", "work of drives and wind less what damping, friction and drag took, since the start"),
+    ),
+    "payload_position": (
+        lambda at: (*at.from_plane(*at.load_in_space[0][:2]), at.load_in_space[0][2]),
+        About("m", f"load from {ORIGIN} in fixed axes: x, y, up", ("fixed_axis",), 3),
+    ),
+    "payload_in_crane_axes": (
+        lambda at: (*at.by_jib(*at.load_in_space[0][:2]), at.load_in_space[0][2]),
+        About("m", f"load from {ORIGIN} in axes that turn with the crane: {TURNING_AXES}", ("axis",), 3),
+    ),
+}  # fmt: skip
+"""How each output is read off and what it is, but for the amplitudes of modes."""
 
-    Returns
-    -------
-    dict of str to Quantity
-    """
-    motion = FlexibleMotion(model, motions, times, states)
-    outputs = {
-        name: Quantity(("time",), values, units, long_name)
-        for name, (values, units, long_name) in {
-            **_drives(motion, guards),
-            **_load(motion),
-            **_deflections(motion),
-            **_sections(motion, guards[:, layout.TENSION]),
-            "total_energy": (total_energy(motion), "J", "kinetic and potential energy"),
-            "input_work": (
-                states[:, -1],
-                "J",
-                "work of drives and wind less what damping, friction and drag took, since the start",
-            ),
-        }.items()
-    }
-    outputs |= load_places(motion.load_in_space[0], motion.heading, "the undeformed tower top")
-    for kind, amplitudes in motion.amplitudes.items():
-        outputs[f"{kind}_coordinate"] = Quantity(
-            ("time", f"{kind}_mode"),
-            amplitudes,
-            "kg^0.5 m",
-            f"amplitude of the mass-normalised modes: {kind.replace('_', ' ')}",
-        )
+
+class Outputs(dict[str, Any]):
+    """Outputs at an instant by name, each worked out when it is asked for; vectors are sequences of numbers."""
+
+    def __init__(self, at: Sight) -> None:
+        super().__init__()
+        self.at = at
+
+    def __missing__(self, name: str) -> Any:
+        kind = name.removesuffix("_coordinate")
+        self[name] = found = OUTPUTS[name][0](self.at) if name in OUTPUTS else self.at.amplitudes(kind)
+        return found
+
+
+def outputs(seen: Seen, instant: Instant) -> Outputs:
+    """Outputs at an instant."""
+    return Outputs(Sight(seen, instant))
+
+
+def about(model: Equations) -> dict[str, About]:
+    """What the outputs are; where all stays in the jib's plane, without those that tell nothing there."""
+    crane, counts = model.constants, dict(model.counts)
+    if model.axes == 2:
+        counts["tower_y"] = counts["tower_x"]
+    there = {"shaft": crane.drive is not None, "wind": crane.wind}
+    found = {name: shown for name, (_, shown) in OUTPUTS.items() if there.get(name.partition("_")[0], True)}
+    for kind, count in counts.items():
+        if count and kind != "slewing":
+            name = f"amplitude of the mass-normalised modes: {kind.replace('_', ' ')}"
+            found[f"{kind}_coordinate"] = About("kg^0.5 m", name, (f"{kind}_mode",), count)
     missing = absent(model.heading) if model.axes == 2 else ()
-    return {name: quantity for name, quantity in outputs.items() if name not in missing}
-
-
-Entries = dict[str, tuple["Floats", str, str]]
-
-
-def _drives(motion: FlexibleMotion, guards: Floats) -> Entries:
-    angle, speed = motion.slewing
-    entries: Entries = {
-        "trolley_position": (motion.drive("trolley"), "m", "trolley position along the jib"),
-        "trolley_speed": (motion.drive("trolley", 1), "m/s", "trolley speed"),
-        "trolley_force": (
-            guards[:, layout.TROLLEY_FORCE],
-            "N",
-            "force of the trolley's drive along the deflected jib, positive outward",
-        ),
-        "rope_length": (motion.drive("rope"), "m", "rope length"),
-        "rope_tension": (guards[:, layout.TENSION], "N", "rope tension, the force of the hoist"),
-        "slewing_angle": (angle, "rad", "angle of the head on the tower's top"),
-        "slewing_speed": (speed, "rad/s", "rate of that angle"),
-        "slewing_torque": (
-            guards[:, layout.SLEWING_TORQUE],
-            "N m",
-            "torque of the slewing drive on the head; of a coupling with its damper",
-        ),
-    }
-    if motion.model.drive is not None:
-        entries["shaft_angle"] = (motion.drive("shaft"), "rad", "angle of the drive's shaft, referred to the head")
-        entries["shaft_speed"] = (motion.drive("shaft", 1), "rad/s", "speed of the drive's shaft")
-    if motion.model.wind:
-        for axis in "xyz":
-            entries[f"wind_{axis}"] = (motion.drive(f"wind_{axis}"), "m/s", f"wind along {axis}")
-    return entries
-
-
-def _load(motion: FlexibleMotion) -> Entries:
-    rope, swing = motion.rope, motion.swing
-    c, s = np.cos(motion.heading), np.sin(motion.heading)
-    outward, sideways, down = rope[:, 0] * c + rope[:, 1] * s, rope[:, 1] * c - rope[:, 0] * s, -rope[:, 2]
-    rate = (down * swing[:, 0] + rope[:, 0] * swing[:, 2]) * c + (down * swing[:, 1] + rope[:, 1] * swing[:, 2]) * s
-    return {
-        "sway_tangential": (
-            np.arctan2(sideways, down),
-            "rad",
-            "sway across the jib's root, atan2(across, down), positive in the turning sense",
-        ),
-        "sway_radial": (
-            np.arctan2(outward, down),
-            "rad",
-            "sway along the jib's root, atan2(along, down), positive outward",
-        ),
-        "swing_rate": (
-            rate / (outward**2 + down**2),
-            "rad/s",
-            "rate of the swing along the direction that the jib's root has at that time",
-        ),
-    }
-
-
-def _deflections(motion: FlexibleMotion) -> Entries:
-    (u, tilt), c, s = motion.top(motion.coordinates), np.cos(motion.heading), np.sin(motion.heading)
-    tip = motion.deflection(motion.model.crane.tip_shapes, motion.coordinates)
-    return {
-        "tower_tip_displacement": (
-            u[:, 0] * c + u[:, 1] * s,
-            "m",
-            "horizontal displacement of the tower top along the jib's root, positive outward",
-        ),
-        "tower_tip_displacement_sideways": (
-            u[:, 1] * c - u[:, 0] * s,
-            "m",
-            "horizontal displacement of the tower top across the jib's root, positive in the turning sense",
-        ),
-        "tower_tip_tilt": (
-            tilt[:, 1] * c - tilt[:, 0] * s,
-            "rad",
-            "tilt of the tower top along the jib, positive: jib tip down",
-        ),
-        "tower_tip_roll": (tilt[:, 0] * c + tilt[:, 1] * s, "rad", "tilt of the tower top about the jib's root"),
-        "tower_tip_twist": (motion.twist, "rad", "twist of the tower top, positive in the turning sense"),
-        "jib_tip_deflection": (tip[:, 1], "m", "deflection of the jib tip from the tilted straight jib, positive up"),
-        "jib_tip_deflection_sideways": (
-            tip[:, 0],
-            "m",
-            "deflection of the jib tip from the straight jib, positive in the turning sense",
-        ),
-    }
-
-
-def _sections(motion: FlexibleMotion, tension: Floats) -> Entries:
-    loads = SectionLoads(motion, tension)
-    root, base = loads.jib_root[1], -loads.base[1]
-    return {
-        "jib_root_moment": (-root[:, 1], "N m", "bending moment at the jib's root, positive under a load"),
-        "jib_root_moment_sideways": (
-            root[:, 2],
-            "N m",
-            "bending moment at the jib's root, positive where it speeds the jib up in the turning sense",
-        ),
-        "base_moment_x": (base[:, 0], "N m", "moment of the crane on its base about x, positive: tips towards -y"),
-        "base_moment_y": (base[:, 1], "N m", "moment of the crane on its base about y, positive: tips towards +x"),
-        "base_torque": (base[:, 2], "N m", "moment of the crane on its base about the vertical"),
-    }
+    return {name: shown for name, shown in found.items() if name not in missing}

@@ -8,155 +8,146 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from itertools import chain
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from towercrane.cranes.tower.kernels import layout
-from towercrane.motions.motion import phases
-from towercrane.simulation.integrate import evaluate
+from towercrane.cranes.tower.equations.body import Body, body_of
+from towercrane.cranes.tower.equations.constants import ROPE
+from towercrane.cranes.tower.equations.jib import Sums
+from towercrane.cranes.tower.equations.motion import TENSION
+from towercrane.kernels.algebra import Row, Vector, cross, dot, form
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from towercrane.cranes.tower.equations.head import Head
     from towercrane.cranes.tower.modes.mass_sums import MassSums
-    from towercrane.cranes.tower.outputs.kinematics import FlexibleMotion
+    from towercrane.cranes.tower.outputs.kinematics import Kinematics
 
-    Floats = NDArray[np.float64]
+NONE = 0.0, 0.0, 0.0
 
-SHORTEST = 1e-6
-"""Span [s] that stands for none, in a run that ended at its start."""
+
+class Swept(NamedTuple):
+    """What modes of one direction move of a part of the jib.
+
+    Sums of m, of m x, of m times the deflection this way, and of m times that the other way.
+    """
+
+    zeroth: Any
+    first: Any
+    own: Any
+    other: Any
 
 
 @dataclass(frozen=True, eq=False)
-class SectionLoads:
-    """What sections carry over the times of a run, as force and moment on the part beyond; rows for p times.
+class Sections:
+    """What sections carry: force and moment by the part beyond, in the head's axes, moments about the tower's top.
 
     Parameters
     ----------
-    motion : FlexibleMotion
-    tension : ndarray, shape (p,)
-        Of the rope [N].
+    at : Kinematics
+        With the slopes and guards of its instant.
     """
 
-    motion: FlexibleMotion
-    tension: Floats
+    at: Kinematics
 
     @cached_property
-    def accelerations(self) -> Floats:
-        """Second derivatives of the structural coordinates, shape (p, n)."""
-        motion, model = self.motion, self.motion.model
-        span = max(float(motion.times[-1]), SHORTEST)
-        driven = phases(tuple(motion.motions[channel] for channel in model.channels), span)
-        slopes, _ = evaluate(model.system, driven, motion.times, motion.states)
-        n, rates = model.coordinates, model.coordinates + model.axes
-        return slopes[:, rates : rates + n]
+    def accelerations(self) -> Row:
+        """Second derivatives of the structural coordinates."""
+        return self.at.parts(self.at.instant.slopes).rates
 
     @cached_property
-    def head_acceleration(self) -> tuple[Floats, Floats]:
-        """Of the tower's top and the angular one, in the head's axes; shapes (p, 3)."""
-        motion = self.motion
-        straight, tilting = motion.top(self.accelerations)
-        turning = motion.along(layout.TURN, ("torsion", "slewing"), self.accelerations)
-        head = motion.head
-        spin = head.spin_bias + tilting[:, :1] * head.turn_x + tilting[:, 1:] * head.turn_y
-        spin[:, 2] += turning
-        return motion.to_head(np.column_stack([straight, np.zeros(len(spin))])), spin
+    def top(self) -> list[Any]:
+        """Those of the tower's top."""
+        return self.at.top(self.accelerations)
 
     @cached_property
-    def hung(self) -> tuple[Floats, Floats]:
-        """Force that the jib exerts on trolley and load, and its moment about the tower's top, in the head's axes."""
-        motion, crane = self.motion, self.motion.model.crane
-        (place, rate), (_, xd), xdd = motion.suspension, motion.trolley, motion.drive("trolley", 2)
-        q, qd = motion.coordinates, motion.rates
-        own = np.zeros_like(place)
-        own[:, 0] = xdd
-        shapes, slopes = motion.shapes
-        own[:, 1:] = motion.deflection(shapes, self.accelerations) + 2.0 * xd[:, None] * motion.deflection(slopes, qd)
-        bent = motion.deflection(motion.shapes_at_trolley(2), q)
-        own[:, 1:] += xdd[:, None] * motion.deflection(slopes, q) + xd[:, None] ** 2 * bent
-        straight, turning = self.head_acceleration
-        spin = motion.spin
-        acceleration = straight + np.cross(turning, place) + np.cross(spin, np.cross(spin, place))
-        acceleration += 2.0 * np.cross(spin, rate) + own
-        force = crane.trolley_mass * (acceleration + crane.gravity * motion.axes[:, 2])
-        load, length = motion.model.load, motion.drive("rope")
+    def head(self) -> Head:
+        """The head, with its whole angular acceleration as bias."""
+        head = self.at.head
+        *_, tilt_x, tilt_y, turn = self.top
+        turned = zip(head.spin_bias, head.turn_x, head.turn_y, (0.0, 0.0, turn), strict=True)
+        x, y, z = (bias + tilt_x * along_x + tilt_y * along_y + own for bias, along_x, along_y, own in turned)
+        return head._replace(spin_bias=(x, y, z))
+
+    def felt(self, gravity: Any) -> Vector:
+        """Acceleration of the tower's top against gravity."""
+        along_x, along_y, *_ = self.top
+        own = self.head.to_head((along_x, along_y, 0.0))
+        x, y, z = (a + gravity * down for a, down in zip(own, self.head.rows[2], strict=True))
+        return x, y, z
+
+    def swept(self, part: MassSums, values: Row) -> tuple[Swept, Swept]:
+        """Sums with coordinates or their derivatives, to the left and up."""
+        (left, up), (q_left, q_up) = self.at.of_jib(values), self.at.of_jib(self.at.state.coordinates)
+        sides, rise = (slice(len(left)), slice(len(left), None))
+
+        def of(moved: Row, own: slice, q: Row, other: slice, q_other: Row) -> Swept:
+            rows = part.products[own]
+            crossed = form(moved, rows[:, own], q), form(moved, rows[:, other], q_other)
+            return Swept(dot(moved, part.first[own]), dot(moved, part.second[own]), *crossed)
+
+        return of(left, sides, q_left, rise, q_up), of(up, rise, q_up, sides, q_left)
+
+    def turning(self, part: MassSums, exposure: MassSums | None) -> Body:
+        """A part of what turns."""
+        crane, state = self.at.seen.crane, self.at.state
+        places, rates, (left, up) = (
+            self.swept(part, values) for values in (state.coordinates, state.rates, self.accelerations)
+        )
+        sums = (Sums(*chain(*zip(*pair, strict=True))) for pair in zip(places, rates, strict=True))
+        body = body_of(part.straight, self.head, self.felt(crane.self_gravity), *sums)
+        body = body.pushed((0.0, -left.zeroth, -up.zeroth), (left.other - up.other, up.first, -left.first))
+        if exposure is None:
+            return body
+        normal = dot(self.at.wind, self.head.rotation[1::3])
+        press = abs(normal) * normal
+        _, rise = self.at.deflection(exposure.first, state.coordinates)
+        return body.pushed((0.0, exposure.mass * press, 0.0), (-rise * press, 0.0, exposure.moment * press))
+
+    @cached_property
+    def jib_root(self) -> Body:
+        """What is beyond the root of the jib: jib, trolley and load."""
+        at, head, crane = self.at, self.head, self.at.seen.crane
+        (left, up), end = at.paths, at.carry(head)
+        moved = 0.0, *at.deflection(left.shapes + up.shapes, self.accelerations)
         # The damper where the rope hangs pulls the load back and the trolley along, and its couple turns the jib.
-        across = motion.swing - (motion.swing * motion.rope).sum(axis=1)[:, None] * motion.rope
-        pull = self.tension[:, None] * motion.rope + load.rope_damping / length[:, None] * across
-        force -= motion.to_head(pull)
-        couple = -load.rope_damping * motion.to_head(np.cross(motion.rope, across))
-        return force, np.cross(place, force) + couple
-
-    def turning_part(self, sums: MassSums, exposure: MassSums | None) -> tuple[Floats, Floats]:
-        """Force on a part of the head, and moment about the tower's top, in the head's axes; shapes (p, 3)."""
-        motion, model = self.motion, self.motion.model
-        q, qd, qdd = motion.coordinates, motion.rates, self.accelerations
-        (straight, turning), spin = self.head_acceleration, motion.spin
-        weight = model.crane.gravity if model.self_weight else 0.0
-        felt = straight + weight * motion.axes[:, 2]
-        moment, inertia = motion.first_moment(sums), motion.inertia(sums)
-        rate, second = motion.jib_sum(sums.first, qd), motion.jib_sum(sums.first, qdd)
-        force = sums.mass * felt + np.cross(turning, moment) + np.cross(spin, np.cross(spin, moment))
-        force += 2.0 * np.cross(spin, rate) + second
-        torque = np.einsum("tij,tj->ti", inertia, turning) + np.cross(moment, felt)
-        torque += np.cross(spin, np.einsum("tij,tj->ti", inertia, spin))
-        mixed, momentum = motion.products(sums, qd, q), motion.jib_sum(sums.second, qd)
-        swell = (mixed[:, 0, 0] + mixed[:, 1, 1])[:, None] * spin - momentum * spin[:, :1]
-        swell[:, 1:] -= np.einsum("tij,tj->ti", mixed, spin[:, 1:])
-        torque += 2.0 * swell
-        product, far = motion.products(sums, q, qdd), motion.jib_sum(sums.second, qdd)
-        torque += np.stack([product[:, 0, 1] - product[:, 1, 0], -far[:, 2], far[:, 1]], axis=1)
-        if exposure is not None:
-            normal = (self.wind * motion.axes[:, :, 1]).sum(axis=1)
-            press = abs(normal) * normal
-            force[:, 1] -= exposure.mass * press
-            torque[:, 2] -= exposure.moment * press
-            torque[:, 0] += motion.jib_sum(exposure.first, q)[:, 2] * press
-        return force, torque
-
-    @property
-    def wind(self) -> Floats:
-        """Velocity of the air [m/s], shape (p, 3)."""
-        return np.stack([self.motion.drive(f"wind_{axis}") for axis in "xyz"], axis=1)
+        away = dot(at.swing, at.rope)
+        across = tuple(p - away * n for p, n in zip(at.swing, at.rope, strict=True))
+        held = crane.load.rope_damping / at.instant.drives[ROPE][0]
+        x, y, z = (at.instant.guards[TENSION] * n + held * p for n, p in zip(at.rope, across, strict=True))
+        inertia = zip(self.felt(crane.gravity), end.bias, moved, head.to_head((x, y, z)), strict=True)
+        pull = tuple(force - crane.trolley_mass * (top + bias + own) for top, bias, own, force in inertia)
+        x, y, z = (crane.load.rope_damping * own for own in head.to_head(cross(at.rope, across)))
+        body = self.turning(at.seen.jib, at.seen.jib_exposure)
+        return body.with_trolley(crane.trolley_mass, end.place, pull).pushed(NONE, (x, y, z))
 
     @cached_property
-    def jib_root(self) -> tuple[Floats, Floats]:
-        """Force and moment at the root of the jib, in the head's axes; shapes (p, 3)."""
-        crane = self.motion.model.crane
-        force, moment = self.turning_part(crane.jib, crane.jib_exposure)
-        return force + self.hung[0], moment + self.hung[1]
+    def tower_top(self) -> Body:
+        """What is beyond the top of the tower."""
+        jib, counter = self.jib_root, self.turning(self.at.seen.counter, self.at.seen.counter_exposure)
+        return counter.pushed(jib.force, jib.moment)
 
     @cached_property
-    def tower_top(self) -> tuple[Floats, Floats]:
-        """Force and moment at the top of the tower, in the head's axes; shapes (p, 3)."""
-        crane = self.motion.model.crane
-        force, moment = self.turning_part(crane.counter, crane.counter_exposure)
-        return force + self.jib_root[0], moment + self.jib_root[1]
+    def base(self) -> Vector:
+        """Moment of the crane about its foot, along the fixed axes."""
+        at, seen, crane = self.at, self.at.seen, self.at.seen.crane
+        force, moment = (self.head.to_fixed(own) for own in (self.tower_top.force, self.tower_top.moment))
+        u_x, u_y, *_ = at.placed
+        x, y, turn = (own + arm for own, arm in zip(moment, cross((u_x, u_y, seen.tower_height), force), strict=True))
+        qdd = self.accelerations
+        count, bent = len(crane.part("tower_x")), crane.part("torsion").start
+        (q_x, q_y), (a_x, a_y) = ((values[:count], values[count:bent]) for values in (at.state.coordinates, qdd))
+        own = crane.own_mass[:count, :count]
 
-    @cached_property
-    def base(self) -> tuple[Floats, Floats]:
-        """Force of the ground on the crane, and moment about the tower's foot, in fixed axes; shapes (p, 3)."""
-        motion, model, crane = self.motion, self.motion.model, self.motion.model.crane
-        force, moment = (motion.to_fixed(part) for part in self.tower_top)
-        top = np.column_stack([motion.top(motion.coordinates)[0], np.full(len(force), crane.tower_height)])
-        moment = moment + np.cross(top, force)
-        (zeroth, first), spin = crane.tower_moments, crane.tower.rotary_moments()
-        parts, mass = model.parts, model.system.matrices[layout.OWN]
-        weight = crane.gravity if model.self_weight else 0.0
-        height = crane.tower_height
-        q, qdd = motion.coordinates, self.accelerations
-        force[:, 2] += weight * crane.tower_mass
-        force[:, :2] += motion.of_tower(zeroth, qdd)
-        tipping = motion.of_tower(first + spin, qdd) - weight * motion.of_tower(zeroth, q)
-        moment[:, 0] -= tipping[:, 1]
-        moment[:, 1] += tipping[:, 0]
-        if model.counts["tower_y"]:
-            x, y = parts["tower_x"], parts["tower_y"]
-            moment[:, 2] += np.einsum("ti,ij,tj->t", q[:, x], mass[y, y], qdd[:, y])
-            moment[:, 2] -= np.einsum("ti,ij,tj->t", q[:, y], mass[x, x], qdd[:, x])
-        moment[:, 2] += qdd[:, parts["torsion"]] @ crane.torsion.mass_moment()
-        press = crane.tower_drag * np.linalg.norm(self.wind, axis=1)[:, None] * self.wind
-        swayed = motion.of_tower(crane.tower.deflection_integrals(), q)
-        swept = np.column_stack([swayed, np.full(len(force), 0.5 * height**2)])
-        return force - height * press, moment - np.cross(swept, press)
+        # Along an axis that the tower does not bend to there are no coordinates.
+        x = x + (dot(a_y, seen.first) - crane.self_gravity * dot(q_y, seen.zeroth))
+        y = y - (dot(a_x, seen.first) - crane.self_gravity * dot(q_x, seen.zeroth))
+        turn = turn - dot(qdd[bent : bent + len(seen.torsion)], seen.torsion)
+        if len(q_y):
+            turn = turn - form(q_x, own, a_y) + form(q_y, own, a_x)
+        speed = np.sqrt(dot(at.wind, at.wind))
+        press = tuple(seen.tower_drag * speed * own for own in at.wind)
+        half = 0.5 * seen.tower_height * seen.tower_height
+        blown = cross((dot(q_x, seen.swept), dot(q_y, seen.swept), half), press)
+        return (*at.from_plane(x + blown[0], y + blown[1]), turn + blown[2])

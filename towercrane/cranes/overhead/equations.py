@@ -1,0 +1,85 @@
+"""Equations of the overhead crane: a bridge that bends, a trolley on it.
+
+The bridge is a girder on two simple supports that bends in its first natural shape, y from the first rail and S the
+span: uplift q sin(pi y / S). With E I and the mass per length mu its energies give q the stiffness pi^4 E I / (2 S^3)
+and the mass mu S / 2, and the bare girder its first natural frequency exactly (S. Timoshenko, Vibration Problems in
+Engineering, on lateral vibration of bars with hinged ends; loads that move along a bridge are treated there in the
+same way). For a force at mid-span that is 48.70 E I / S^3 beside the static 48; the static shape has 17/35 = 0.486 of
+the girder's mass beside this 0.5. A trolley away from mid-span finds the girder stiffer than it is: at a quarter of
+the span by 14 %.
+
+Bridge and trolley follow their motions; what their drives must do for it is read off. The load is not in this file:
+:func:`towercrane.kernels.payload.hang_load` adds it. Axes are fixed: x along the runway, y along the bridge, z up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from towercrane.kernels.payload import Load, Rope, Structure, hang_load, slopes, state_of
+from towercrane.kernels.polynomial import polynomial
+
+BRIDGE, TROLLEY, ROPE = range(3)
+"""Rows of ``inputs``."""
+
+TENSION, BRIDGE_FORCE, TROLLEY_FORCE, FIRST_RAIL, SECOND_RAIL = range(5)
+"""Guards: rope tension; forces of both drives and of the bridge on each rail, only recorded [N]."""
+
+UPLIFT, ROPE_DIRECTION, RATE, SWAY, WORK, SIZE = 0, 1, 4, 5, 8, 9
+"""Where the parts of a state begin, and its size."""
+
+AXES = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Constants:
+    """Stiffness and damping are those of the uplift at mid-span, masses those of whole parts."""
+
+    span: float
+    stiffness: float
+    damping: float
+    girder_mass: float
+    carriage_mass: float
+    trolley_mass: float
+    gravity: float
+    load: Load
+
+
+def equations(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
+    """Slopes of the state (q, n, q', p, work), and guards."""
+    state, rope = state_of(y, 1, AXES), Rope(*polynomial(inputs[ROPE], t))
+    _, along, along_more = polynomial(inputs[BRIDGE], t)
+    place, across, across_more = polynomial(inputs[TROLLEY], t)
+    wave = np.pi / crane.span
+    shape, tilt = np.sin(wave * place), wave * np.cos(wave * place)
+    (q,), (rate,) = state.coordinates, state.rates
+    trolley, girder, gravity = crane.trolley_mass, crane.girder_mass, crane.gravity
+    heave = 2.0 * tilt * across * rate + (tilt * across_more - wave * wave * shape * across * across) * q
+    bridge = Structure(
+        mass=[[0.5 * girder + trolley * shape * shape]],
+        force=[
+            -crane.stiffness * q
+            - crane.damping * rate
+            - 2.0 / np.pi * girder * gravity
+            - trolley * shape * (gravity + heave)
+        ],
+        velocity=[along, across, shape * rate + tilt * across * q],
+        bias=[along_more, across_more, heave],
+        jacobian=[[0.0], [0.0], [shape]],
+    )
+    hung = hang_load(bridge, state, rope, crane.load, gravity)
+
+    # What bridge and trolley must push with: inertia less the pull of rope and hinge.
+    ahead, aside, up = hung.suspension
+    down = trolley * (up + gravity) - hung.pull(2)
+    along_force = trolley * ahead - hung.pull(0) + (girder + crane.carriage_mass) * ahead
+    across_force = trolley * aside - hung.pull(1) + tilt * q * down
+    power = hung.power + (along_force * along + across_force * across - crane.damping * rate * rate)
+    # By moments about the rails; the girder's inertia and weight are even about mid-span.
+    end = 0.5 * (girder + crane.carriage_mass) * gravity + girder * hung.accelerations[0] / np.pi
+    share = place / crane.span
+    rails = end + (1.0 - share) * down, end + share * down
+    return slopes(state, hung, power), [hung.tension, along_force, across_force, *rails]

@@ -1,0 +1,66 @@
+"""Points of cranes and the load on its rope: where they are, how they move, what energy a mass there has.
+
+Plain functions like the equations: of numbers, of arrays of them, or of operands that record.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from towercrane.kernels.algebra import Row, dot
+from towercrane.simulation.observed import About
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+class Point(NamedTuple):
+    """Place [m] and velocity [m/s], the vertical last."""
+
+    place: Sequence[Any]
+    velocity: Sequence[Any]
+
+    def hung(self, length: Any, rate: Any, direction: Row, swing: Row) -> Point:
+        """What hangs from it on a rope of a length with its rate, along a direction with its rate."""
+        return Point(
+            [at + length * n for at, n in zip(self.place, direction, strict=True)],
+            [v + rate * n + length * p for v, n, p in zip(self.velocity, direction, swing, strict=True)],
+        )
+
+    def energy(self, mass: Any, gravity: Any) -> Any:
+        """Kinetic and potential energy of a mass there [J]."""
+        return mass * (0.5 * dot(self.velocity, self.velocity) + gravity * self.place[-1])
+
+
+def turned_back(heading: Any, vector: Row) -> tuple[Any, Any]:
+    """Horizontal components of a vector in axes that have turned to a heading: along it, and to its left."""
+    c, s = np.cos(heading), np.sin(heading)
+    return c * vector[0] + s * vector[1], c * vector[1] - s * vector[0]
+
+
+def load_places(place: Sequence[Any], heading: Any) -> dict[str, Any]:
+    """Place of a load in fixed axes and in those that turn with its crane.
+
+    Parameters
+    ----------
+    place : sequence of 3 numbers
+        In fixed axes, from the axis that the crane turns about [m].
+    heading : number
+        Angle of the jib's root, or of the booms, from the x axis [rad].
+    """
+    return {
+        "payload_position": [*place],
+        "payload_in_crane_axes": [*turned_back(heading, place), place[2]],
+    }
+
+
+def load_places_about(origin: str) -> dict[str, About]:
+    """What these are, by what they count from."""
+    fixed = f"load from {origin} in fixed axes: x, y, up"
+    own = f"load from {origin} in axes that turn with the crane: outward along its jib, sideways, up"
+    return {
+        "payload_position": About("m", fixed, ("fixed_axis",), 3),
+        "payload_in_crane_axes": About("m", own, ("axis",), 3),
+    }

@@ -1,0 +1,44 @@
+"""Equations of motion of the flexible crane: its structure, its drives, and the load on its rope."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
+from towercrane.cranes.tower.equations.structure import slewing_torque, structure
+from towercrane.kernels.algebra import dot
+from towercrane.kernels.payload import Rope, hang_load, slopes, state_of
+from towercrane.kernels.polynomial import polynomial
+
+if TYPE_CHECKING:
+    from towercrane.cranes.tower.equations.constants import Constants
+
+TENSION, INNER_END, OUTER_END, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, TROLLEY_FORCE, GUARDS = range(9)
+"""Guards, and how many: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad], way to the
+corner of the drive's coupling from inside and from outside [rad]. Outputs beside them: torque of the slewing drive
+[N m] and force of the trolley's [N]."""
+
+
+def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
+    """Slopes of the state (q, n, q', p, work), and guards."""
+    state, axes = state_of(y, crane.coordinates, crane.axes), range(crane.axes)
+    drives = [polynomial(channel, t) for channel in inputs]
+    found, rope = structure(crane, state, drives), Rope(*drives[ROPE])
+    hung = hang_load(found.hanging, state, rope, crane.load, crane.gravity)
+    power, torque, beyond = found.power, 0.0, 0.0
+    if found.drive is not None:
+        torque, beyond = found.drive.torque, found.drive.beyond
+    elif crane.axes == 3:
+        torque = slewing_torque(crane, found, hung.accelerations, [hung.pull(k) for k in axes])
+        if crane.slewing == "prescribed":
+            _, turning, _ = drives[SLEWING]
+            power = power + torque * turning
+    # The trolley's drive acts along the deflected jib.
+    rises = [*hung.suspension[:-1], hung.suspension[-1] + crane.gravity]
+    held = [
+        crane.trolley_mass * rises[k] - hung.tension * hung.direction[k] + hung.hinge[k] for k in axes
+    ]  # fmt: skip
+    force = dot([found.path[k] for k in crane.fixed_axes], held)
+    slope = slopes(state, hung, hung.power + (power + force * found.trolley.rate))
+    margins = [hung.tension, found.trolley.x, crane.jib_length - found.trolley.x, crane.tilt_limit - found.tilt]
+    return slope, [*margins, -beyond, beyond, torque, force]

@@ -1,0 +1,147 @@
+"""The flexible crane without its load: tower, slewing head, jib and trolley.
+
+Coordinates are amplitudes of tower modes along the fixed axes x and y, of torsion modes, the slewing angle where a
+drive turns it, and amplitudes of jib modes to the left and up; any of them may be absent. A planar scene has the
+x modes of the tower and the vertical modes of the jib. Everything that hangs on the tower's top is seen in the
+head's axes of :mod:`towercrane.cranes.tower.equations.head`: a point of the jib is at s = (x, W_y(x), W_z(x)) there,
+and
+
+    a = R^T u'' + w' x s + w x (w x s) + 2 w x s' + s''
+
+is its acceleration. Summed over the mass of the jib this leaves products of the mass sums of
+:mod:`towercrane.cranes.tower.modes.mass_sums` with the coordinates, nothing to be integrated. Gao et al. (2023) set
+the coordinates up; the equations are derived anew.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from towercrane.cranes.tower.equations.body import body_of, carried
+from towercrane.cranes.tower.equations.drive import Driven, drive
+from towercrane.cranes.tower.equations.head import head_of
+from towercrane.cranes.tower.equations.jib import bend, path_of, trolley_of
+from towercrane.cranes.tower.equations.projection import Share, mass_matrix, project_bending, project_mover, share_of
+from towercrane.cranes.tower.equations.wind import press_wind
+from towercrane.kernels.algebra import Vector, dot
+from towercrane.kernels.payload import State, Structure
+
+if TYPE_CHECKING:
+    from towercrane.cranes.tower.equations.constants import Constants, Drives
+    from towercrane.cranes.tower.equations.jib import Trolley
+
+
+class CraneStructure(NamedTuple):
+    """Structure that the load hangs on, and what else is asked of it.
+
+    Parameters
+    ----------
+    hanging : Structure
+    trolley : Trolley
+    tilt : number
+        Of the head [rad].
+    power : number
+        Of damping, wind and drive [W].
+    path : tuple of 3
+        Direction of the trolley's path, per way along the jib, in fixed axes.
+    share : Share
+        What turns.
+    shapes : list
+        Of the jib's modes at the trolley.
+    drive : Driven or None
+    """
+
+    hanging: Structure
+    trolley: Trolley
+    tilt: Any
+    power: Any
+    path: Vector
+    share: Share
+    shapes: list[Any]
+    drive: Driven | None
+
+
+def structure(crane: Constants, state: State, drives: Drives) -> CraneStructure:
+    """The crane in a state, driven so."""
+    (head, tilt), trolley = head_of(crane, state, drives), trolley_of(crane, drives)
+    left, up = bend(crane, head, state)
+    across, rise = (path_of(crane, modes, trolley, state) for modes in (crane.lateral, crane.vertical))
+    end = carried(head, trolley, across, rise)
+    falls = zip(end.bias, head.rotation[6:], strict=True)
+    pull = tuple(-crane.trolley_mass * (own + crane.gravity * down) for own, down in falls)
+    felt = tuple(crane.self_gravity * down for down in head.rotation[6:])
+    body = body_of(crane.straight, head, felt, left.sums, up.sums).with_trolley(crane.trolley_mass, end.place, pull)
+
+    power: Any = 0.0
+    forces = []
+    bent = [0.0] * crane.movers + left.forces + up.forces
+    for i in range(crane.coordinates):
+        loss = crane.damping[i] * state.rates[i]
+        power = power - loss * state.rates[i]
+        force = bent[i] - loss
+        for m in range(crane.coordinates):
+            force = force - crane.stiffness[i, m] * state.coordinates[m]
+        forces.append(force)
+    wind: tuple[Any, ...] = (0.0, 0.0, 0.0)
+    if crane.wind:
+        blown = press_wind(crane, state, head, drives)
+        wind, power = blown.wind, power + blown.power
+        forces = [force + own for force, own in zip(forces, blown.forces, strict=True)]
+        body = body.pushed((0.0, blown.side, 0.0), (blown.rolling, 0.0, blown.turning))
+
+    share = share_of(head, body, end.place)
+    projected = [project_mover(crane, i, share) for i in range(crane.movers)]
+    for modes, axis, crossed, shapes in (
+        (crane.lateral, 1, left.across, across.shapes), (crane.vertical, 2, up.across, rise.shapes),
+    ):  # fmt: skip
+        projected += project_bending(crane, modes, axis, crossed, shapes, head, end.place, pull)
+    forces = [force + own.force for force, own in zip(forces, projected, strict=True)]
+    driven = drive(crane, state, drives) if crane.drive is not None else None
+    if driven is not None:
+        (turned,) = crane.part("slewing")
+        forces[turned] = forces[turned] + (driven.torque + driven.friction)
+        power = power + driven.power
+
+    axes, shapes = crane.fixed_axes, across.shapes + rise.shapes
+    velocity, bias = head.to_fixed(end.velocity), head.to_fixed(end.bias)
+    hanging = Structure(
+        mass=mass_matrix(crane, projected, shapes),
+        force=forces,
+        velocity=[velocity[k] for k in axes],
+        bias=[bias[k] for k in axes],
+        jacobian=[[own.end[k] for own in projected] for k in axes],
+        wind=[wind[k] for k in axes],
+    )
+    path = tuple(row[0] + row[1] * across.slope + row[2] * rise.slope for row in head.rows)
+    return CraneStructure(hanging, trolley, tilt, power, path, share, shapes, driven)
+
+
+def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
+    """Forces on the coordinates y at rest, with the load that hangs at rest in the wind; inputs at their values."""
+    state = State(y, (), (), [0.0] * crane.coordinates, (), ())
+    hanging = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]]).hanging
+    pull = load_force(crane, hanging)
+    columns = zip(*hanging.jacobian, strict=True)
+    return [own + dot(column, pull) for own, column in zip(hanging.force, columns, strict=True)], []
+
+
+def load_force(crane: Constants, hanging: Structure) -> list[Any]:
+    """Force of weight and wind on the load at rest [N]."""
+    speed = np.sqrt(dot(hanging.wind, hanging.wind))
+    pull = [crane.load.drag * speed * own for own in hanging.wind]
+    return [*pull[:-1], pull[-1] - crane.load.mass * crane.gravity]
+
+
+def slewing_torque(crane: Constants, found: CraneStructure, accelerations: list[Any], pull: list[Any]) -> Any:
+    """Torque that a prescribed slewing takes: the equation of the coordinate that is not free."""
+    column, row = found.share.turning
+    torque = -found.share.forces[4]
+    for i in range(crane.movers):
+        torque = torque + dot(row, crane.motions[:, i]) * accelerations[i]
+    hung = crane.trolley_mass * found.trolley.x
+    for i in crane.lateral:
+        moment = crane.jib_moment[i] + hung * found.shapes[i - crane.movers]
+        torque = torque + moment * accelerations[i]
+    return torque - dot(column, pull)

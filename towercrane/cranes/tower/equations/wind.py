@@ -1,0 +1,48 @@
+"""Pressure of a wind on tower, head and jib, all of which stand still for it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from towercrane.kernels.algebra import dot
+
+if TYPE_CHECKING:
+    from towercrane.cranes.tower.equations.constants import Constants, Drives
+    from towercrane.cranes.tower.equations.head import Head
+    from towercrane.kernels.payload import State
+
+
+class Blown(NamedTuple):
+    """Velocity of the air along x, y, z; forces on the modes; on the head force along e2, moments about e1, e3;
+    power."""
+
+    wind: tuple[Any, ...]
+    forces: list[Any]
+    side: Any
+    rolling: Any
+    turning: Any
+    power: Any
+
+
+def press_wind(crane: Constants, state: State, head: Head, drives: Drives) -> Blown:
+    """Forces of the wind, whose components are the last three channels."""
+    east, north, up = (channel[0] for channel in drives[-3:])
+    c, s = crane.plane_cosine, crane.plane_sine
+    wind = (c * east + s * north, c * north - s * east, up)
+    speed = np.sqrt(dot(wind, wind))
+    normal = dot(wind, head.rotation[1::3])
+    press = abs(normal) * normal
+    pressures: dict[str, Any] = {"tower_x": speed * wind[0], "tower_y": speed * wind[1], "jib_lateral": press}
+    forces: list[Any] = [0.0] * crane.coordinates
+    power, rolling = 0.0, 0.0
+    for kind, pressure in pressures.items():
+        for i in crane.part(kind):
+            forces[i] = pressure * crane.exposure[i]
+            power = power + forces[i] * state.rates[i]
+    for i in crane.part("jib_vertical"):
+        rolling = rolling - crane.exposure[i] * state.coordinates[i] * press
+    side, turning = crane.head_area * press, crane.head_area_moment * press
+    power = power + (side * head.top[1] + rolling * head.spin[0] + turning * head.spin[2])
+    return Blown(wind, forces, side, rolling, turning, power)

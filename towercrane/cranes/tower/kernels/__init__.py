@@ -1,1 +1,0 @@
-"""Compiled equations of tower cranes: numbers and arrays only, no tables and no models."""

@@ -1,0 +1,76 @@
+"""What the outputs of a flexible crane know of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.tower.equations.constants import Constants
+    from towercrane.cranes.tower.equations.flexible import Equations
+    from towercrane.cranes.tower.modes.mass_sums import MassSums
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """Constants of the outputs.
+
+    Parameters
+    ----------
+    crane : Constants
+        Those of the equations.
+    heading : float
+        Angle from the fixed x axis to the first axis of the coordinates, not zero in a plane alone [rad].
+    jib, counter : MassSums
+        Masses of the jib, and of what else turns.
+    jib_exposure, counter_exposure : MassSums or None
+        Their drag per squared speed, where a wind blows.
+    tip : ndarray, shape (jib modes,)
+        Shapes of the jib at its tip.
+    tower_height, tower_drag : float
+        [m, kg/m^2]
+    zeroth, first, swept : ndarray, shape (tower modes,)
+        Sums over the tower's mass of its shapes, and of what tips it; integrals of the shapes.
+    torsion : ndarray, shape (torsion modes,)
+        Sums over the tower's inertia of its shapes of torsion.
+    """
+
+    crane: Constants
+    heading: float
+    jib: MassSums
+    counter: MassSums
+    jib_exposure: MassSums | None
+    counter_exposure: MassSums | None
+    tip: Floats
+    tower_height: float
+    tower_drag: float
+    zeroth: Floats
+    first: Floats
+    swept: Floats
+    torsion: Floats
+
+
+def seen_of(model: Equations) -> Seen:
+    """Constants of a crane's outputs in its chosen coordinates."""
+    crane = model.crane
+    zeroth, first = crane.tower_moments
+    return Seen(
+        crane=model.constants,
+        heading=model.heading,
+        jib=crane.jib,
+        counter=crane.counter,
+        jib_exposure=crane.jib_exposure,
+        counter_exposure=crane.counter_exposure,
+        tip=crane.tip_shapes[:, 0],
+        tower_height=crane.tower_height,
+        tower_drag=crane.tower_drag,
+        zeroth=zeroth,
+        first=first + crane.tower.rotary_moments(),
+        swept=crane.tower.deflection_integrals(),
+        torsion=crane.torsion.mass_moment(),
+    )

@@ -1,0 +1,55 @@
+"""One run that waits for a lane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from towercrane.motions.motion import Phases
+    from towercrane.simulation.observed import Observed
+    from towercrane.simulation.system import Model
+
+    Floats = NDArray[np.float64]
+
+    class LaneModel(Observed, Model, Protocol):
+        """What lanes ask of a crane."""
+
+
+@dataclass(frozen=True, eq=False)
+class LaneRun:
+    """One run that waits for a lane.
+
+    Parameters
+    ----------
+    model : LaneModel
+        Of the kind of crane that shares the lanes.
+    phases : Phases
+        Its motions.
+    state : str
+        "equilibrium" or "zero", as the model's start takes it.
+    swing_angle : float
+        Rope's angle from the vertical at the start [rad].
+    means : mapping of int to float
+        Channels that a start knows by their mean, see :func:`towercrane.simulation.system.start_inputs`.
+    """
+
+    model: LaneModel
+    phases: Phases
+    state: str = "equilibrium"
+    swing_angle: float = 0.0
+    means: Mapping[int, float] = field(default_factory=dict)
+
+    @property
+    def start_inputs(self) -> Floats:
+        """Polynomials of the first phase as a state at rest knows them."""
+        inputs = self.phases.inputs[0].copy()
+        for channel, mean in self.means.items():
+            inputs[channel] = 0.0
+            inputs[channel, 0] = mean
+        return inputs
