@@ -143,7 +143,8 @@ def written_of(systems: Sequence[System], inputs: tuple[int, ...]) -> Written:
         Shape of a phase's inputs.
     """
     first = systems[0]
-    return written(first.equations, [system.constants for system in systems], first.size, (inputs[-2], inputs[-1]))
+    numbers = [system.numbers for system in systems]
+    return written(first.equations, first.constants, numbers, first.size, (inputs[-2], inputs[-1]))
 
 
 class NoEquilibrium(ArithmeticError):

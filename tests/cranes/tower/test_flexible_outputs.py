@@ -50,10 +50,11 @@ def test_outputs_recorded_on_the_way_are_those_of_rows(name):
     phase = int(np.searchsorted(cut.times, AT)) - 1
     inputs = cut.inputs[phase]
     names = scalars(scene)
-    code = written(Looked(motion, scene.outputs, names), [scene.seen], scene.size, inputs.shape)
+    looked, numbers = Looked(motion, scene.outputs, names), numbers_of(scene.seen)
+    code = written(looked, scene.seen, [numbers], scene.size, inputs.shape)
     given = {
         "t": {(): AT - cut.times[phase]}, "y": states.T, "inputs": inputs, "tables": table_of(scene.seen),
-        "numbers": code.numbers(numbers_of(scene.seen)),
+        "numbers": code.numbers(numbers),
     }  # fmt: skip
     found = code.program.values(given)
     assert code.counts == (len(names), len(scene.system.guards))

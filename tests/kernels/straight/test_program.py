@@ -59,7 +59,7 @@ def every_operation(own, t, y, inputs):
 
 
 def program():
-    return written(every_operation, [CONSTANTS], 6, (2, 3)).program
+    return written(every_operation, CONSTANTS, [CONSTANTS.numbers], 6, (2, 3)).program
 
 
 @pytest.fixture(scope="module")
@@ -150,7 +150,7 @@ def test_equations_of_systems_share_code_where_their_zeros_are_the_same():
         return [own.numbers[0] * y[0] + own.numbers[1]], []
 
     def write(*numbers):
-        return written(equations, [Constants(np.array(own), TABLES) for own in numbers], 1, (1, 3))
+        return written(equations, Constants(np.zeros(2), TABLES), [np.array(own) for own in numbers], 1, (1, 3))
 
     one, other, none = (2.0, 3.0), (-1.0, 4.0), (2.0, 0.0)
     assert write(one) is write(other)

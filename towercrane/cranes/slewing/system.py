@@ -196,11 +196,12 @@ class LumpedSystem:
 
     def equilibrium(self, inputs: Floats) -> Floats:
         """Coordinates at rest under all weights, load hanging straight down; shape (n,)."""
-        n, origin = self.coordinates, self.undeformed(inputs)
-        forces = written(equations.forces_at_rest, [self.constants], n, inputs.shape)
+        n, origin, numbers = self.coordinates, self.undeformed(inputs), self.system.numbers
+        code = written(equations.forces_at_rest, self.constants, [numbers], n, inputs.shape)
+        forces = code.values(numbers, self.system.table)
 
         def residual(departures: Floats) -> Floats:
-            return forces.values(self.constants, origin[:, None] + departures, inputs)
+            return forces(origin[:, None] + departures, inputs)
 
         try:
             return origin + stable_equilibrium(residual, np.ones(n))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.kernels.straight.graph import Graph, Table
-from towercrane.kernels.straight.leaves import changing, known_of, numbers_of, table_of, with_numbers
+from towercrane.kernels.straight.leaves import changing, known_of, table_of, with_numbers
 from towercrane.kernels.straight.program import Program
 
 if TYPE_CHECKING:
@@ -46,35 +46,27 @@ class Written:
             self.compiled[lanes] = straight_code(self.program, self.shapes, lanes)
         return self.compiled[lanes]
 
-    def values(self, constants: Any, states: Floats, inputs: Floats) -> Floats:
-        """Slopes when a phase begins in each column of states; where they are asked for often, they are compiled.
+    def values(self, numbers: Floats, table: Floats) -> Callable[[Floats, Floats], Floats]:
+        """Slopes when a phase begins, as a function of states in columns and inputs; shape (slopes, p).
 
-        Parameters
-        ----------
-        constants : dataclass
-        states : ndarray, shape (states, p)
-        inputs : ndarray
-
-        Returns
-        -------
-        ndarray, shape (slopes, p)
+        Where they are asked for often, they are compiled.
         """
-        self.asked[0] += states.shape[1]
-        if self.asked[0] <= COMPILED_AFTER:
-            return self.rows(numbers_of(constants), table_of(constants), states, inputs)
-        numbers, table = self.numbers(numbers_of(constants)), table_of(constants)
-        rhs, rows = self.rhs(), np.ascontiguousarray(states.T)
-        slopes, guards = (np.empty((len(rows), count)) for count in self.counts)
-        for state, slope, guard in zip(rows, slopes, guards, strict=True):
-            rhs(0.0, state, slope, inputs, numbers, table, guard)
-        return slopes.T
+        numbers = self.numbers(numbers)
 
-    def rows(self, numbers: Floats, table: Floats, states: Floats, inputs: Floats) -> Floats:
-        """:meth:`values` without a compiler; each column of states may have numbers and inputs of its own."""
-        given = {"t": {(): 0.0}, "y": states, "inputs": inputs, "numbers": self.numbers(numbers), "tables": table}
-        found, slopes = self.program.values(given), np.empty((self.counts[0], states.shape[1]))
-        for index in range(len(slopes)):
-            slopes[index] = found["dy", index]
+        def slopes(states: Floats, inputs: Floats) -> Floats:
+            self.asked[0] += states.shape[1]
+            found = np.empty((states.shape[1], self.counts[0]))
+            if self.asked[0] > COMPILED_AFTER:
+                rhs, guards = self.rhs(), np.empty(self.counts[1])
+                for state, slope in zip(np.ascontiguousarray(states.T), found, strict=True):
+                    rhs(0.0, state, slope, inputs, numbers, table, guards)
+                return found.T
+            given = {"t": {(): 0.0}, "y": states, "inputs": inputs, "numbers": numbers, "tables": table}
+            outputs = self.program.values(given)
+            for index in range(self.counts[0]):
+                found[:, index] = outputs["dy", index]
+            return found.T
+
         return slopes
 
     def numbers(self, numbers: Floats) -> Floats:
@@ -92,25 +84,29 @@ MOST_KEPT = 64
 """Equations kept in memory beside those that a system holds."""
 
 
-def written(equations: Callable[..., Any], constants: Sequence[Any], states: int, inputs: tuple[int, int]) -> Written:
-    """Equations with constants that have the same zeros, or with one, written out.
+def written(
+    equations: Callable[..., Any], constants: Any, numbers: Sequence[Floats], states: int, inputs: tuple[int, int]
+) -> Written:
+    """Equations written out for constants that are alike in all but their numbers.
 
     Parameters
     ----------
     equations : callable
         ``equations(constants, t, y, inputs)`` gives two sequences of numbers: what stands for slopes, and guards.
-    constants : sequence of dataclass
-        See :mod:`towercrane.kernels.straight.leaves`; alike in all but their numbers.
+    constants : dataclass
+        Of one system, see :mod:`towercrane.kernels.straight.leaves`.
+    numbers : sequence of ndarray
+        Of all: what is zero in each of them leaves no trace.
     states : int
         Entries of y.
     inputs : tuple of int
         Shape of the inputs' polynomials.
     """
-    zeros = np.all([numbers_of(own) == 0.0 for own in constants], axis=0)
-    key = equations, known_of(constants[0]), states, inputs, zeros.tobytes()
+    zeros = np.all([own == 0.0 for own in numbers], axis=0)
+    key = equations, known_of(constants), states, inputs, zeros.tobytes()
     found = _WRITTEN.get(key)
     if found is None:
-        found = _record(equations, constants[0], zeros, states, inputs)
+        found = _record(equations, constants, zeros, states, inputs)
         if len(_WRITTEN) >= MOST_KEPT:
             del _WRITTEN[next(iter(_WRITTEN))]
         _WRITTEN[key] = found

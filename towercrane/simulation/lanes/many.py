@@ -158,13 +158,14 @@ def integrate_many(
     shape = max(run.phases.inputs.shape[1:] for run in runs)
     code = written_of([run.model.system for run in runs], shape)
     looked = Looked(system.equations, model.outputs, names)
-    looks = written(looked, [run.model.seen for run in runs], system.size, shape)
+    seen = [numbers_of(run.model.seen) for run in runs]
+    looks = written(looked, model.seen, seen, system.size, shape)
     rhs, observe = code.rhs(LANES), looks.rhs(LANES)
 
     def work(first: int) -> None:
         task = slice(first, first + share)
         mine = Answers(*(array[task] for array in answers))
-        queue = _queue(runs[task], mine, sample_times, atol, pair, code, looks)
+        queue = _queue(runs[task], mine, sample_times, atol, pair, code, looks.numbers(np.array(seen[task]).T).T)
         lanes = lanes_for(queue, len(pair.a), len(names))
         left = True
         while left and not stop.is_set():
@@ -219,7 +220,7 @@ def _refusal(run: LaneRun) -> str:
 
 def _queue(
     runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, pair: RungeKutta, code: Written,
-    looks: Written,
+    seen: Floats,
 ) -> Queue:  # fmt: skip
     """The runs' data as the compiled steps want them; runs with fewer phases are padded."""
     systems = [run.model.system for run in runs]
@@ -253,7 +254,7 @@ def _queue(
         longest_steps=np.array([pair.longest_step(system.fastest) for system in systems]),
         numbers=np.ascontiguousarray(code.numbers(np.array([system.numbers for system in systems]).T).T),
         floors=np.array([system.floors for system in systems]),
-        seen=np.ascontiguousarray(looks.numbers(np.array([numbers_of(run.model.seen) for run in runs]).T).T),
+        seen=np.ascontiguousarray(seen),
         phase_counts=np.array([len(run.phases.inputs) for run in runs]),
         phase_times=times,
         inputs=inputs,

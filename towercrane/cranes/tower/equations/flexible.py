@@ -20,6 +20,7 @@ from towercrane.cranes.tower.equations.constants import (
 )
 from towercrane.cranes.tower.equations.coordinates import Coordinates
 from towercrane.cranes.tower.equations.structure import load_force, static_force, structure
+from towercrane.cranes.tower.equations.wind import wind_velocity
 from towercrane.kernels.payload import SLACK, Load, State, Structure
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
@@ -27,6 +28,8 @@ from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OF
 from towercrane.simulation.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
@@ -132,7 +135,8 @@ class Equations(Coordinates):
         hung, outward = -np.eye(self.axes)[-1], np.zeros(self.axes)
         if state == "equilibrium":
             y[:n] = self.equilibrium(inputs)
-            force = np.array(load_force(self.constants, self.at_rest(y[:n], inputs)))
+            air = wind_velocity(self.constants, [[value] for value in inputs[:, 0]])
+            force = np.array(load_force(self.constants, [air[k] for k in self.constants.fixed_axes]))
             # Without weight and wind any direction will do.
             hung = force / np.linalg.norm(force) if force.any() else hung
         outward[: self.axes - 1] = np.array([np.cos(heading), np.sin(heading)])[: self.axes - 1]
@@ -158,8 +162,10 @@ class Equations(Coordinates):
         if self.drive is not None:
             origin[self.parts["slewing"]] = inputs[SLEWING, 0]
 
+        forces, held = self._forces_at_rest, np.ascontiguousarray(inputs[:, :1])
+
         def residual(departures: Floats) -> Floats:
-            return self.static_forces(origin[:, None] + departures, inputs)
+            return forces(origin[:, None] + departures, held)
 
         try:
             return origin + stable_equilibrium(residual, self.system.scale[:n])
@@ -168,8 +174,13 @@ class Equations(Coordinates):
 
     def static_forces(self, q: Floats, inputs: Floats) -> Floats:
         """Generalised forces on the crane at rest with its load hanging at rest; shapes (coordinates, p)."""
-        held = np.ascontiguousarray(inputs[:, :1])
-        return written(static_force, [self.constants], self.coordinates, held.shape).values(self.constants, q, held)
+        return self._forces_at_rest(q, np.ascontiguousarray(inputs[:, :1]))
+
+    @cached_property
+    def _forces_at_rest(self) -> Callable[[Floats, Floats], Floats]:
+        numbers, shape = self.system.numbers, (len(self.channels), 1)
+        code = written(static_force, self.constants, [numbers], self.coordinates, shape)
+        return code.values(numbers, self.constants.shapes)
 
     def buckling_message(self) -> str:
         """How far the tower is from buckling."""

@@ -25,7 +25,7 @@ from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.jib import bend, path_of, trolley_of
 from towercrane.cranes.tower.equations.projection import Share, mass_matrix, project_bending, project_mover, share_of
 from towercrane.cranes.tower.equations.wind import press_wind
-from towercrane.kernels.algebra import Vector, dot
+from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.payload import State, Structure
 
 if TYPE_CHECKING:
@@ -122,15 +122,15 @@ def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[A
     """Forces on the coordinates y at rest, with the load that hangs at rest in the wind; inputs at their values."""
     state = State(y, (), (), [0.0] * crane.coordinates, (), ())
     hanging = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]]).hanging
-    pull = load_force(crane, hanging)
+    pull = load_force(crane, hanging.wind)
     columns = zip(*hanging.jacobian, strict=True)
     return [own + dot(column, pull) for own, column in zip(hanging.force, columns, strict=True)], []
 
 
-def load_force(crane: Constants, hanging: Structure) -> list[Any]:
-    """Force of weight and wind on the load at rest [N]."""
-    speed = np.sqrt(dot(hanging.wind, hanging.wind))
-    pull = [crane.load.drag * speed * own for own in hanging.wind]
+def load_force(crane: Constants, wind: Row) -> list[Any]:
+    """Force of weight and of a wind along the load's axes on the load at rest [N]."""
+    speed = np.sqrt(dot(wind, wind))
+    pull = [crane.load.drag * speed * own for own in wind]
     return [*pull[:-1], pull[-1] - crane.load.mass * crane.gravity]
 
 

@@ -26,11 +26,18 @@ class Blown(NamedTuple):
     power: Any
 
 
-def press_wind(crane: Constants, state: State, head: Head, drives: Drives) -> Blown:
-    """Forces of the wind, whose components are the last three channels."""
+def wind_velocity(crane: Constants, drives: Drives) -> tuple[Any, Any, Any]:
+    """Velocity of the air, whose components are the last three channels, along x, y, z; zero where none blows."""
+    if not crane.wind:
+        return 0.0, 0.0, 0.0
     east, north, up = (channel[0] for channel in drives[-3:])
     c, s = crane.plane_cosine, crane.plane_sine
-    wind = (c * east + s * north, c * north - s * east, up)
+    return c * east + s * north, c * north - s * east, up
+
+
+def press_wind(crane: Constants, state: State, head: Head, drives: Drives) -> Blown:
+    """Forces of the wind."""
+    wind = wind_velocity(crane, drives)
     speed = np.sqrt(dot(wind, wind))
     normal = dot(wind, head.rotation[1::3])
     press = abs(normal) * normal

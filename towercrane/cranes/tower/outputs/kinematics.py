@@ -15,7 +15,7 @@ from towercrane.cranes.tower.equations.body import Carried, carried
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TURN
 from towercrane.cranes.tower.equations.head import Head, head_of
 from towercrane.cranes.tower.equations.jib import Path, Trolley, path_of, trolley_of
-from towercrane.cranes.tower.equations.wind import press_wind
+from towercrane.cranes.tower.equations.wind import wind_velocity
 from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.payload import State, state_of
 
@@ -163,7 +163,7 @@ class Kinematics:
     def wind(self) -> tuple[Any, ...]:
         """Velocity of the air."""
         crane = self.seen.crane
-        return press_wind(crane, self.state, self.head, self.instant.drives).wind if crane.wind else (0.0, 0.0, 0.0)
+        return wind_velocity(crane, self.instant.drives)
 
 
 def in_space(vector: Row) -> Vector:
