@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from typing import Literal, get_args, get_origin
 
 import numpy as np
@@ -268,3 +269,36 @@ def test_only_the_outputs_that_are_wanted_are_kept():
     assert json.loads(data.attrs["outputs"]) == ["base_moment_y", "sway_radial"]
     with pytest.raises(sweeps.UnknownOutput, match=r"wanted some of .*base_moment_y.*, got 'base_momnt'"):
         sweep(case, {"payload.mass": [100.0, 900.0]}, outputs=["base_momnt"])
+
+
+@pytest.mark.parametrize("count", [2, 3, 7, 9])
+def test_few_runs_that_differ_in_load_and_rope_have_their_own(count, monkeypatch):
+    monkeypatch.setattr(sweeps, "FEWEST", 8)
+    ropes, loads = np.linspace(8.0, 16.0, count).tolist(), np.linspace(300.0, 900.0, count).tolist()
+    assert_single_runs(load_case("qtz5613/condition-3", SHORT), {"rope.length": ropes})
+    assert_single_runs(load_case("qtz5613/condition-3", SHORT), {"rope.length": ropes, "payload.mass": loads})
+
+
+def test_an_output_that_only_some_scenes_have_may_be_asked_for():
+    case = load_case("qtz5613/condition-3", ["wind.speed=8", *SHORT])
+    data = sweep(case, {"wind.direction": ["90 deg", "0 deg"]}, outputs=["base_torque", "sway_radial"])
+    assert np.isnan(data["base_torque_max"].values).tolist() == [False, True]
+    assert np.isfinite(data["sway_radial_max"].values).all()
+
+
+def test_series_of_a_rope_that_is_varied_stand_beside_its_lengths():
+    data = sweep(load_case("qtz5613/condition-3", SHORT), {"rope.length": [8.0, 10.0]}, series=True)
+    assert data["rope_length"].values.tolist() == [8.0, 10.0]
+    assert_allclose(data["rope_length_over_time"].values, [[8.0] * len(data["time"]), [10.0] * len(data["time"])])
+
+
+@pytest.mark.parametrize(
+    ("vary", "options", "words"),
+    [
+        ({"payload.mass": "800 kg"}, {}, "vary: wanted a list of values for payload.mass, got '800 kg'"),
+        ({"payload.mass": [800.0]}, {"outputs": "sway_radial"}, "outputs: wanted names in a list, got 'sway_radial'"),
+    ],
+)
+def test_a_text_is_no_list(vary, options, words):
+    with pytest.raises(ValueError, match=re.escape(words)):
+        sweep("qtz5613/condition-3", vary, **options)

@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Collection, Iterator, Mapping
 
     from towercrane.cranes.parts.poses import Poses
     from towercrane.schema.faults import Fault
@@ -123,6 +123,8 @@ class Kind:
         Length of the member that each deflection in a result is of [m], of its model.
     targets : callable, optional
         Errors that its tables ask for, by output.
+    outputs : callable, optional
+        Names of all outputs that its runs may have, where scenes differ in them.
     made_of : callable, optional
         Text of a model that is equal for those which differ in their load alone and are each other `with_load`.
     plain : callable, optional
@@ -152,6 +154,7 @@ class Kind:
     natural: Callable[..., Natural] | None = None
     lengths: Callable[[Any], dict[str, float]] | None = None
     targets: Callable[[Any], Targets] | None = None
+    outputs: Callable[[], Collection[str]] | None = None
     made_of: Callable[[Any], str] | None = None
     plain: Callable[[Any], bool] | None = None
     modes: Callable[[Any], dict[str, str]] | None = None

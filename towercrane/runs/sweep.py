@@ -17,7 +17,7 @@ from towercrane.cranes.registry import KINDS
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import accuracy, peaks
 from towercrane.runs.sweep_data import Found, dataset
-from towercrane.runs.variants import Variants, change, varied_case
+from towercrane.runs.variants import Variant, Variants, change, varied_case
 from towercrane.schema.faults import CaseError
 from towercrane.schema.units import UnitError, to_si
 from towercrane.simulation.observed import scalars
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 
     import xarray as xr
     from numpy.typing import NDArray
-
-    from towercrane.runs.variants import Variant
 
     Floats = NDArray[np.float64]
     Value = float | int | str
@@ -96,14 +94,16 @@ def sweep(
     """
     if threads is not None and threads < 1:
         raise ValueError(f"threads: wanted one or more, got {threads!r}")
+    if isinstance(outputs, str):
+        raise ValueError(f"outputs: wanted names in a list, got {outputs!r}")
     given = _given(vary)
     first = {key: change(key, values[0]) for key, values in given.items()}
     loaded = case if isinstance(case, Case) else varied_case(case, (), list(first.values()))
     values = {key: _read(loaded, key, column, first) for key, column in given.items()}
-    found = Found(len(next(iter(values.values()))))
-    waiting = _one_by_one(Variants(loaded, values), found, outputs, series, progress)
+    found, variants = Found(len(next(iter(values.values())))), Variants(loaded, values)
+    waiting = _one_by_one(variants, found, outputs, series, progress)
     if not series:
-        waiting = _in_company(waiting, found, outputs, progress)
+        waiting = _in_company(variants, waiting, found, outputs, progress)
     _side_by_side(waiting, found, outputs, threads, series, progress)
     if len(found.faults) == found.count:
         raise CaseError(found.faults[0].faults)
@@ -112,6 +112,8 @@ def sweep(
 
 def _given(vary: Mapping[str, Sequence[Value] | Floats]) -> dict[str, list[Value]]:
     """The varied values as plain ones, equally many of each key."""
+    if texts := [key for key, given in vary.items() if isinstance(given, str)]:
+        raise ValueError(f"vary: wanted a list of values for {texts[0]}, got {vary[texts[0]]!r}")
     counts = {key: len(given) for key, given in vary.items()}
     if not counts or len(set(counts.values())) != 1 or 0 in counts.values():
         raise ValueError(f"vary: wanted keys with equally many values, one or more, got {counts}")
@@ -172,6 +174,7 @@ def _one_by_one(
 
 
 def _in_company(
+    variants: Variants,
     waiting: dict[tuple[Any, ...], dict[int, Variant]],
     found: Found,
     outputs: Sequence[str] | None,
@@ -180,8 +183,9 @@ def _in_company(
     """Let runs of small companies run at once: lanes have code of their own to compile."""
     for members in [members for members in waiting.values() if len(members) < FEWEST]:
         try:
-            for run, variant in members.items():
-                _recorded(found, run, variant, outputs)
+            for run in members:
+                # Its own case: one that was altered for lanes has another's.
+                _recorded(found, run, Variant(variants.case_of(run)), outputs)
                 if progress is not None:
                     progress(len(found.rows) + len(found.faults))
         except KeyboardInterrupt:
@@ -211,12 +215,14 @@ def _names(case: Case, known: tuple[str, ...], outputs: Sequence[str] | None) ->
     Raises
     ------
     UnknownOutput
-        If one is asked for that a run does not show.
+        If one is asked for that no run of this kind of crane shows.
     """
     if outputs is not None:
-        if unknown := [name for name in outputs if name not in known]:
+        named = KINDS[case.kind].outputs
+        elsewhere = named() if named else ()
+        if unknown := [name for name in outputs if name not in (*known, *elsewhere)]:
             raise UnknownOutput(f"wanted some of {', '.join(known)}, got {unknown[0]!r}")
-        return tuple(outputs)
+        return tuple(name for name in outputs if name in known)
     signals = KINDS[case.kind].signals
     first = [name for name in (signals.vibration, *signals.swings, "rope_tension") if name in known]
     return tuple(dict.fromkeys([*first, *known]))

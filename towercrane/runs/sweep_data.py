@@ -130,7 +130,11 @@ def dataset(case: Case, values: Mapping[str, Sequence[Value]], found: Found) -> 
         unknown = np.full((len(found.times), len(found.outputs)), np.nan)
         whole = np.array([found.series.get(run, unknown) for run in range(count)])
         for number, (name, (units, words)) in enumerate(found.outputs.items()):
-            variables[name] = (("run", "time"), whole[..., number], {"units": units, "long_name": words})
+            # A varied value may have the name of an output, such as the length of the rope.
+            taken = name in {key.replace(".", "_") for key in values}
+            series = "run", "time"
+            about = {"units": units, "long_name": words}
+            variables[f"{name}_over_time" if taken else name] = (series, whole[..., number], about)
     for key, given in values.items():
         unit = unit_of(case.kind, key)
         about = {"key": key, "units": unit or "1", "long_name": key.replace(".", " ").replace("_", " ")}

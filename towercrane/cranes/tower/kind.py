@@ -27,6 +27,7 @@ TOWER = Kind(
     natural=later("towercrane.cranes.tower.file.natural", "natural"),
     lengths=later("towercrane.cranes.tower.file.natural", "lengths"),
     targets=later("towercrane.cranes.tower.file.requests", "targets_of"),
+    outputs=later("towercrane.cranes.tower.outputs.observed", "names"),
     made_of=later("towercrane.cranes.tower.sharing", "made_of"),
     plain=later("towercrane.cranes.tower.sharing", "plain"),
     signals=Signals("tower_tip_displacement", ("sway_tangential", "sway_radial")),

@@ -16,7 +16,7 @@ from towercrane.cranes.tower.targets import absent
 from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Collection, Sequence
 
     from towercrane.cranes.tower.equations.flexible import Equations
     from towercrane.cranes.tower.outputs.seen import Seen
@@ -173,6 +173,11 @@ class Outputs(dict[str, Any]):
 def outputs(seen: Seen, instant: Instant) -> Outputs:
     """Outputs at an instant."""
     return Outputs(Sight(seen, instant))
+
+
+def names() -> Collection[str]:
+    """Names of all outputs that runs may have."""
+    return OUTPUTS.keys()
 
 
 def about(model: Equations) -> dict[str, About]:
