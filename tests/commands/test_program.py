@@ -15,6 +15,7 @@ import modal
 import towercrane
 from towercrane.__main__ import main
 from towercrane.cli import app
+from towercrane.commands.shared.skeleton import Task
 from towercrane.report.folder import write_run
 from towercrane.report.plots.style import figure_of
 from towercrane.results import files as results
@@ -274,3 +275,13 @@ def test_compiler_that_is_switched_off_is_named_before_the_run(tmp_path):
     assert (code, out) == (2, "")
     assert "NUMBA_DISABLE_JIT: wanted unset or 0, got 1" in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_part_of_a_result_is_put_beside_an_earlier_whole_one(tmp_path):
+    task = Task("some case", [], None, as_json=False, folder=tmp_path / "here")
+    task.spare("summary.json")
+    assert task.folder == tmp_path / "here"
+    task.folder.mkdir()
+    (task.folder / "summary.json").write_text("{}")
+    task.spare("summary.json")
+    assert task.folder == tmp_path / "here-interrupted"

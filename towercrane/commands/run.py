@@ -63,10 +63,8 @@ def run(
     summary = summarise(task.case, result) | verified
     files: dict[str, Any] = {"result.nc": result, **({"result.csv": result} if csv else {})}
     assert task.folder is not None
-    folder = task.folder
-    if interrupted and (folder / "summary.json").exists():
-        # What was there before is not given for a part of a run.
-        folder = folder.with_name(f"{folder.name}-interrupted")
+    if interrupted:
+        task.spare("summary.json")
     try:
         if pictures and not interrupted:
             with held_interrupts():
@@ -75,15 +73,15 @@ def run(
         interrupted = True
     finally:
         # Whatever becomes of the pictures, the run is kept.
-        text, stale = write_run(folder, files, summary)
+        text, stale = write_run(task.folder, files, summary)
     names = ", ".join([*files, "summary.json"])
     if as_json:
         tell(text)
     else:
-        _print(summary, [f"written to {folder}: {names}", *_removed(stale)])
+        _print(summary, [f"written to {task.folder}: {names}", *_removed(stale)])
         suggest(*_following(task))
     if interrupted:
-        say(f"kept in {folder}: {names}")
+        say(f"kept in {task.folder}: {names}")
         raise typer.Exit(INTERRUPTED)
     end_of_run(summary["expected"], summary["outcome"], summary["end_time_s"])
     if "accuracy" in summary:

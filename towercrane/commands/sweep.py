@@ -86,9 +86,8 @@ def sweep(
         from towercrane.report.plots.studies import sweep as pictured
 
         files |= pictured.extremes(data)
-    if outcomes.INTERRUPTED in summary["outcomes"] and task.folder and (task.folder / "sweep.nc").exists():
-        # What was there before is not given for a part of a sweep.
-        task.folder = task.folder.with_name(f"{task.folder.name}-interrupted")
+    if outcomes.INTERRUPTED in summary["outcomes"]:
+        task.spare("sweep.nc")
     task.finish(summary, sweep_tables, task.command("run", *options_of(worst(data))), files)
     if outcomes.INTERRUPTED in summary["outcomes"]:
         raise typer.Exit(INTERRUPTED)

@@ -186,6 +186,17 @@ class Model(Protocol):
         """What of the model belongs in a result's attributes."""
 
 
+def check_start(state: str) -> None:
+    """Refuse a way to start that no model knows.
+
+    Raises
+    ------
+    ValueError
+    """
+    if state not in ("equilibrium", "zero"):
+        raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+
+
 def start_inputs(model: Model, motions: Mapping[str, Motion], inputs: Floats) -> Floats:
     """Polynomials of a phase as a state at rest knows them.
 

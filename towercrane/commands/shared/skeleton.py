@@ -82,6 +82,11 @@ class Task:
         self.folder = out if out is not None else Path("results") / f"{self.case.name}{ending}"
         folder_for_results(self.folder, names)
 
+    def spare(self, earlier: str) -> None:
+        """Put a part of a result beside the folder where that holds a file of an earlier, whole one."""
+        if self.folder is not None and (self.folder / earlier).exists():
+            self.folder = self.folder.with_name(f"{self.folder.name}-interrupted")
+
     def compile(self, use: str = "run") -> None:
         """Compile what a use of the case needs, see :class:`towercrane.cranes.kind.Kind`."""
         compile_for(self.case, use)

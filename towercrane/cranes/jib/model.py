@@ -20,7 +20,7 @@ from towercrane.cranes.jib.outputs import ABOUT, Seen, driven_outputs, planned_o
 from towercrane.kernels.payload import SLACK
 from towercrane.simulation.observed import observe
 from towercrane.simulation.outcomes import SLACK_ROPE
-from towercrane.simulation.system import System
+from towercrane.simulation.system import System, check_start
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -214,8 +214,7 @@ class DrivenJibCrane(JibModel):
 
 def hanging(slew: float, state: str, swing_angle: float) -> Floats:
     """Direction of a rope that hangs in the booms' plane; shape (3,)."""
-    if state not in ("equilibrium", "zero"):
-        raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+    check_start(state)
     outward = np.sin(swing_angle)
     return np.array([outward * np.cos(slew), outward * np.sin(slew), -np.cos(swing_angle)])
 

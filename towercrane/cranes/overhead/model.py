@@ -13,7 +13,7 @@ from towercrane.cranes.overhead.outputs import ABOUT, Seen, overhead_outputs
 from towercrane.kernels.payload import SLACK
 from towercrane.simulation.observed import observe
 from towercrane.simulation.outcomes import SLACK_ROPE
-from towercrane.simulation.system import System
+from towercrane.simulation.system import System, check_start
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -107,8 +107,7 @@ class OverheadModel:
         ValueError
             If the state is not one of the two.
         """
-        if state not in ("equilibrium", "zero"):
-            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+        check_start(state)
         y = np.zeros(equations.SIZE)
         if state == "equilibrium":
             y[equations.UPLIFT] = self.crane.uplift_at_rest(inputs[equations.TROLLEY, 0], self.load.mass)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -41,8 +41,3 @@ class LumpedModel(LumpedSystem):
             "payload_mass": self.load.mass,
             "gravity": self.crane.gravity,
         }
-
-    def with_drive(self, **changes: Any) -> LumpedModel:
-        """The same model with a changed drive, such as ``friction="stick-slip"``."""
-        drive = replace(self.crane.drive, **changes)
-        return replace(self, crane=replace(self.crane, drive=drive))

@@ -17,7 +17,7 @@ from towercrane.kernels.straight.leaves import place_of
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, UNSTABLE
-from towercrane.simulation.system import NoEquilibrium, System
+from towercrane.simulation.system import NoEquilibrium, System, check_start
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -175,8 +175,7 @@ class LumpedSystem:
         ValueError
             If the state is not one of the two.
         """
-        if state not in ("equilibrium", "zero"):
-            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+        check_start(state)
         n, y = self.coordinates, np.zeros(self.size)
         y[:n] = self.equilibrium(inputs) if state == "equilibrium" else self.undeformed(inputs)
         if self.elastic and state == "equilibrium":

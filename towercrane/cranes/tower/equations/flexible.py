@@ -25,7 +25,7 @@ from towercrane.kernels.payload import SLACK, Load, State, Structure
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB
-from towercrane.simulation.system import NoEquilibrium, System
+from towercrane.simulation.system import NoEquilibrium, System, check_start
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -126,8 +126,7 @@ class Equations(Coordinates):
         ValueError
             If the state is not one of the two.
         """
-        if state not in ("equilibrium", "zero"):
-            raise ValueError(f"state: wanted 'equilibrium' or 'zero', got {state!r}")
+        check_start(state)
         n, y = self.coordinates, np.zeros(self.size)
         heading = 0.0 if self.slewing == "fixed" else float(inputs[SLEWING, 0])
         if self.drive is not None:
