@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import ceil, log
+from math import ceil, isinf, log
 from typing import TYPE_CHECKING
 
 from modal.checks import check_positive
@@ -63,23 +63,42 @@ def column_segments(
     ends = [_leaning(column, breadth, slope, mass_per_length, beam) for breadth in breadths]
     found = []
     for k, (near, far) in enumerate(pairwise(ends)):
-        ratio = breadths[k + 1] / breadths[k]
-
-        def power(name: str, near: Segment = near, far: Segment = far, ratio: float = ratio) -> float:
-            return log(getattr(far, name) / getattr(near, name)) / log(ratio)
-
-        found.append(
-            replace(
-                near,
-                length=(breadths[k + 1] - breadths[k]) / slope,
-                end_ratio=ratio,
-                mass_power=0.0 if mass_per_length is not None else power("mass_per_length"),
-                bending_power=power("bending_stiffness"),
-                shear_power=0.0 if beam == "euler" else power("shear_stiffness"),
-                inclined_chords=beam != "euler",
-            )
-        )
+        part, ratio = (breadths[k + 1] - breadths[k]) / slope, breadths[k + 1] / breadths[k]
+        segment = tapered(near, far, part, ratio, inclined=beam != "euler")
+        found.append(segment if mass_per_length is None else replace(segment, mass_power=0.0))
     return tuple(found)
+
+
+def tapered(near: Segment, far: Segment, length: float, ratio: float, *, inclined: bool) -> Segment:
+    """A segment of a length [m] between two sections, whose properties go with powers of the breadth.
+
+    Parameters
+    ----------
+    near, far : Segment
+        Sections at its ends.
+    length : float
+    ratio : float
+        Breadth at the far end over that at the near end [1].
+    inclined : bool
+        See `modal.beams.segment.Segment.inclined_chords`.
+    """
+    if ratio == 1.0:
+        return replace(near, length=length)
+
+    def power(name: str) -> float:
+        first, last = getattr(near, name), getattr(far, name)
+        return 0.0 if isinf(first) else log(last / first) / log(ratio)
+
+    return replace(
+        near,
+        length=length,
+        end_ratio=ratio,
+        mass_power=power("mass_per_length"),
+        # What does not change with the breadth may round to less than nothing.
+        bending_power=max(0.0, power("bending_stiffness")),
+        shear_power=power("shear_stiffness"),
+        inclined_chords=inclined,
+    )
 
 
 def _leaning(column: LacedColumn, breadth: float, slope: float, mass: float | None, beam: BeamModel) -> Segment:
