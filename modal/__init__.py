@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from modal.beams.beam import Beam, EndBody
-    from modal.beams.chain import Chain, Foundation, Pendulum
+    from modal.beams.chain import Chain, Collar, Foundation, Pendulum
     from modal.beams.roots import characteristic_roots
     from modal.beams.segment import Segment
     from modal.beams.shapes import Modes, cantilever_modes
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Beam",
     "Chain",
+    "Collar",
     "ColumnTruss",
     "CraneFrame",
     "EndBody",
@@ -57,6 +58,7 @@ __all__ = [
 _HOME = {
     "Beam": "beams.beam",
     "Chain": "beams.chain",
+    "Collar": "beams.chain",
     "ColumnTruss": "lattices.truss",
     "CraneFrame": "structures.crane_frame",
     "EndBody": "beams.beam",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import inf
+from math import inf, sqrt
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -33,19 +33,57 @@ class Foundation:
         Moment per rotation of the foot [N m/rad]; ``inf`` clamps it.
     translation_stiffness : float
         Force per sideways motion of the foot [N/m]; ``inf`` holds it.
+    coupling : float
+        Force per rotation of the foot, which is the moment per sideways motion [N]; positive where the ground resists
+        sideways motion above the foot. Not zero between two springs alone, and less than the root of their product.
 
     Raises
     ------
     ValueError
-        If a stiffness is not positive.
+        If a stiffness is not positive, or the coupling leaves a motion of the foot without resistance.
     """
 
     rotation_stiffness: float = inf
     translation_stiffness: float = inf
+    coupling: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in self.__slots__:
+        for name in ("rotation_stiffness", "translation_stiffness"):
             number_in(f"Foundation.{name}", getattr(self, name), "a positive number", least=SMALLEST, most=inf)
+        number_in("Foundation.coupling", self.coupling, "a finite number")
+        limit = self.strongest_coupling
+        if self.coupling and not (limit < inf and abs(self.coupling) < limit):
+            what = f"less than {limit:g} N, the root of both stiffnesses" if limit < inf else "0 where one is rigid"
+            raise ValueError(f"Foundation.coupling: wanted {what}, got {self.coupling!r}")
+
+    @property
+    def strongest_coupling(self) -> float:
+        """Coupling at which a motion of the foot meets no resistance [N]."""
+        return sqrt(self.translation_stiffness * self.rotation_stiffness)
+
+
+@dataclass(frozen=True, slots=True)
+class Collar:
+    """Springs between a node of a chain and a building that it is tied to.
+
+    Parameters
+    ----------
+    stiffness : float
+        Force per sideways motion of the chain against the building [N/m].
+    rotation_stiffness : float
+        Moment per rotation of the section, which with shear strain is not the slope [N m/rad].
+
+    Raises
+    ------
+    ValueError
+        If a stiffness is negative or not finite.
+    """
+
+    stiffness: float
+    rotation_stiffness: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_fields(self, not_negative=self.__slots__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,11 +140,14 @@ class Chain:
     shear_theory : {"haringx", "engesser"}
         Whether the axial force acts normal to the section or along the deflected axis; they differ only where
         there is both shear strain and axial force.
+    collars : dict of int to Collar
+        What ties the chain to a building, by node above the foot.
 
     Raises
     ------
     ValueError
-        If there is no segment, a body's node does not exist, a body is infinite, or a number is out of range.
+        If there is no segment, the node of a body or collar does not exist, a body is infinite, or a number is out of
+        range.
     """
 
     segments: tuple[Segment, ...]
@@ -116,6 +157,7 @@ class Chain:
     gravity: float = 0.0
     pendulum: Pendulum | None = None
     shear_theory: ShearTheory = "haringx"
+    collars: dict[int, Collar] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not self.segments:
@@ -125,6 +167,9 @@ class Chain:
                 raise ValueError(f"Chain.bodies: wanted nodes 0 to {len(self.segments)}, got {node!r}")
             if not (body.mass < inf and body.rotary_inertia < inf):
                 raise ValueError(f"Chain.bodies[{node}]: wanted finite mass and inertia, got {body!r}")
+        for node in self.collars:
+            if not is_whole(node) or not 1 <= node <= len(self.segments):
+                raise ValueError(f"Chain.collars: wanted nodes 1 to {len(self.segments)}, got {node!r}")
         number_in("Chain.axial_load", self.axial_load, "a finite number")
         check_fields(self, not_negative=("gravity",))
         if self.shear_theory not in get_args(ShearTheory):
@@ -166,7 +211,8 @@ class Chain:
         pieces = self.segments[before].split(position - nodes[before])
         segments = (*self.segments[:before], *pieces, *self.segments[before + 1 :])
         bodies = {node + (node > before): body for node, body in self.bodies.items()}
-        return replace(self, segments=segments, bodies=bodies), before + 1
+        collars = {node + (node > before): collar for node, collar in self.collars.items()}
+        return replace(self, segments=segments, bodies=bodies, collars=collars), before + 1
 
     def end_compressions(self) -> list[tuple[float, float]]:
         """Axial force at the near and the far end of each segment, compression positive [N]."""

@@ -116,12 +116,18 @@ class ChainModes:
         return integrals
 
     def stiffness_matrix(self) -> Floats:
-        """Stiffness of segments and foundation [1/s^2], shape (n, n)."""
+        """Stiffness of segments, foundation and collars [1/s^2], shape (n, n)."""
         total = self.shapes.strain_matrix()
-        foot = self.chain.foundation
-        for stiffness, motion in zip((foot.translation_stiffness, foot.rotation_stiffness), self._nodes, strict=True):
+        foot, (deflection, rotation) = self.chain.foundation, self._nodes
+        for stiffness, motion in ((foot.translation_stiffness, deflection), (foot.rotation_stiffness, rotation)):
             if np.isfinite(stiffness):
                 total += stiffness * np.outer(motion[:, 0], motion[:, 0])
+        if foot.coupling:
+            coupled = np.outer(deflection[:, 0], rotation[:, 0])
+            total += foot.coupling * (coupled + coupled.T)
+        for node, collar in self.chain.collars.items():
+            for stiffness, motion in ((collar.stiffness, deflection), (collar.rotation_stiffness, rotation)):
+                total += stiffness * np.outer(motion[:, node], motion[:, node])
         moved = _moved(self.chain, self.shapes)
         if moved.any():
             total = np.asarray(np.linalg.inv(np.linalg.inv(total) + moved))

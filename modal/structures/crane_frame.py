@@ -39,7 +39,7 @@ class CraneFrame:
     ------
     ValueError
         If a mass is negative, the rope's length or gravity is not positive, a jib has weight along itself, an
-        axial load, a foundation or a pendulum, or the tower has a pendulum besides the payload.
+        axial load, a foundation, collars or a pendulum, or the tower has a pendulum besides the payload.
     """
 
     tower: Chain
@@ -55,8 +55,9 @@ class CraneFrame:
         for name in ("jib", "counter_jib"):
             chain = getattr(self, name)
             if chain is not None and (
-                chain.gravity or chain.axial_load or chain.pendulum or chain.foundation != Foundation()
-            ):
+                chain.gravity or chain.axial_load or chain.pendulum or chain.collars
+                or chain.foundation != Foundation()
+            ):  # fmt: skip
                 raise ValueError(f"CraneFrame.{name}: wanted segments and bodies alone")
         if self.tower.pendulum is not None:
             raise ValueError(f"CraneFrame.tower: wanted no pendulum of its own, got {self.tower.pendulum!r}")
@@ -84,12 +85,7 @@ def crane_structure(crane: CraneFrame, trolley_position: float) -> Structure:
             along, weights = along + mass, weights + mass
     tower = replace(crane.tower, axial_load=crane.tower.axial_load + crane.tower.gravity * weights)
     structure = Structure((), shear_theory=tower.shear_theory)
-    foot = tower.foundation
-    ground = (
-        structure.add_unknown("m", foot.translation_stiffness),
-        structure.add_unknown("rad", foot.rotation_stiffness),
-    )
-    u, gamma = structure.add_chain(tower, ground)
+    u, gamma = structure.add_chain(tower, structure.add_foundation(tower.foundation))
     # What moves along with the top but is weighed elsewhere.
     structure.bodies[u, u] += along
     if crane.jib is None:

@@ -138,11 +138,13 @@ def _foundation_energy(tower: Chain, forces: Floats, squared: Floats) -> Floats:
     foot, body = tower.foundation, tower.bodies.get(0, EndBody())
     moment = body.mass * body.offset
     inertia = np.array([[body.mass, moment], [moment, body.rotary_inertia + moment * body.offset]])
-    springs = np.array([foot.translation_stiffness, foot.rotation_stiffness])
+    springs = np.array([
+        [foot.translation_stiffness, foot.coupling], [foot.coupling, foot.rotation_stiffness]
+    ])  # fmt: skip
     # What is rigid does not move, whatever its inertia.
-    free = np.flatnonzero(np.isfinite(springs))
+    free = np.flatnonzero(np.isfinite(np.diag(springs)))
     at = np.ix_(free, free)
-    stiffness = np.diag(springs[free]) - squared[:, None, None] * inertia[at]
+    stiffness = springs[at] - squared[:, None, None] * inertia[at]
     energy = np.full(squared.shape, inf)
     stands = np.linalg.eigvalsh(stiffness)[:, 0] > 0.0
     acting = forces[free].T[stands, :, None]

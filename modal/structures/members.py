@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from modal.beams.beam import EndBody
-    from modal.beams.chain import Chain, ShearTheory
+    from modal.beams.chain import Chain, Foundation, ShearTheory
     from modal.beams.segment import Segment
 
     Floats = NDArray[np.float64]
@@ -135,10 +135,19 @@ class Members:
             self.springs[number, number] = stiffness
         return number
 
+    def add_foundation(self, foundation: Foundation) -> tuple[int, int]:
+        """Deflection and rotation of a foot on its springs, `HELD` where it is held."""
+        springs = (("m", foundation.translation_stiffness), ("rad", foundation.rotation_stiffness))
+        deflection, rotation = (self.add_unknown(unit, stiffness) for unit, stiffness in springs)
+        if foundation.coupling:
+            self.springs[deflection, rotation] = self.springs[rotation, deflection] = foundation.coupling
+        return deflection, rotation
+
     def add_chain(
         self, chain: Chain, foot: tuple[int, int], factors: tuple[float, float] = (1.0, 1.0), part: str = "tower"
     ) -> tuple[int, int]:
-        """Put a chain with its bodies on two unknowns, times factors, that move its foot; its end's unknowns."""
+        """Put a chain with its bodies and collars on two unknowns, times factors, that move its foot; its end's
+        unknowns."""
         near, position = foot, 0.0
         nodes = [foot]
         for segment, (_, above) in zip(chain.segments, chain.end_compressions(), strict=True):
@@ -149,6 +158,10 @@ class Members:
             nodes.append(far)
         for node, body in chain.bodies.items():
             self.add_body(body, *nodes[node], chain.gravity * body.mass)
+        for node, collar in chain.collars.items():
+            for unknown, stiffness in zip(nodes[node], (collar.stiffness, collar.rotation_stiffness), strict=True):
+                if stiffness:
+                    self.springs[unknown, unknown] += stiffness
         return near
 
     def add_body(self, body: EndBody, deflection: int, rotation: int, weight: float = 0.0) -> None:

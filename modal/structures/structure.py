@@ -102,11 +102,8 @@ def chain_structure(chain: Chain) -> Structure:
 
     The unknowns are deflection and rotation of every node that can move, from the foot up, then the load's motion.
     """
-    foot = chain.foundation
-    stiffnesses = foot.translation_stiffness, foot.rotation_stiffness
     structure = Structure((), shear_theory=chain.shear_theory)
-    springs = [structure.add_unknown(unit, k) for unit, k in zip(("m", "rad"), stiffnesses, strict=True)]
-    end = structure.add_chain(chain, (springs[0], springs[1]))
+    end = structure.add_chain(chain, structure.add_foundation(chain.foundation))
     if chain.pendulum is not None:
         load = structure.add_unknown("m")
         structure.add_pendulum(chain.pendulum.stiffness, chain.pendulum.mass, end[0], load)

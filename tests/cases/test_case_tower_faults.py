@@ -55,6 +55,26 @@ MEND = [
     (SEGMENTS, ('"2 GN m/rad"', "0"), "foundation.rotation_stiffness", ["a rotary stiffness", "above 0"]),
     (SEGMENTS, ('"2 GN m/rad"', '"2 GN/m"'), "foundation.rotation_stiffness", ["which is a stiffness"]),
     (SEGMENTS, ("[foundation]", "[fundation]"), "fundation", ["unknown key", '"foundation"']),
+    (SEGMENTS, ('"-200 MN"', '"-200 MN/m"'), "foundation.coupling_stiffness", ["a force", "which is a stiffness"]),
+    (SEGMENTS, ('"-200 MN"', '"-800 MN"'), "foundation.coupling_stiffness", ["less than 7.746e+08 N", "-800 MN"]),
+    (SEGMENTS, ('translation_stiffness = "300 MN/m"\n', ""), "foundation.coupling_stiffness",
+     ["translation_stiffness beside it", "missing"]),
+    (SEGMENTS, ('"-200 MN"', "0"), None, []),
+    (SEGMENTS, ('mass = "40 t"\n', ""), "foundation.block.mass", ["a mass", "missing"]),
+    (SEGMENTS, ('mass = "40 t"', 'mass = "-40 t"'), "foundation.block.mass", ["from 0"]),
+    (SEGMENTS, ('"300 t m^2"', '"300 t m"'), "foundation.block.rotary_inertia", ["a moment of inertia"]),
+    (SEGMENTS, ("[foundation.block]", "[foundation.bloc]"), "foundation.bloc", ["unknown key", '"block"']),
+    (SEGMENTS, ('height = "8 m"', 'height = "31 m"'), "tower.collars.0.height", ["from 0 to 30 m", "holds"]),
+    (SEGMENTS, ('height = "8 m"', 'height = "0 m"'), "tower.collars.0.height", ["above 0"]),
+    (SEGMENTS, ('height = "8 m"', 'height = "20 m"'), "tower.collars.1.height", ["that differ", '"20 m" twice']),
+    (SEGMENTS, ('height = "8 m"\n', ""), "tower.collars.0.height", ["a length", "missing"]),
+    (SEGMENTS, ('stiffness = "10 MN/m"\n', ""), "tower.collars.0.stiffness", ["a stiffness", "missing"]),
+    (SEGMENTS, ('"10 MN/m"', '"0 MN/m"'), "tower.collars.0.stiffness", ["above 0"]),
+    (SEGMENTS, ('"30 MN m/rad"', '"-30 MN m/rad"'), "tower.collars.1.rotation_stiffness", ["from 0"]),
+    (SEGMENTS, ('"400 MN m/rad"', '"400 MN m^2"'), "tower.collars.1.torsional_stiffness",
+     ["a rotary stiffness", "which is"]),
+    (SEGMENTS, ('stiffness = "10 MN/m"', 'stifness = "10 MN/m"'), "tower.collars.0.stifness",
+     ["unknown key", '"stiffness"']),
     (UNIFORM, ("[counter_jib]", '[counter_jib]\nyoungs_modulus = "210 GPa"'), "counter_jib.second_moment_of_area",
      ["that bends", "missing", "rigid"]),
     (UNIFORM, ("[counter_jib]", '[counter_jib]\nsecond_moment_of_area = "1e-3 m^4"'), "counter_jib.youngs_modulus",
@@ -99,12 +119,18 @@ IMPLAUSIBLE = [
     ("crane.tower.bodies.1.rotary_inertia", 3e-3, "t m^2 meant?"),
     ("crane.foundation.rotation_stiffness", 2000, "MN m/rad meant?"),
     ("crane.foundation.translation_stiffness", 300, "MN/m meant?"),
+    ("crane.foundation.coupling_stiffness", -200, "MN meant?"),
+    ("crane.foundation.block.mass", 40, "t meant?"),
+    ("crane.tower.collars.0.stiffness", 10, "MN/m meant?"),
+    ("crane.tower.collars.1.torsional_stiffness", 400, "kN m/rad meant?"),
+    ("crane.tower.collars.1.rotation_stiffness", 30, "kN m/rad meant?"),
 ]
 
 
 @pytest.mark.parametrize(("key", "value", "meant"), IMPLAUSIBLE)
 def test_implausible_values_name_the_likely_unit_and_can_be_allowed(write_tower, key, value, meant):
-    path, override = write_tower(SEGMENTS), f"{key}={json.dumps(value)}"
+    uncoupled = SEGMENTS if "coupling" in key else SEGMENTS.replace('"-200 MN"', "0")
+    path, override = write_tower(uncoupled), f"{key}={json.dumps(value)}"
     fault = faults_of(path, override)[0]
     assert (fault.file, fault.key) == (f"--set {override}", key)
     assert fault.hint.startswith(meant)

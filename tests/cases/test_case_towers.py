@@ -6,14 +6,15 @@ from math import inf
 import pytest
 from samples.tower_files import FLEXIBLE, LACED, MEMBERS, ONE_SEGMENT, SEGMENTS, UNIFORM
 
-from modal import Beam, Chain, EndBody, Foundation, LacedColumn, Segment
+from modal import Beam, Chain, Collar, EndBody, Foundation, LacedColumn, Segment
 from towercrane.cases.assumptions import rests_on
 from towercrane.cases.case import load_case
 from towercrane.cranes.tower.file.build import crane_of
 from towercrane.cranes.tower.file.effects import kept_tower
 from towercrane.cranes.tower.file.members import beam_choice, lattice_of
+from towercrane.cranes.tower.file.tower_tables import Block, Tower, TowerBody, TowerSegment
+from towercrane.cranes.tower.file.tower_tables import Collar as CollarTable
 from towercrane.cranes.tower.file.tower_tables import Foundation as FoundationTable
-from towercrane.cranes.tower.file.tower_tables import Tower, TowerBody, TowerSegment
 
 E = 210e9
 COLUMN = LacedColumn(50e-4, 1.7, 1.4, 8e-4, E, "X", 6e-4)
@@ -33,20 +34,22 @@ def same(one, other):
 def test_a_segmented_tower_is_the_chain_built_by_hand(write_tower):
     foot = Segment(12.0, 500.0, 206e9 * 0.02, 150e6, 300.0, 0.6, 1.0, 3.0, 1.0)
     cut = MAST.split(8.0)
-    bodies = {0: EndBody(100e3), 2: EndBody(2000.0, 3000.0, -0.4), 3: EndBody(5000.0, 0.0, 1.0)}
-    ground = Foundation(2e9, 300e6)
+    # A body of 100 t at the foot, and the block of 40 t one metre below.
+    block = EndBody(140e3, 300e3 + 100e3 * 40.0 / 140.0, -40.0 / 140.0)
+    bodies = {0: block, 3: EndBody(2000.0, 3000.0, -0.4), 4: EndBody(5000.0, 0.0, 1.0)}
+    ground, collars = Foundation(2e9, 300e6, -200e6), {1: Collar(10e6), 3: Collar(20e6, 30e6)}
     same(
         kept_tower(load_case(write_tower(SEGMENTS)).checked),
-        Chain((foot, *cut), bodies, ground, shear_theory="engesser"),
+        Chain((*foot.split(8.0), *cut), bodies, ground, shear_theory="engesser", collars=collars),
     )
 
 
 def test_every_key_of_the_tables_is_in_the_file_of_these_tests():
-    for table in (TowerSegment, TowerBody, FoundationTable):
+    for table in (TowerSegment, TowerBody, FoundationTable, Block, CollarTable):
         assert all(f"{name} =" in SEGMENTS + MEMBERS or f".{name}]" in SEGMENTS for name in table.model_fields)
     elsewhere = {"height", "beam", "published_roots", *TowerSegment.model_fields}
     assert set(Tower.model_fields) - elsewhere == {
-        "segments", "bodies", "shear_theory", "torsional_stiffness", "torsional_inertia_per_length",
+        "segments", "bodies", "collars", "shear_theory", "torsional_stiffness", "torsional_inertia_per_length",
     }  # fmt: skip
 
 
@@ -125,7 +128,9 @@ def test_a_lattice_beside_a_stated_inertia_is_a_check_unless_asked_for(write_tow
 
 def test_laced_segments_follow_the_tower_and_stated_ones_do_not(write_tower):
     case = load_case(write_tower(SEGMENTS), ["crane.tower.beam=euler"])
-    assert [segment.shear_stiffness for segment in kept_tower(case.checked).segments] == [150e6, inf, inf]
+    shear = [segment.shear_stiffness for segment in kept_tower(case.checked).segments]
+    # A collar cuts the first segment, a body the second.
+    assert shear == [150e6, pytest.approx(110e6), inf, inf]
     tower = case.crane.tower
     assert [beam_choice(tower, segment) for segment in tower.segments] == ["stated", "euler"]
 
@@ -155,4 +160,8 @@ def test_assumed_values_anywhere_in_a_tower_are_listed(write_tower):
         "crane.tower.segments.1.lattice.lacing", "crane.tower.segments.0.taper", "crane.tower.bodies.1.offset",
         "crane.foundation.rotation_stiffness", "crane.tower.shear_theory",
     } <= keys  # fmt: skip
-    assert rests_on(case) == case.assumed
+    # A run in the plane twists no collar.
+    assert rests_on(case) == tuple(a for a in case.assumed if not a.key.endswith("torsional_stiffness"))
+    rigid = load_case(write_tower(UNIFORM + '[foundation.block]\nmass = { value = "40 t", assumed = "a guess" }\n'))
+    assert len(rigid.assumed) == 1
+    assert rests_on(rigid) == ()

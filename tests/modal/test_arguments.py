@@ -11,6 +11,7 @@ import modal
 from modal import (
     Beam,
     Chain,
+    Collar,
     ColumnTruss,
     CraneFrame,
     EndBody,
@@ -41,9 +42,12 @@ RIGID = replace(FRAME, jib=None)
 SHAFT = Shaft(30.0, 100.0, 1e8)
 STRUCTURE = chain_structure(CHAIN)
 TRUSS = ColumnTruss(COLUMN, 4.0, 300.0)
-OBJECTS = [BEAM, EndBody(), CHAIN.segments[0], CHAIN, Foundation(), Pendulum(1e3, 10.0), FRAME, COLUMN, SHAFT, TRUSS]
+OBJECTS = [
+    BEAM, EndBody(), CHAIN.segments[0], CHAIN, Foundation(1e9, 1e9), Collar(1e7), Pendulum(1e3, 10.0), FRAME, COLUMN,
+    SHAFT, TRUSS,
+]  # fmt: skip
 INFINITE = {"mass", "rotary_inertia", "shear_stiffness", "rotation_stiffness", "translation_stiffness"}
-SIGNED = {"EndBody.offset", "Segment.shear_power", "Chain.axial_load"}
+SIGNED = {"EndBody.offset", "Segment.shear_power", "Chain.axial_load", "Foundation.coupling"}
 NUMBERS = [
     pytest.param(made, field.name, id=f"{type(made).__name__}.{field.name}")
     for made in OBJECTS

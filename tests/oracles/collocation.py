@@ -110,7 +110,7 @@ def mass_between(segment, near, far):
     return 0.5 * (far - near) * float(weights @ (segment.mass_per_length * breadth**segment.mass_power))
 
 
-def node_conditions(problem, v, theta, force, moment, *, body=None, gravity=0.0, springs=(0.0, 0.0)):
+def node_conditions(problem, v, theta, force, moment, *, body=None, gravity=0.0, springs=(0.0, 0.0), coupling=0.0):
     """Balance of a node: what the beams pull at it with, ``force`` and ``moment``, its springs and its body."""
     size = problem.size
     v, theta, force, moment = (widened(row, size)[0] for row in (v, theta, force, moment))
@@ -120,8 +120,8 @@ def node_conditions(problem, v, theta, force, moment, *, body=None, gravity=0.0,
         inertia_v = m * v + m * h * theta
         inertia_theta = m * h * v + (j + m * h * h) * theta
         moment = moment - m * gravity * h * theta
-    problem.conditions.append((force + springs[0] * v, inertia_v))
-    problem.conditions.append((moment + springs[1] * theta, inertia_theta))
+    problem.conditions.append((force + springs[0] * v + coupling * theta, inertia_v))
+    problem.conditions.append((moment + springs[1] * theta + coupling * v, inertia_theta))
 
 
 def collocated_chain(chain, count, degree=40):
@@ -158,12 +158,16 @@ def collocated_chain(chain, count, degree=40):
             stretch = chain.pendulum.stiffness * (widened(v, problem.size)[0] - hook)
             force = force + stretch
             problem.conditions.append((-stretch, chain.pendulum.mass * hook))
-        springs = (0.0, 0.0)
+        springs, coupling = (0.0, 0.0), 0.0
+        if node in chain.collars:
+            springs = chain.collars[node].stiffness, chain.collars[node].rotation_stiffness
         if node == 0:
             springs = chain.foundation.translation_stiffness, chain.foundation.rotation_stiffness
+            coupling = chain.foundation.coupling
         held = [np.isinf(k) for k in springs]
         finite = [0.0 if h else k for h, k in zip(held, springs, strict=True)]
-        node_conditions(problem, v, theta, force, moment, body=chain.bodies.get(node), gravity=g, springs=finite)
+        body = chain.bodies.get(node)
+        node_conditions(problem, v, theta, force, moment, body=body, gravity=g, springs=finite, coupling=coupling)
         for which, row in enumerate((v, theta)):
             if held[which]:
                 problem.conditions[which - 2] = (row, 0.0)

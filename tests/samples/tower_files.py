@@ -69,9 +69,22 @@ offset = "-40 cm"
 height = "30 m"
 mass = "5 t"
 offset = "1 m"
+[[tower.collars]]
+height = "8 m"
+stiffness = "10 MN/m"
+[[tower.collars]]
+height = "20 m"
+stiffness = "20 MN/m"
+rotation_stiffness = "30 MN m/rad"
+torsional_stiffness = "400 MN m/rad"
 [foundation]
 rotation_stiffness = "2 GN m/rad"
 translation_stiffness = "300 MN/m"
+coupling_stiffness = "-200 MN"
+[foundation.block]
+mass = "40 t"
+rotary_inertia = "300 t m^2"
+offset = "-1 m"
 """
 
 FLEXIBLE = 'youngs_modulus = "210 GPa"\nsecond_moment_of_area = "0.002 m^4"\n'

@@ -40,8 +40,8 @@ def test_branches_are_named_after_what_holds_their_energy(data):
     assert len(set(names)) == 5
     assert {"first jib bending", "first tower bending"} <= set(names)
     assert_allclose(data.energy_share.sum("member"), 1.0, rtol=1e-12)
-    shares = np.zeros((1, 1, 4, 5))
-    shares[0, 0, [0, 1, 2, 3], [1, 0, 1, 4]] = 1.0
+    shares = np.zeros((1, 1, 4, 6))
+    shares[0, 0, [0, 1, 2, 3], [1, 0, 1, 5]] = 1.0
     named = branch_names(np.array([[[3.0, 2.0, 1.0, 0.1]]]), shares)
     assert named == ["second jib bending", "first tower bending", "first jib bending", "load swing"]
 

@@ -40,6 +40,7 @@ MODE_NAMES = {
     "jib": "jib bending",
     "counter-jib": "counter-jib bending",
     "foundation": "rocking on the foundation",
+    "collars": "motion on the collars",
     "load": "load swing",
 }
 """What a mode is called whose energy is most in a member."""

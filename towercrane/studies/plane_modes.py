@@ -32,7 +32,7 @@ POINTS = 24
 PROPERTIES = "mass_per_length", "rotary_inertia", "bending_stiffness", "shear_stiffness", "mass_flexibility"
 """Of a section, as `Points` has them."""
 
-MEMBERS = ("tower", "jib", "counter-jib", "foundation", "load")
+MEMBERS = ("tower", "jib", "counter-jib", "foundation", "collars", "load")
 """Where the potential energy of a mode is; that of the load is its height as it swings."""
 
 LOADS = ("vertical", "horizontal")
@@ -232,21 +232,25 @@ class PlaneModes:
 
     @cached_property
     def energy_shares(self) -> Floats:
-        """Shares of `MEMBERS` in the potential energy of every mode [1], shape (n, 5).
+        """Shares of `MEMBERS` in the potential energy of every mode [1], shape (n, 6).
 
-        Strain energy of tower and jibs, of the foundation's springs, and the load's as it swings on its rope; what
-        the weight takes from the tower's stiffness is not in it.
+        Strain energy of tower and jibs, of the springs of foundation and collars, and the load's as it swings on its
+        rope; what the weight takes from the tower's stiffness is not in it.
         """
         crane, parts = self.crane, self.modes.parts
         none = np.zeros(len(self.frequencies))
         strain = {name: points.strain(parts[name]) for name, points in crane.points.items()}
-        ground = none
-        foot = crane.frame.tower.foundation
+        tower, moves = crane.frame.tower, parts["tower"].evaluate
+        foot, ground, tied = tower.foundation, none, none
         for stiffness, quantity in ((foot.translation_stiffness, DEFLECTION), (foot.rotation_stiffness, ROTATION)):
             if np.isfinite(stiffness):
-                ground = ground + stiffness * parts["tower"].evaluate(0.0, quantity) ** 2
+                ground = ground + stiffness * moves(0.0, quantity) ** 2
+        ground = ground + 2.0 * foot.coupling * moves(0.0, DEFLECTION) * moves(0.0, ROTATION)
+        for node, collar in tower.collars.items():
+            for stiffness, quantity in ((collar.stiffness, DEFLECTION), (collar.rotation_stiffness, ROTATION)):
+                tied = tied + stiffness * moves(tower.nodes[node], quantity) ** 2
         swing = crane.pendulum_stiffness * (self._load - self._top) ** 2
-        energies = [strain["tower"], strain["jib"], strain.get("counter-jib", none), ground, swing]
+        energies = [strain["tower"], strain["jib"], strain.get("counter-jib", none), ground, tied, swing]
         total = np.stack(energies, axis=1)
         shares: Floats = total / total.sum(axis=1, keepdims=True)
         return shares

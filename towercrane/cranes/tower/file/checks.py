@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.tower.file.tower_tables import Tower, TowerSegment
@@ -45,7 +46,10 @@ def check_tower(tree: dict[str, Any]) -> Iterator[Fault]:
             yield from _check_uniform(tower)
         for key, section in ((TOWER, tower), *_numbered("segments", segments)):
             yield from _check_lattice(f"{key}.lattice", section.get("lattice"))
-        yield from _check_bodies(_tables(tower.get("bodies")), tower_height(tree))
+        for name in ("bodies", "collars"):
+            yield from _check_heights(name, _tables(tower.get(name)), tower_height(tree))
+        yield from _check_apart(_tables(tower.get("collars")))
+    yield from _check_coupling(tree)
     yield from _check_counter_jib(tree)
 
 
@@ -135,13 +139,54 @@ def _check_lattice(key: str, lattice: object) -> Iterator[Fault]:
         yield Fault("", f"{key}.horizontal_area", what, shown(lattice.get("horizontal_area", "nothing")))
 
 
-def _check_bodies(bodies: list[dict[str, Any]], total: float | None) -> Iterator[Fault]:
-    """Bodies above the tower."""
-    for key, body in _numbered("bodies", bodies):
-        height = si_at(body, "height", "m")
+HINTS = {
+    "bodies": "a body above it has a positive offset",
+    "collars": "a collar holds the tower, not what turns on it",
+}
+"""Why something may stand above the tower."""
+
+
+def _check_heights(name: str, tables: list[dict[str, Any]], total: float | None) -> Iterator[Fault]:
+    """Bodies or collars above the tower."""
+    for key, table in _numbered(name, tables):
+        height = si_at(table, "height", "m")
         if total and height is not None and height > total * (1.0 + ROUNDING):
             what = f"a height from 0 to {total:g} m (the height of the tower)"
-            yield Fault("", f"{key}.height", what, shown(body["height"]), "a body above it has a positive offset")
+            yield Fault("", f"{key}.height", what, shown(table["height"]), HINTS[name])
+
+
+def _check_apart(collars: list[dict[str, Any]]) -> Iterator[Fault]:
+    """Collars at one height."""
+    heights: list[float] = []
+    for key, collar in _numbered("collars", collars):
+        height = si_at(collar, "height", "m")
+        if height is None:
+            continue
+        if any(abs(height - other) <= ROUNDING * height for other in heights):
+            hint = "one collar has the stiffness of both"
+            yield Fault("", f"{key}.height", "heights that differ", f"{shown(collar['height'])} twice", hint)
+        heights.append(height)
+
+
+def _check_coupling(tree: dict[str, Any]) -> Iterator[Fault]:
+    """A coupling of springs that are not there, or that is stronger than they."""
+    key = "crane.foundation"
+    coupling = si_at(tree, f"{key}.coupling_stiffness", "N")
+    names = {"translation_stiffness": "N/m", "rotation_stiffness": "N m/rad"}
+    if not coupling:
+        return
+    missing = [name for name in names if at(tree, f"{key}.{name}") is None]
+    if missing:
+        what = f"{' and '.join(missing)} beside it: it couples the two springs"
+        yield Fault("", f"{key}.coupling_stiffness", what, MISSING, "without it the foot is rigid that way")
+        return
+    springs = [si_at(tree, f"{key}.{name}", unit) for name, unit in names.items()]
+    if all(spring is not None and spring > 0.0 for spring in springs):
+        limit = sqrt((springs[0] or 0.0) * (springs[1] or 0.0))
+        if abs(coupling) >= limit:
+            got = shown(at(tree, f"{key}.coupling_stiffness"))
+            hint = "at the root of both stiffnesses' product a motion of the foot meets no resistance"
+            yield Fault("", f"{key}.coupling_stiffness", f"less than {limit:.4g} N in either sense", got, hint)
 
 
 def _check_counter_jib(tree: dict[str, Any]) -> Iterator[Fault]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from towercrane.cranes.tower.file.members import beam_choice
+from modal import Foundation
+from towercrane.cranes.tower.file.members import beam_choice, foundation_of
 from towercrane.cranes.tower.file.plane import stays_in_plane
 
 if TYPE_CHECKING:
@@ -31,8 +32,11 @@ def idle(tables: TowerCase, *, exact_crane: bool = False, all_modes: bool = Fals
     if not crane.tower.segments:
         stated = beam_choice(crane.tower, crane.tower) == "stated"
         yield "crane.tower.lattice." if stated else "crane.tower.second_moment_of_area"
+    if foundation_of(crane) == Foundation():
+        yield "crane.foundation.block."
     if planar or not (model.torsion_modes or all_modes):
         yield from ("crane.tower.torsional_stiffness", "crane.tower.torsional_inertia_per_length")
+        yield from (f"crane.tower.collars.{k}.torsional_stiffness" for k in range(len(crane.tower.collars)))
     if planar or not (model.jib_lateral_modes or all_modes):
         yield "crane.jib.lateral_second_moment_of_area"
     if planar:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from modal import Beam, Chain, ColumnTruss, EndBody, Foundation, LacedColumn, Segment
+from modal import Beam, Chain, Collar, ColumnTruss, EndBody, Foundation, LacedColumn, Segment
 from modal.lattices.lattice_taper import column_segments
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 
@@ -23,8 +23,8 @@ section that tapers both ways."""
 def tower_of(crane: Crane) -> Beam | Chain:
     """The tower of a checked crane file, without the slewing part and without weight.
 
-    A uniform tower on rigid ground without shear strain, rotary inertia and bodies is a `Beam`, which has closed
-    forms; any other, and one that is written as segments, is a `Chain`.
+    A uniform tower on rigid ground without shear strain, rotary inertia, bodies and collars is a `Beam`, which has
+    closed forms; any other, and one that is written as segments, is a `Chain`.
     """
     tower = crane.tower
     if (uniform := uniform_of(crane)) is not None:
@@ -32,20 +32,32 @@ def tower_of(crane: Crane) -> Beam | Chain:
         assert modulus is not None, "the file is checked to give one"
         return Beam(uniform.length, uniform.mass_per_length, modulus, uniform.bending_stiffness / modulus)
     segments = tuple(segment for piece in _pieces(tower) for segment in _segments(tower, piece))
-    foundation = Foundation(**dict(crane.foundation))
-    chain = Chain(segments, foundation=foundation, shear_theory=tower.shear_theory)
-    for body in tower.bodies:
-        # The sum of the segments may fall short of the stated height by rounding.
-        chain, node = chain.with_node(min(body.height, chain.length))
+    chain = Chain(segments, foundation=foundation_of(crane), shear_theory=tower.shear_theory)
+    block = crane.foundation.block
+    bodies = [(body.height, body) for body in tower.bodies] + ([(0.0, block)] if block is not None else [])
+    # The sum of the segments may fall short of the stated height by rounding.
+    for height, body in bodies:
+        chain, node = chain.with_node(min(height, chain.length))
         more = EndBody(body.mass, body.rotary_inertia, body.offset)
         chain = replace(chain, bodies={**chain.bodies, node: joined(chain.bodies.get(node, EndBody()), more)})
+    for collar in tower.collars:
+        chain, node = chain.with_node(min(collar.height, chain.length))
+        springs = Collar(collar.stiffness, collar.rotation_stiffness)
+        chain = replace(chain, collars={**chain.collars, node: springs})
     return chain
+
+
+def foundation_of(crane: Crane) -> Foundation:
+    """Springs under the foot of the tower."""
+    ground = crane.foundation
+    return Foundation(ground.rotation_stiffness, ground.translation_stiffness, ground.coupling_stiffness)
 
 
 def uniform_of(crane: Crane) -> Segment | None:
     """The one segment of a tower that is a `Beam`, see `tower_of`; None for a `Chain`."""
     tower = crane.tower
-    if tower.segments or tower.bodies or Foundation(**dict(crane.foundation)) != Foundation():
+    ground = foundation_of(crane) != Foundation() or crane.foundation.block is not None
+    if tower.segments or tower.bodies or tower.collars or ground:
         return None
     first = _segments(tower, _pieces(tower)[0])[0]
     return first if first.shear_stiffness == inf and first.rotary_inertia == 0.0 else None

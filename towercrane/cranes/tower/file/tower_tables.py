@@ -11,6 +11,7 @@ from towercrane.schema.fields import (
     Area,
     AreaOrNone,
     Breadth,
+    Coupling,
     InertiaOrNone,
     Length,
     LengthIfAny,
@@ -23,6 +24,7 @@ from towercrane.schema.fields import (
     Root,
     RotaryInertiaPerLength,
     RotaryStiffness,
+    RotaryStiffnessOrNone,
     SecondMomentIfAny,
     ShearStiffness,
     Stiffness,
@@ -78,6 +80,15 @@ class TowerBody(Table):
     offset: Position = 0.0
 
 
+class Collar(Table):
+    """What ties the tower to a building at a height."""
+
+    height: Length
+    stiffness: Stiffness
+    rotation_stiffness: RotaryStiffnessOrNone = 0.0
+    torsional_stiffness: RotaryStiffnessOrNone = 0.0
+
+
 class Tower(Section):
     """Tower: a uniform beam, or segments from the foot up.
 
@@ -90,14 +101,25 @@ class Tower(Section):
     beam: BeamChoice | None = None
     segments: tuple[TowerSegment, ...] = ()
     bodies: tuple[TowerBody, ...] = ()
+    collars: tuple[Collar, ...] = ()
     shear_theory: ShearTheory = "haringx"
     torsional_stiffness: TorsionalStiffnessIfAny = None
     torsional_inertia_per_length: TorsionalInertiaIfAny = None
     published_roots: tuple[Root, ...] = ()
 
 
+class Block(Table):
+    """Rigid block at the foot of the tower; its centre of mass lies by the offset above the foot."""
+
+    mass: MassOrNone
+    rotary_inertia: InertiaOrNone = 0.0
+    offset: Position = 0.0
+
+
 class Foundation(Table):
-    """Springs under the foot of the tower; what is not given is rigid."""
+    """Springs under the foot of the tower, and the block that they carry; a spring that is not given is rigid."""
 
     rotation_stiffness: RotaryStiffness = inf
     translation_stiffness: Stiffness = inf
+    coupling_stiffness: Coupling = 0.0
+    block: Block | None = None
