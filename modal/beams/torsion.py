@@ -1,14 +1,15 @@
-"""Uniform shaft clamped at one end, with a rigid body at the other: natural modes of torsion."""
+"""Uniform shaft clamped at one end, a rigid body at the other, springs on the way: natural modes of torsion."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from math import pi, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.checks import check_fields, number_in, whole_number
+from modal.checks import SMALLEST, check_fields, number_in, whole_number
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -28,29 +29,45 @@ class Shaft:
         Moment of inertia about the axis per unit length [kg m].
     torsional_stiffness : float
         Torque per twist per length, G J [N m^2].
+    springs : tuple of (float, float)
+        Springs that hold it on its way: position [m] and torque per twist [N m/rad], positions ascending.
 
     Raises
     ------
     ValueError
-        If a value is not a positive finite number.
+        If a value is not a positive finite number, or springs are off the shaft or not in order.
     """
 
     length: float
     inertia_per_length: float
     torsional_stiffness: float
+    springs: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self) -> None:
-        check_fields(self, positive=self.__slots__)
+        check_fields(self, positive=("length", "inertia_per_length", "torsional_stiffness"))
+        below = 0.0
+        for position, stiffness in self.springs:
+            wanted = f"more than {below!r} and up to {self.length!r} m, ascending"
+            number_in("Shaft.springs", position, wanted, least=below + SMALLEST, most=self.length)
+            if not position > below:
+                raise ValueError(f"Shaft.springs: wanted {wanted}, got {position!r}")
+            number_in("Shaft.springs", stiffness, "stiffnesses of zero or more", least=0.0)
+            below = position
 
     @property
     def inertia(self) -> float:
         """Moment of inertia about the axis [kg m^2]."""
         return self.inertia_per_length * self.length
 
+    @property
+    def nodes(self) -> Floats:
+        """Foot, springs on the way and end [m]; a spring at the end makes no node of its own."""
+        return np.array([0.0, *(at for at, _ in self.springs if at < self.length), self.length])
+
 
 @dataclass(frozen=True, eq=False)
 class TorsionModes:
-    """Natural modes of torsion, phi_i = A_i sin(y_i z / L), clamped at position 0.
+    """Natural modes of torsion, phi_i = A_ip sin(y_i (z - z_p) / L + a_ip) between the nodes z_p, clamped at 0.
 
     Made by `torsion_modes`. They are orthonormal in the inertia of shaft and body together, so phi is in
     (kg m^2)^-1/2.
@@ -62,14 +79,15 @@ class TorsionModes:
         Of the body at position L [kg m^2].
     roots : ndarray, shape (n,)
         y_i, ascending [rad].
-    amplitudes : ndarray, shape (n,)
-        A_i [(kg m^2)^-1/2].
+    amplitudes, phases : ndarray, shape (n, pieces)
+        A_ip [(kg m^2)^-1/2] and a_ip [rad].
     """
 
     shaft: Shaft
     end_inertia: float
     roots: Floats
     amplitudes: Floats
+    phases: Floats
 
     @property
     def count(self) -> int:
@@ -83,19 +101,40 @@ class TorsionModes:
 
     def __call__(self, position: ArrayLike) -> Floats:
         """Twist at positions along the shaft [(kg m^2)^-1/2], shape (n, *shape of position)."""
-        z = np.asarray(position, dtype=float) / self.shaft.length
-        return np.multiply.outer(self.amplitudes, np.ones_like(z)) * np.sin(np.multiply.outer(self.roots, z))
+        z, nodes = np.asarray(position, dtype=float), self.shaft.nodes
+        piece = np.clip(np.searchsorted(nodes, z, side="right") - 1, 0, len(nodes) - 2)
+        angles = np.multiply.outer(self.roots, (z - nodes[piece]) / self.shaft.length) + self.phases[:, piece]
+        return self.amplitudes[:, piece] * np.sin(angles)
+
+    @cached_property
+    def _middles(self) -> tuple[Floats, Floats]:
+        """Angles at the middle of each piece and half of what it turns them, shape (n, pieces) each."""
+        half = 0.5 * np.multiply.outer(self.roots, np.diff(self.shaft.nodes)) / self.shaft.length
+        return self.phases + half, half
 
     def mass_matrix(self) -> Floats:
         """Inertia of the shaft alone, int j phi_i phi_j dz [1], shape (n, n)."""
-        difference = np.subtract.outer(self.roots, self.roots)
-        # numpy's sinc is sin(pi x) / (pi x).
-        products = 0.5 * (np.sinc(difference / pi) - np.sinc(np.add.outer(self.roots, self.roots) / pi))
-        return self.shaft.inertia * products * np.outer(self.amplitudes, self.amplitudes)
+        total, (middles, halves) = np.zeros((self.count, self.count)), self._middles
+        for span, middle, half, size in zip(
+            np.diff(self.shaft.nodes), middles.T, halves.T, self.amplitudes.T, strict=True
+        ):
+            # numpy's sinc is sin(pi x) / (pi x).
+            apart, together = (
+                np.cos(of.outer(middle, middle)) * np.sinc(of.outer(half, half) / pi) for of in (np.subtract, np.add)
+            )
+            total += 0.5 * span * (apart - together) * np.outer(size, size)
+        return self.shaft.inertia_per_length * total
 
     def mass_moment(self) -> Floats:
         """First sum int j phi dz [(kg m^2)^1/2], shape (n,)."""
-        return self.shaft.inertia * self.amplitudes * (1.0 - np.cos(self.roots)) / self.roots
+        middles, halves = self._middles
+        waves = np.sin(middles) * np.sinc(halves / pi) * self.amplitudes
+        return self.shaft.inertia_per_length * waves @ np.diff(self.shaft.nodes)
+
+    def with_stiffness(self, factor: float) -> TorsionModes:
+        """As many modes of the same shaft so many times as stiff, on the same springs."""
+        stiffer = replace(self.shaft, torsional_stiffness=factor * self.shaft.torsional_stiffness)
+        return torsion_modes(stiffer, self.count, self.end_inertia)
 
 
 def torsion_modes(shaft: Shaft, count: int, end_inertia: float = 0.0) -> TorsionModes:
@@ -116,28 +155,55 @@ def torsion_modes(shaft: Shaft, count: int, end_inertia: float = 0.0) -> Torsion
 
     Notes
     -----
-    With a = end_inertia / (shaft's inertia) the roots solve cos y = a y sin y, one from each i pi to (i + 1/2) pi.
+    Along the shaft the angle of (twist, torque L / (G J y)) grows by y per length L, and a spring k turns it back
+    within its half-plane: ``cot -> cot + k L / (G J y)``. With a = end_inertia / (shaft's inertia) the roots y are
+    where it ends at ``arccot(a y - k L / (G J y)) + i pi``, k that of a spring at the end: one for each i, from i pi
+    to (i + 1/2 + number of springs) pi.
     """
     whole_number("count", count)
     number_in("end_inertia", end_inertia, "zero or more", least=0.0)
-    ratio = end_inertia / shaft.inertia
-
-    roots = np.array([_root(i, ratio) for i in range(count)])
-    # The square of the norm over the shaft, int sin^2 = 1/2 - sin(2 y) / 4 y, and the body's share.
-    share = 0.5 * (1.0 - np.sinc(2.0 * roots / pi)) + ratio * np.sin(roots) ** 2
+    roots = np.array([_root(shaft, i, end_inertia) for i in range(count)])
+    amplitudes, phases = np.ones((2, count, len(shaft.nodes) - 1))
+    for i, root in enumerate(roots):
+        phases[i], steps, _ = _pieces(shaft, root)
+        amplitudes[i] = np.cumprod(steps)
+    modes = TorsionModes(shaft, end_inertia, roots, amplitudes, phases)
+    end = modes(shaft.length)
     # Signs turn the end to the positive side.
-    amplitudes = np.sign(np.sin(roots)) / np.sqrt(shaft.inertia * share)
-    roots.setflags(write=False)
-    amplitudes.setflags(write=False)
-    return TorsionModes(shaft, end_inertia, roots, amplitudes)
+    norms = np.sign(end) / np.sqrt(np.diag(modes.mass_matrix()) + end_inertia * end**2)
+    amplitudes = amplitudes * norms[:, None]
+    for array in (roots, amplitudes, phases):
+        array.setflags(write=False)
+    return TorsionModes(shaft, end_inertia, roots, amplitudes, phases)
 
 
-def _root(index: int, ratio: float) -> float:
-    """Root of cos y = ratio y sin y above index pi."""
+def _pieces(shaft: Shaft, y: float) -> tuple[list[float], list[float], float]:
+    """Angle at which each piece begins, its amplitude over that of the one before, and the angle at the end."""
+    spans, springs = np.diff(shaft.nodes) / shaft.length, dict(shaft.springs)
+    starts, steps, end = [0.0], [1.0], y * float(spans[0])
+    for node, span in zip(shaft.nodes[1:-1].tolist(), spans[1:].tolist(), strict=True):
+        # The spring turns the angle back between the same multiples of pi.
+        turns = pi * np.floor(end / pi)
+        twist, torque = np.sin(end - turns), np.cos(end - turns)
+        torque += springs[node] * shaft.length / (shaft.torsional_stiffness * y) * twist
+        starts.append(float(turns + np.arctan2(twist, torque)))
+        steps.append(float(np.hypot(twist, torque)))
+        end = starts[-1] + y * span
+    return starts, steps, end
+
+
+def _root(shaft: Shaft, index: int, end_inertia: float) -> float:
+    """Root of that number, from 0."""
     # Here, since most cranes keep no torsion: scipy.optimize takes a quarter of a second to import.
     from scipy.optimize import brentq
 
-    def excess(y: float) -> float:
-        return float(np.cos(y) - ratio * y * np.sin(y))
+    ratio = end_inertia / shaft.inertia
+    last = sum(stiffness for at, stiffness in shaft.springs if at == shaft.length)
+    holding = last * shaft.length / shaft.torsional_stiffness
 
-    return float(brentq(excess, index * pi, (index + 0.75) * pi, xtol=1e-300, rtol=1e-15))
+    def excess(y: float) -> float:
+        # The end is where its inertia, less its spring, asks for the torque that arrives.
+        return _pieces(shaft, y)[2] - float(np.arctan2(1.0, ratio * y - holding / y)) - index * pi
+
+    low = max(index * pi, 1e-300)
+    return float(brentq(excess, low, (index + 0.75 + len(shaft.springs)) * pi, xtol=1e-300, rtol=1e-15))

@@ -8,7 +8,6 @@ from numpy.testing import assert_allclose
 from samples import space_crane as space
 
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.cranes.tower.modes.scaled_torsion import ScaledTorsion
 from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
 from towercrane.motions.motion import rest
 from towercrane.motions.plans import Move, Plan, Shaping, shaped_motions
@@ -78,7 +77,7 @@ def test_slewing_trolley_and_hoist_together(scene):
 def test_a_tower_of_other_torsional_stiffness_is_the_scaled_one():
     stiffer = replace(space.CRANE, shaft=replace(space.CRANE.shaft, torsional_stiffness=1.3 * 1.7e8))
     built, plain = space.model(1, 2, 1, 1, crane=stiffer), space.model(1, 2, 1, 1)
-    scaled = replace(plain, crane=replace(plain.crane, torsion=ScaledTorsion(plain.crane.torsion, 1.3)))
+    scaled = replace(plain, crane=replace(plain.crane, torsion=plain.crane.torsion.with_stiffness(1.3)))
     assert_allclose(SwayFrequencies(scaled)("slewing", 30, 15), SwayFrequencies(built)("slewing", 30, 15), rtol=1e-9)
     assert scaled.crane.torsion.count == 2
 

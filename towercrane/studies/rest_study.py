@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.cranes.tower.modes.scaled_torsion import ScaledTorsion
 from towercrane.cranes.tower.sway_frequencies import SwayFrequencies
 from towercrane.motions.motion import Motion, phases, rest
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
@@ -186,7 +185,7 @@ def study(
 def attempt(model: FlexibleModel, motions: Mapping[str, Motion], rope: float = 1.0, torsion: float = 1.0) -> Trial:
     """Run motions on a crane whose rope and torsional stiffness differ by these factors from what was planned for."""
     if torsion != 1.0:
-        model = replace(model, crane=replace(model.crane, torsion=ScaledTorsion(model.crane.torsion, torsion)))
+        model = replace(model, crane=replace(model.crane, torsion=model.crane.torsion.with_stiffness(torsion)))
     told = motions["rope"]
     run = {**motions, "rope": Motion(told.switch_times, rope * told.coefficients)}
     stop = max(motion.duration for motion in run.values())

@@ -94,7 +94,7 @@ def test_torsion_modes_are_orthonormal_and_fulfil_the_end_condition(ratio):
     z, weight = 0.5 * SHAFT.length * (s + 1), 0.5 * SHAFT.length * w * SHAFT.inertia_per_length
     assert_allclose(modes(z) @ weight, modes.mass_moment(), rtol=1e-12, atol=1e-12)
     # G J phi' = omega^2 J phi at the end.
-    slope = modes.amplitudes * modes.roots / SHAFT.length * np.cos(modes.roots)
+    slope = modes.amplitudes[:, 0] * modes.roots / SHAFT.length * np.cos(modes.roots)
     balance = SHAFT.torsional_stiffness * slope - modes.angular_frequencies**2 * inertia * end
     size = SHAFT.torsional_stiffness * modes.amplitudes * modes.roots / SHAFT.length
     assert np.max(abs(balance) / (size * (1.0 + ratio * modes.roots))) < 1e-14
@@ -102,7 +102,7 @@ def test_torsion_modes_are_orthonormal_and_fulfil_the_end_condition(ratio):
 
 def test_torsion_s_arrays_cannot_be_written_to():
     modes = torsion_modes(SHAFT, 2, 5.0)
-    for array in (modes.roots, modes.amplitudes):
+    for array in (modes.roots, modes.amplitudes, modes.phases):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 1.0
 

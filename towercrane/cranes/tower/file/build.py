@@ -28,7 +28,10 @@ def crane_of(tables: TowerCase) -> TowerCrane:
     if jib.lateral_second_moment_of_area is not None:
         lateral = Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.lateral_second_moment_of_area)
     if tower.torsional_stiffness is not None and tower.torsional_inertia_per_length is not None:
-        shaft = Shaft(standing.length, tower.torsional_inertia_per_length, tower.torsional_stiffness)
+        # A stated height may miss the sum of the segments by rounding.
+        springs = ((min(own.height, standing.length), own.torsional_stiffness) for own in tower.collars)
+        held = tuple(sorted(spring for spring in springs if spring[1]))
+        shaft = Shaft(standing.length, tower.torsional_inertia_per_length, tower.torsional_stiffness, held)
     return crane_on(standing, crane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
 
 

@@ -42,6 +42,9 @@ class TorsionBasis(Protocol):
     def mass_moment(self) -> Floats:
         """Sums of shapes over the tower's own inertia."""
 
+    def with_stiffness(self, factor: float) -> TorsionBasis:
+        """As many shapes of a tower so many times as stiff."""
+
 
 @dataclass(frozen=True, slots=True)
 class ModeCounts:
