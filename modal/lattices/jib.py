@@ -10,7 +10,8 @@ from typing import Literal, get_args
 from modal.beams.segment import Segment
 from modal.checks import check_fields, check_positive, number_in
 from modal.lattices.lattice_taper import STEP, tapered
-from modal.lattices.section import Chord, Lacing, LatticeSection, Plane, Wall
+from modal.lattices.section import LatticeSection, Plane
+from modal.lattices.walls import Chord, Lacing, Wall
 
 Shape = Literal["triangle", "rectangle"]
 Side = Literal["up", "down"]
@@ -79,7 +80,7 @@ class JibLattice:
     youngs_modulus : float
         [Pa]
     side_lacing, base_lacing : {"zigzag", "X", "N"}
-        See `modal.lattices.section.Wall`. Parallel diagonals of the sides lead outward away from the base, those of
+        See `modal.lattices.walls.Wall`. Parallel diagonals of the sides lead outward away from the base, those of
         the base and opposite walls to the left.
     side_post_area, base_post_area : float
         Cross-sectional areas of one post [m^2]; 0: there are none.
@@ -144,6 +145,11 @@ class JibLattice:
                 check_positive(f"JibLattice.{name}", getattr(self, name))
         if self.opposite_post_area is not None:
             number_in("JibLattice.opposite_post_area", self.opposite_post_area, "zero or more", least=0.0)
+        if self.shape == "triangle" and self.side_lacing == "zigzag" and self.side_post_area > 0.0:
+            raise ValueError(
+                "JibLattice.side_post_area: wanted 0 for zigzag sides of a triangle, whose nodes face no other, got "
+                f"{self.side_post_area!r}"
+            )
         for wall, (lacing, _, posts) in self._lacings.items():
             if lacing == "N" and posts == 0.0:
                 raise ValueError(f"JibLattice.{wall}_post_area: N lacing carries shear through its posts, got 0")
@@ -187,6 +193,11 @@ class JibLattice:
         left = (2, 1) if self.side_lacing == "zigzag" else (1, 2)
         across = (2, 3) if lacings["opposite"][0] == "zigzag" else (3, 2)
         return wall("base", 0, 1), wall("side", 0, 3), wall("side", *left), wall("opposite", *across)
+
+    def at(self, part: float, length: float) -> LatticeSection:
+        """The section at a part of a length [m] over which the lattice reaches."""
+        change = self.far_height - self.height
+        return self.section(self.height + part * change, change / length)
 
     def section(self, height: float, slope: float = 0.0) -> LatticeSection:
         """The section where it has a height [m] that changes by a slope [1]."""

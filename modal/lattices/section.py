@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot, sqrt
-from typing import TYPE_CHECKING, Literal, get_args
+from functools import cached_property
+from math import hypot
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from modal.checks import check_fields, check_positive, number_in
+from modal.checks import check_fields, check_positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from modal.lattices.walls import Chord, Wall
+
     Floats = NDArray[np.float64]
 
-Lacing = Literal["zigzag", "X", "N"]
 Plane = Literal["vertical", "lateral"]
 
 AXIAL, SHEAR_Y, SHEAR_Z, TWIST, CURVATURE_Y, CURVATURE_Z = range(6)
@@ -23,102 +25,6 @@ AXIAL, SHEAR_Y, SHEAR_Z, TWIST, CURVATURE_Y, CURVATURE_Z = range(6)
 
 LEFT_OVER = 1e-9
 """Relative; what couples less than this is rounding."""
-
-
-@dataclass(frozen=True, slots=True)
-class Chord:
-    """Chord of a lattice where a section cuts it.
-
-    Parameters
-    ----------
-    y, z : float
-        Its place in the section, from the reference line, z upward [m].
-    area : float
-        Cross-sectional area [m^2].
-    slope_y, slope_z : float
-        Changes of y and z per length along the reference line [1].
-    further_mass : float
-        Mass per length that it bears, besides its own [kg/m].
-    """
-
-    y: float
-    z: float
-    area: float
-    slope_y: float = 0.0
-    slope_z: float = 0.0
-    further_mass: float = 0.0
-
-    def __post_init__(self) -> None:
-        check_fields(self, positive=("area",), not_negative=("further_mass",))
-        for name in ("y", "z", "slope_y", "slope_z"):
-            number_in(f"Chord.{name}", getattr(self, name), "a finite number")
-
-    @property
-    def stretch(self) -> float:
-        """Its length per length of the reference line [1]."""
-        return sqrt(1.0 + self.slope_y**2 + self.slope_z**2)
-
-    def strain(self) -> Floats:
-        """Its change of length per length of the reference line by the section's strains, shape (6,)."""
-        y, z, y_x, z_x = self.y, self.z, self.slope_y, self.slope_z
-        return np.array([1.0, y_x, z_x, y * z_x - z * y_x, z, -y])
-
-
-@dataclass(frozen=True, slots=True)
-class Wall:
-    """Lacing between two chords, the same from panel to panel.
-
-    Parameters
-    ----------
-    first, second : int
-        Which chords.
-    lacing : {"zigzag", "X", "N"}
-        One diagonal a panel, alternating; two that cross; or one, all parallel, with a post at each node. A zigzag
-        starts from the first chord; parallel diagonals lead outward from the first chord to the second.
-    panel : float
-        Length along the reference line that one diagonal spans [m].
-    diagonal_area : float
-        Cross-sectional area of one diagonal [m^2].
-    post_area : float
-        Cross-sectional area of one post between opposite nodes [m^2]; 0: there are none. "N" needs them.
-    """
-
-    first: int
-    second: int
-    lacing: Lacing
-    panel: float
-    diagonal_area: float
-    post_area: float = 0.0
-
-    def __post_init__(self) -> None:
-        check_fields(self, positive=("panel", "diagonal_area"), not_negative=("post_area",))
-        if self.lacing not in get_args(Lacing):
-            raise ValueError(f"Wall.lacing: wanted one of {get_args(Lacing)}, got {self.lacing!r}")
-        if self.lacing == "N" and self.post_area == 0.0:
-            raise ValueError("Wall.post_area: N lacing carries shear through its posts, got 0")
-
-    def shear_flexibility(self, depth: float, youngs_modulus: float) -> float:
-        """Shear strain per shear force of the wall with this distance of its chords, 1/S without sawtooth [1/N]."""
-        diagonals = (2.0 if self.lacing == "X" else 1.0) * self.diagonal_area
-        found = hypot(self.panel, depth) ** 3 / (youngs_modulus * diagonals * self.panel * depth**2)
-        if self.lacing == "N":
-            found += depth / (youngs_modulus * self.post_area * self.panel)
-        return found
-
-    def chord_area(self, depth: float) -> float:
-        """Area of the chord at mid wall that crossed diagonals are worth, as far as posts keep the chords apart."""
-        if self.lacing != "X":
-            return 0.0
-        d = hypot(self.panel, depth)
-        c, s = self.panel / d, depth / d
-        # Strain of the posts per unit strain of the chords, from their balance with the diagonals.
-        e_h = -2.0 * self.diagonal_area * s * c**2 / (self.post_area + 2.0 * self.diagonal_area * s**3)
-        return 2.0 * self.diagonal_area * c * (c**2 + e_h * s**2)
-
-    def volume(self, depth: float) -> float:
-        """Volume of diagonals and posts per length of the reference line [m^2]."""
-        count = 2.0 if self.lacing == "X" else 1.0
-        return (count * self.diagonal_area * hypot(self.panel, depth) + self.post_area * depth) / self.panel
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,15 +70,20 @@ class LatticeSection:
         first, second = self.chords[wall.first], self.chords[wall.second]
         return hypot(second.y - first.y, second.z - first.z)
 
-    @property
-    def stiffness(self) -> Floats:
-        """Axial force, shear forces, torque and moments by the six strains, symmetric, shape (6, 6).
+    @cached_property
+    def flexibility(self) -> Floats:
+        """The six strains by axial force, shear forces, torque and moments, symmetric, shape (6, 6).
 
         Chords lie along their slopes. Parallel diagonals are strained by the chords' mean strain as by
-        ``panel / depth`` times it of shear. Crossed ones are worth a chord at the middle of their wall.
+        ``panel / depth`` times it of shear. Crossed ones are worth a chord at the middle of their wall. What steps of
+        zigzags cost counts in torsion; in bending the ends of a lattice decide what it is.
         """
-        rows = np.zeros((len(self.walls), 6))
-        found = np.zeros((6, 6))
+        smooth, stepped = self._inverse(self._smooth_walls), self._inverse(self._smooth_walls + self._steps)
+        return smooth - _of_twist(smooth) + _of_twist(stepped)
+
+    def _inverse(self, walls: Floats) -> Floats:
+        """Strains by forces with shear strains of the walls by their forces."""
+        found, rows = np.zeros((6, 6)), np.zeros((len(self.walls), 6))
         for chord in self.chords:
             strain = chord.strain()
             found += self.youngs_modulus * chord.area / chord.stretch**3 * np.outer(strain, strain)
@@ -184,12 +95,17 @@ class LatticeSection:
             if wall.lacing == "N":
                 row += wall.panel / depth * mean
             found += self.youngs_modulus * wall.chord_area(depth) * np.outer(mean, mean)
-        shear = np.linalg.inv(self.wall_flexibility)
+        shear = np.linalg.inv(walls)
         if len(self.chords) > 3:
             # Chords slide along each other, out of plane, until that strains the walls least.
             warping = self._warping
             shear -= shear @ warping @ np.linalg.solve(warping.T @ shear @ warping, warping.T @ shear)
-        return found + rows.T @ shear @ rows
+        found += rows.T @ shear @ rows
+        size = np.sqrt(np.diag(found))
+        scaled = found / np.outer(size, size)
+        if not np.linalg.eigvalsh(scaled)[0] > LEFT_OVER:
+            raise ValueError("LatticeSection.walls: wanted walls that hold the chords, got too few")
+        return np.asarray(np.linalg.inv(scaled) / np.outer(size, size))
 
     @property
     def _warping(self) -> Floats:
@@ -200,47 +116,43 @@ class LatticeSection:
         return np.asarray(np.array(ends) / np.array([self.depth(wall) for wall in self.walls])[:, np.newaxis])
 
     @property
-    def wall_flexibility(self) -> Floats:
-        """Shear strains of the walls by their shear forces [1/N], symmetric, shape (walls, walls).
+    def _smooth_walls(self) -> Floats:
+        """Shear strains of the walls by their shear forces [1/N], as if chord forces changed evenly."""
+        depths = [self.depth(wall) for wall in self.walls]
+        return np.diag(
+            [
+                wall.shear_flexibility(depth, self.youngs_modulus)
+                for wall, depth in zip(self.walls, depths, strict=True)
+            ]
+        )
+
+    @property
+    def _steps(self) -> Floats:
+        """What steps of the chord forces add to them, symmetric, shape (walls, walls).
 
         Where a zigzag meets a chord its force steps, by what the whole of two diagonals brings, and is constant up to
         the next node. The energy of the steps beyond that of the straight line between is one of shear: it is found
         over two panels of the longest zigzag, whose far end is free. Steps of two walls on a chord may cancel.
         """
-        depths = np.array([self.depth(wall) for wall in self.walls])
-        plain = np.diag(
-            [w.shear_flexibility(d, self.youngs_modulus) for w, d in zip(self.walls, depths, strict=True)]
-        )
-        panels = [wall.panel for wall in self.walls if wall.lacing == "zigzag"]
-        if not panels:
-            return plain
+        found = np.zeros((len(self.walls), len(self.walls)))
+        zigzags = [(k, wall) for k, wall in enumerate(self.walls) if wall.lacing == "zigzag"]
+        if not zigzags:
+            return found
+        panels = [wall.panel for _, wall in zigzags]
         span, step = 2.0 * max(panels), min(panels)
         middles = step * (np.arange(round(span / step)) + 0.5)
         for c, chord in enumerate(self.chords):
             lines, steps = np.zeros(len(self.walls)), np.zeros((len(self.walls), middles.size))
-            for k, wall in enumerate(self.walls):
-                if wall.lacing == "zigzag" and c in (wall.first, wall.second):
-                    sign = 1.0 if c == wall.first else -1.0
-                    lines[k] = sign / depths[k]
+            for k, wall in zigzags:
+                if c in (wall.first, wall.second):
+                    lines[k] = (1.0 if c == wall.first else -1.0) / self.depth(wall)
                     # Nodes at all even panels of the zigzag or at all odd; that at the free end has one diagonal.
                     beyond = (span - middles) / (2.0 * wall.panel)
                     count = np.floor(beyond) + 0.5 if c == wall.first else np.round(beyond)
                     steps[k] = lines[k] * 2.0 * wall.panel * count
             more = steps @ steps.T / middles.size - np.outer(lines, lines) * span**2 / 3.0
-            plain += more / (self.youngs_modulus * chord.area)
-        return plain
-
-    @property
-    def flexibility(self) -> Floats:
-        """The six strains by axial force, shear forces, torque and moments, symmetric, shape (6, 6)."""
-        stiffness = self.stiffness
-        size = np.sqrt(np.diag(stiffness))
-        scaled = stiffness / np.outer(size, size)
-        if not np.linalg.eigvalsh(scaled)[0] > LEFT_OVER:
-            raise ValueError(
-                "LatticeSection.walls: wanted walls that hold the chords in shear and torsion, got too few"
-            )
-        return np.asarray(np.linalg.inv(scaled) / np.outer(size, size))
+            found += more / (self.youngs_modulus * chord.area)
+        return found
 
     @property
     def masses(self) -> tuple[Floats, Floats]:
@@ -258,6 +170,15 @@ class LatticeSection:
             points.append(tuple(np.mean([places[wall.first], places[wall.second]], axis=0)))
             masses.append(4.0 * mass / 6.0)
         return np.array(points), np.array(masses)
+
+    @property
+    def mass_matrix(self) -> Floats:
+        """Mass per length for the motions of a section, u, v, w, ph, ty, tz, symmetric, shape (6, 6)."""
+        found = np.zeros((6, 6))
+        for (y, z), mass in zip(*self.masses, strict=True):
+            moved = np.array([[1, 0, 0, 0, z, -y], [0, 1, 0, -z, 0, 0], [0, 0, 1, y, 0, 0]], dtype=float)
+            found += mass * moved.T @ moved
+        return found
 
     @property
     def mass_per_length(self) -> float:
@@ -310,10 +231,15 @@ class LatticeSection:
             strains, signs = [SHEAR_Z, CURVATURE_Y], np.array([1.0, -1.0])
         else:
             strains, signs = [SHEAR_Y, CURVATURE_Z], np.ones(2)
-            twist = flexibility[:, TWIST]
-            flexibility = flexibility - np.outer(twist, twist) / twist[TWIST]
+            flexibility = flexibility - _of_twist(flexibility)
         (shear, both), (_, turn) = (flexibility[np.ix_(strains, strains)] * np.outer(signs, signs)).tolist()
         coupling = both / shear
         if both**2 < LEFT_OVER**2 * shear * turn:
             coupling = 0.0
         return 1.0 / (turn - coupling * both), 1.0 / shear, coupling
+
+
+def _of_twist(flexibility: Floats) -> Floats:
+    """Part of a flexibility that goes with twist; what is left is that of a section that does not twist."""
+    twist = flexibility[:, TWIST]
+    return np.asarray(np.outer(twist, twist) / twist[TWIST])

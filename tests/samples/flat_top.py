@@ -20,3 +20,10 @@ FLAT_TOP = tuple(
     for near, far, top, base, side, diagonal, post, further in _ROWS
 )  # fmt: skip
 """The sections from the root to the tip, each of five panels."""
+
+LIEGE = JibLattice(
+    height=0.75**0.5, breadth=1.0, base_chord_area=50e-4, opposite_chord_area=50e-4, panel_length=2.0,
+    side_diagonal_area=25e-4, base_diagonal_area=25e-4, side_post_area=25e-4, base_post_area=25e-4,
+    side_lacing="N", base_lacing="N", youngs_modulus=210e9, density=7800.0,
+)  # fmt: skip
+"""Equilateral, all walls of parallel diagonals, one against the other two going round; 12 m long."""
