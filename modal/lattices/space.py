@@ -49,15 +49,19 @@ def frame_of_round(
     return SpaceFrame(nodes, members, stiff, masses_per_length, held, bending, 2.0 * SHEAR_MODULUS * bending)
 
 
-def beam_of(sections: Sequence[tuple[float, LatticeSection]], frame: SpaceFrame, reach: float) -> SpaceBeam:
+def beam_of(
+    sections: Sequence[tuple[float, LatticeSection]], frame: SpaceFrame, reach: float, factors: Floats | float = 1.0
+) -> SpaceBeam:
     """A beam of elements, their lengths [m] and sections, for a frame along x from its root on.
 
     A beam has its mass evenly all along, a frame has it at nodes, those of the root held, and chords that may end
     before it does. On a last reach [m], half a panel, the beam bears what brings each sum of mass times distance from
-    the root to the frame's: half a frame of posts, less what of chords is not there.
+    the root to the frame's: half a frame of posts, less what of chords is not there. Masses of sections count times
+    factors, one for each.
     """
     lengths = np.array([length for length, _ in sections])
     masses = np.array([section.mass_matrix for _, section in sections])
+    masses *= np.broadcast_to(factors, len(sections))[:, np.newaxis, np.newaxis]
     flexibilities = np.array([section.flexibility for _, section in sections])
     ends = np.cumsum(lengths)
     moments = lengths * (ends - 0.5 * lengths)

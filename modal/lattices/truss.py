@@ -126,7 +126,7 @@ class ColumnTruss:
     @cached_property
     def members(self) -> tuple[NDArray[np.int64], Floats, Floats]:
         """Nodes at both ends, shape (m, 2), areas [m^2] and moduli [Pa] of all members, shape (m,)."""
-        pairs, areas = self._own_members
+        pairs, areas = self.own_members
         moduli = np.full(len(areas), self.column.youngs_modulus)
         if self.above is None:
             return pairs, areas, moduli
@@ -138,7 +138,8 @@ class ColumnTruss:
         )
 
     @cached_property
-    def _own_members(self) -> tuple[NDArray[np.int64], Floats]:
+    def own_members(self) -> tuple[NDArray[np.int64], Floats]:
+        """Nodes at both ends and areas [m^2] of the members without those of a column above."""
         column = self.column
         leg, level = np.arange(4), 4 * np.arange(self._own_panels)[:, np.newaxis]
         following = (leg + 1) % 4
@@ -184,7 +185,7 @@ class ColumnTruss:
             shares[[0, -1]] = 0.5
             own = np.repeat(shares * self.mass_per_length * self.column.panel_height / 4.0, 4)
         else:
-            pairs, areas = self._own_members
+            pairs, areas = self.own_members
             lengths = np.linalg.norm(self.nodes[pairs[:, 1]] - self.nodes[pairs[:, 0]], axis=1)
             halves = 0.5 * self.column.density * areas * lengths
             count = 4 * self._own_panels + 4

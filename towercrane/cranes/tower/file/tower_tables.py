@@ -6,7 +6,7 @@ from math import inf
 from typing import Literal
 
 from modal.beams.chain import ShearTheory  # noqa: TC001 - pydantic reads annotations when the class is made
-from modal.lattices.lattice import Lacing  # noqa: TC001
+from modal.lattices.walls import Lacing  # noqa: TC001
 from towercrane.schema.fields import (
     Area,
     AreaOrNone,
