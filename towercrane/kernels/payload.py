@@ -116,13 +116,27 @@ class State(NamedTuple):
 
 
 class Rope(NamedTuple):
-    """Unstretched length with its rate and acceleration; stiffness [N/m] and damping [N s/m] where it stretches."""
+    """The rope from D to the load.
+
+    Parameters
+    ----------
+    length : number
+        Unstretched [m].
+    rate, acceleration : number
+        What the winch gives to its rate, and its acceleration while no coordinate accelerates [m/s, m/s^2].
+    stiffness, damping : number
+        Where it stretches [N/m, N s/m].
+    paid : sequence of n
+        What a rate of each coordinate adds to the length, as where a rope is led over a jib that moves; nothing where
+        the winch alone decides.
+    """
 
     length: Any
     rate: Any
     acceleration: Any
     stiffness: Any = 0.0
     damping: Any = 0.0
+    paid: Sequence[Any] = ()
 
 
 class Hung(NamedTuple):
@@ -185,11 +199,13 @@ def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravit
     (M + m j j^T) q'' = f - J^T H + j s and T = s - m j.q''. The matrix is symmetric positive definite whenever M
     is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration. An elastic
     rope pulls with k e + c e' whatever the structure does: then nothing of the load is in the matrix, and the stretch
-    has an equation of its own.
+    has an equation of its own. What a rate of the coordinates pays out, dl/dq, adds to j: the rope's force acts on
+    whatever its length depends on.
     """
     elastic = len(state.stretch) > 0
     stretch, stretching = (state.stretch[0], state.stretching[0]) if elastic else (0.0, 0.0)
-    length, rate = rope.length + stretch, rope.rate + stretching
+    winding = rope.rate + dot(rope.paid, state.rates)
+    length, rate = rope.length + stretch, winding + stretching
     axes, bias = range(len(state.direction)), structure.bias
     norm = np.sqrt(dot(state.direction, state.direction))
     direction = [component / norm for component in state.direction]
@@ -214,6 +230,8 @@ def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravit
 
     columns = list(zip(*structure.jacobian, strict=True))
     pulled = [dot(column, direction) for column in columns]
+    if rope.paid:
+        pulled = [along + paid for along, paid in zip(pulled, rope.paid, strict=True)]
     right = [
         force - dot(column, hinge) + j * s
         for force, column, j in zip(structure.force, columns, pulled, strict=True)
@@ -239,5 +257,6 @@ def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravit
         -ww * n - (b - outward * n + 2.0 * rate * w) / length
         for n, b, w in zip(direction, falling, across, strict=True)
     ]
-    stretched = [length * ww - outward - tension / load.mass - rope.acceleration] if elastic else []
+    paying = rope.acceleration + dot(rope.paid, accelerations)
+    stretched = [length * ww - outward - tension / load.mass - paying] if elastic else []
     return Hung(tension, power - tension * rope.rate, accelerations, stretched, turning, direction, hinge, suspension)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from towercrane.cranes.tower.equations.coordinates import ANGLES
 from towercrane.cranes.tower.equations.flexible import Equations
 from towercrane.cranes.tower.outputs.observed import about, outputs
 from towercrane.cranes.tower.outputs.seen import Seen, seen_of
@@ -60,7 +61,7 @@ class FlexibleModel(Equations):
 
     def provenance(self) -> dict[str, Any]:
         """Crane, modes and load, for a result's attributes."""
-        modes = {f"{kind}_modes": count for kind, count in self.counts.items() if kind != "slewing"}
+        modes = {f"{kind}_modes": count for kind, count in self.counts.items() if kind not in ANGLES}
         return {
             "crane": self.crane.name,
             **modes,

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.equations.coordinates import Coordinates
+    from towercrane.cranes.tower.equations.luffing.constants import Luffing
     from towercrane.kernels.payload import Load
 
     Floats = NDArray[np.float64]
@@ -34,7 +35,7 @@ SLIDE_X, SLIDE_Y, TILT_X, TILT_Y, TURN = range(5)
 Drives = Row
 """Value, rate and acceleration of each of these motions."""
 
-KINDS = "tower_x", "tower_y", "torsion", "slewing", "jib_lateral", "jib_vertical"
+KINDS = "tower_x", "tower_y", "torsion", "slewing", "jib_lateral", "jib_vertical", "luffing"
 """Kinds of coordinates in the order of the state."""
 
 
@@ -46,7 +47,7 @@ class Constants:
     ----------
     axes : {2, 3}
         Of space for the load, the vertical last; with 2 the coordinates must leave the crane in its plane.
-    counts : tuple of 6 int
+    counts : tuple of 7 int
         Coordinates of each kind.
     slewing : {"fixed", "prescribed", "driven"}
     wind : bool
@@ -73,6 +74,8 @@ class Constants:
         Mass of the tower alone, of the drive, and int m phi_i phi_j of all jib modes, lateral with vertical too.
     shapes : ndarray, shape (cells, jib modes, terms)
         Shapes of the jib's modes as polynomials about the middle of equal cells.
+    luffing : Luffing or None
+        Of a jib that pivots.
     """
 
     axes: int
@@ -104,6 +107,7 @@ class Constants:
     own_mass: Floats
     stiffness: Floats
     shapes: Table
+    luffing: Luffing | None
 
     @property
     def coordinates(self) -> int:
@@ -164,7 +168,7 @@ def constants_of(model: Coordinates) -> Constants:
     crane, drive, slewing, exposure = model.crane, model.drive, model.crane.slewing, model.crane.exposure
     return Constants(
         axes=model.axes,
-        counts=tuple(model.counts[kind] for kind in KINDS),
+        counts=tuple(model.counts.get(kind, 0) for kind in KINDS),
         slewing="driven" if drive is not None else str(model.slewing),
         wind=model.wind,
         load=model.load,
@@ -188,6 +192,7 @@ def constants_of(model: Coordinates) -> Constants:
         **_of_coordinates(model),
         own_mass=own_mass(model),
         stiffness=stiffness(model),
+        luffing=None,
     )
 
 
@@ -204,12 +209,13 @@ def _of_coordinates(model: Coordinates) -> dict[str, Floats]:
             exposure[parts[plane]] = swept
     motions[TURN, parts["torsion"]] = crane.torsion(crane.tower_height)
     motions[TURN, parts["slewing"]] = 1.0
-    jib = slice(parts["jib_lateral"].start, n)
+    jib = slice(parts["jib_lateral"].start, parts["jib_vertical"].stop)
     jib_mass[jib], jib_moment[jib] = crane.slewing.first, crane.slewing.second
     if crane.exposure is not None:
         exposure[jib] = crane.exposure.first
     d = model.damping
-    ratios = np.repeat([d.tower, d.tower, d.torsion, 0.0, d.lateral, d.vertical], list(model.counts.values()))
+    lost = dict(zip(KINDS, (d.tower, d.tower, d.torsion, 0.0, d.lateral, d.vertical, 0.0), strict=True))
+    ratios = np.concatenate([np.full(count, lost[kind]) for kind, count in model.counts.items()])
     # Of a mode that a cap slows, of its slowed frequency and greater mass: the ratio is as stated.
     damping = 2.0 * ratios * model.angular_frequencies * np.sqrt(1.0 + model.added_mass)
     return {
@@ -226,7 +232,7 @@ def own_mass(model: Coordinates) -> Floats:
             own[parts[plane], parts[plane]] = crane.tower_matrices[0]
     own[parts["torsion"], parts["torsion"]] = crane.torsion.mass_matrix()
     own[parts["slewing"], parts["slewing"]] = model.drive_inertia
-    jib = slice(parts["jib_lateral"].start, n)
+    jib = slice(parts["jib_lateral"].start, parts["jib_vertical"].stop)
     own[jib, jib] = crane.slewing.products
     return own
 
@@ -243,13 +249,13 @@ def stiffness(model: Coordinates) -> Floats:
 
 
 def scale(model: Coordinates) -> Floats:
-    """Tolerance of each state: metres where a mode moves most, radians of twist and swing, joules of work."""
+    """Tolerance of each state: metres where a mode moves most, radians of turns and swing, joules of work."""
     # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
     crane = model.crane
     height, reach = (np.linspace(0.0, length, 201) for length in (crane.tower_height, crane.jib_length))
     bends, sides, rises = crane.tower(height), crane.lateral(reach), crane.vertical(reach)
     shapes = [bends, bends[: model.counts["tower_y"]], crane.torsion(height)]
-    shapes += [np.ones((model.counts["slewing"], 1)), sides, rises]
+    shapes += [np.ones((model.counts["slewing"], 1)), sides, rises, np.ones((model.counts.get("luffing", 0), 1))]
     largest = np.concatenate([abs(shape).max(axis=1) for shape in shapes])
     sizes = np.concatenate([1.0 / largest, np.ones(model.axes)])
     return np.concatenate([sizes, sizes, [model.load.work_scale(crane.gravity, crane.jib_length)]])

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
+ANGLES = "slewing", "luffing"
+"""Kinds of coordinates that are no modes: of the head where a drive turns it, of a jib that pivots."""
+
+
 @dataclass(frozen=True, eq=False)
 class Coordinates:
     """A flexible crane with its load in chosen coordinates.
@@ -101,11 +105,13 @@ class Coordinates:
 
     @cached_property
     def channels(self) -> tuple[str, ...]:
-        """Motions: trolley and rope [m], slewing angle or shaft of its drive [rad], wind [m/s], as there are."""
+        """Motions, as there are: trolley [m] or luffing [rad], rope [m], slewing or shaft of its drive [rad], wind
+        [m/s]."""
         turning: tuple[str, ...] = ("shaft",) if self.drive is not None else ("slewing",)
         if self.slewing == "fixed":
             turning = ()
-        return ("trolley", "rope", *turning, *self.value_channels)
+        placing = "trolley" if self.crane.luffing is None else "luffing"
+        return (placing, "rope", *turning, *self.value_channels)
 
     @property
     def value_channels(self) -> tuple[str, ...]:
@@ -115,14 +121,14 @@ class Coordinates:
     @property
     def channel_units(self) -> tuple[str, ...]:
         """Units of the channels."""
-        units = {"trolley": "m", "rope": "m", "slewing": "rad", "shaft": "rad"}
+        units = {"trolley": "m", "luffing": "rad", "rope": "m", "slewing": "rad", "shaft": "rad"}
         return tuple(units.get(channel, "m/s") for channel in self.channels)
 
     @cached_property
     def counts(self) -> dict[str, int]:
         """Number of coordinates of each kind, in the order of the state."""
         crane = self.crane
-        return {
+        modes = {
             "tower_x": crane.tower.count,
             "tower_y": crane.tower.count if crane.planes > 1 else 0,
             "torsion": crane.torsion.count,
@@ -130,6 +136,7 @@ class Coordinates:
             "jib_lateral": crane.lateral.count,
             "jib_vertical": crane.vertical.count,
         }
+        return modes if crane.luffing is None else {**modes, "luffing": 1}
 
     @cached_property
     def parts(self) -> dict[str, slice]:
@@ -142,8 +149,8 @@ class Coordinates:
         """Name and unit of every coordinate."""
         names: dict[str, str] = {}
         for kind, count in self.counts.items():
-            if kind == "slewing":
-                names |= dict.fromkeys(["slewing_angle"][:count], "rad")
+            if kind in ANGLES:
+                names |= dict.fromkeys([f"{kind}_angle"][:count], "rad")
             else:
                 names |= {f"{kind}_mode_{i + 1}": "kg^0.5 m" for i in range(count)}
         return names
@@ -160,7 +167,7 @@ class Coordinates:
 
     @cached_property
     def angular_frequencies(self) -> Floats:
-        """Of each coordinate's mode by itself [rad/s], zero for the slewing angle; shape (coordinates,)."""
+        """Of each coordinate's mode by itself [rad/s], zero for an angle; shape (coordinates,)."""
         crane, counts = self.crane, self.counts
         tower = np.asarray(crane.tower.angular_frequencies)
         return np.concatenate([
@@ -170,6 +177,7 @@ class Coordinates:
             np.zeros(counts["slewing"]),
             crane.lateral.angular_frequencies,
             crane.vertical.angular_frequencies,
+            np.zeros(counts.get("luffing", 0)),
         ])  # fmt: skip
 
     @cached_property

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from towercrane.cranes.parts.corner import Corner
 from towercrane.cranes.tower.equations import motion
 from towercrane.cranes.tower.equations.constants import (
+    ROPE,
     SLEWING,
     Constants,
     constants_of,
@@ -129,8 +130,7 @@ class Equations(Coordinates):
         check_start(state)
         n, y = self.coordinates, np.zeros(self.size)
         heading = 0.0 if self.slewing == "fixed" else float(inputs[SLEWING, 0])
-        if self.drive is not None:
-            y[self.parts["slewing"]] = heading
+        y[:n] = self.undeformed(inputs)
         hung, outward = -np.eye(self.axes)[-1], np.zeros(self.axes)
         if state == "equilibrium":
             y[:n] = self.equilibrium(inputs)
@@ -157,10 +157,7 @@ class Equations(Coordinates):
         NoEquilibrium
             If the stiffness is not positive definite, or no equilibrium is found.
         """
-        n, origin = self.coordinates, np.zeros(self.coordinates)
-        if self.drive is not None:
-            origin[self.parts["slewing"]] = inputs[SLEWING, 0]
-
+        n, origin = self.coordinates, self.undeformed(inputs)
         forces, held = self._forces_at_rest, np.ascontiguousarray(inputs[:, :1])
 
         def residual(departures: Floats) -> Floats:
@@ -171,14 +168,24 @@ class Equations(Coordinates):
         except Unstable as failure:
             raise NoEquilibrium(TOWER_BUCKLED, f"{failure}; {self.buckling_message()}") from failure
 
+    def undeformed(self, inputs: Floats) -> Floats:
+        """Coordinates of the undeformed crane as its drives hold it; shape (coordinates,)."""
+        origin = np.zeros(self.coordinates)
+        if self.drive is not None:
+            origin[self.parts["slewing"]] = inputs[SLEWING, 0]
+        return origin
+
     def static_forces(self, q: Floats, inputs: Floats) -> Floats:
         """Generalised forces on the crane at rest with its load hanging at rest; shapes (coordinates, p)."""
         return self._forces_at_rest(q, np.ascontiguousarray(inputs[:, :1]))
 
     @cached_property
     def _forces_at_rest(self) -> Callable[[Floats, Floats], Floats]:
+        return self._written_at_rest(static_force)
+
+    def _written_at_rest(self, forces: Callable[..., Any]) -> Callable[[Floats, Floats], Floats]:
         numbers, shape = self.system.numbers, (len(self.channels), 1)
-        code = written(static_force, self.constants, [numbers], self.coordinates, shape)
+        code = written(forces, self.constants, [numbers], self.coordinates, shape)
         return code.values(numbers, self.constants.shapes)
 
     def buckling_message(self) -> str:
@@ -193,3 +200,7 @@ class Equations(Coordinates):
         held = [(value, 0.0, 0.0) for value in inputs[:, 0].tolist()]
         state = State(q.tolist(), (), (), [0.0] * self.coordinates, (), ())
         return structure(self.constants, state, held).hanging
+
+    def rope_at_rest(self, _q: Floats, inputs: Floats) -> float:
+        """Length of the rope below what it hangs from [m]."""
+        return float(inputs[ROPE, 0])

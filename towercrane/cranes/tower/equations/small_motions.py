@@ -69,7 +69,8 @@ def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None
     inputs = np.zeros((len(model.channels), 3))
     inputs[:, 0] = np.ravel(np.asarray(drives, dtype=float))
     n, sways, load = model.coordinates, model.axes - 1, model.load.mass
-    at_rest = model.at_rest(np.zeros(n) if about is None else about, inputs)
+    there = np.zeros(n) if about is None else about
+    at_rest = model.at_rest(there, inputs)
     columns = np.array(at_rest.jacobian, dtype=float).reshape(model.axes, n)
     mass = np.zeros((n + sways, n + sways))
     mass[:n, :n] = at_rest.mass_matrix() + load * columns.T @ columns
@@ -82,7 +83,7 @@ def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None
     elif n:
         slope, _ = jacobian(lambda q: -model.static_forces(q, inputs), about, model.system.scale[:n])
         stiffness[:n, :n] = 0.5 * (slope + slope.T)
-    stiffness[n:, n:] = load * model.crane.gravity / inputs[1, 0] * np.eye(sways)
+    stiffness[n:, n:] = load * model.crane.gravity / model.rope_at_rest(there, inputs) * np.eye(sways)
     return mass, stiffness
 
 
@@ -144,7 +145,7 @@ def plane_matrices(model: Equations, trolley_position: float, rope_length: float
 
 
 def natural_modes(
-    model: Equations, trolley_position: float, rope_length: float, slewing_angle: float = 0.0
+    model: Equations, place: float, rope_length: float, slewing_angle: float = 0.0
 ) -> list[NaturalMode]:
     """Small motions about the equilibrium in still air, drives held; ascending by frequency.
 
@@ -152,8 +153,10 @@ def natural_modes(
     ----------
     model : Equations
         With a load in space.
-    trolley_position, rope_length : float
-        [m]
+    place : float
+        Position of the trolley [m], or angle that the winch would give a straight jib on a stiff rope [rad].
+    rope_length : float
+        As the hoist winch has it [m].
     slewing_angle : float
         Of the head, or of the drive's shaft [rad].
 
@@ -166,7 +169,8 @@ def natural_modes(
     """
     if model.axes != 3:
         raise ValueError("FlexibleModel.axes: wanted 3, a load in space, got 2")
-    values = {"trolley": trolley_position, "rope": rope_length, "slewing": slewing_angle, "shaft": slewing_angle}
+    values = {"rope": rope_length, "slewing": slewing_angle, "shaft": slewing_angle}
+    values |= dict.fromkeys(("trolley", "luffing"), place)
     drives = np.array([values.get(channel, 0.0) for channel in model.channels])
     q = model.equilibrium(np.column_stack([drives, np.zeros((len(drives), 2))]))
     mass, stiffness = linear_matrices(model, drives, about=q)
@@ -204,7 +208,7 @@ def _rows(model: Equations) -> dict[str, list[int]]:
     n = model.coordinates
     at = {kind: list(range(*rows.indices(n))) for kind, rows in model.parts.items()}
     groups = (
-        at["tower_x"] + at["jib_vertical"],
+        at["tower_x"] + at["jib_vertical"] + at.get("luffing", []),
         at["tower_y"] + at["jib_lateral"],
         at["torsion"] + at["slewing"],
         [n],

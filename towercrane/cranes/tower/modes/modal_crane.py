@@ -17,6 +17,7 @@ from towercrane.cranes.tower.modes.mass_sums import Basis, MassSums, rigid_sums,
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
     from towercrane.cranes.tower.modes.parameters import TowerCrane
 
     Floats = NDArray[np.float64]
@@ -103,6 +104,8 @@ class FlexibleCrane:
         Of the tower, per squared speed and length [kg/m^2].
     gravity : float
         [m/s^2]
+    luffing : LuffingJib, optional
+        Of a jib that pivots: its shapes are then seen from the chord from foot to head, its sums about the foot.
     written : TowerCrane, optional
         The parameters that it is made of; without, it was put together by hand.
 
@@ -128,6 +131,7 @@ class FlexibleCrane:
     counter_exposure: MassSums | None = None
     tower_drag: float = 0.0
     gravity: float = 9.81
+    luffing: LuffingJib | None = None
     written: TowerCrane | None = None
 
     def __post_init__(self) -> None:
@@ -228,7 +232,7 @@ def flexible_crane(
         tower_height=crane.tower.length,
         jib_length=crane.jib.length,
         tower=tower,
-        torsion=_torsion(crane, modes.torsion),
+        torsion=torsion_of(crane, modes.torsion),
         lateral=lateral,
         vertical=vertical,
         jib=jib,
@@ -244,7 +248,8 @@ def flexible_crane(
     )
 
 
-def _torsion(crane: TowerCrane, count: int) -> TorsionBasis:
+def torsion_of(crane: TowerCrane, count: int) -> TorsionBasis:
+    """Torsion of the tower with what turns on its end."""
     from modal.beams.torsion import Shaft
 
     # A rigid shaft has no modes, whatever its data.

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from modal.beams.shapes import Modes
     from modal.beams.torsion import Shaft
     from modal.structures.chain_modes import ChainModes
+    from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +44,9 @@ class TowerCrane:
         The tower in torsion; needed for such modes alone.
     roll_inertia : float
         Moment of inertia of the slewing part about the jib's axis [kg m^2].
+    luffing : LuffingJib, optional
+        Of a jib that pivots and carries no trolley; what depends on its angle is taken at its reference angle.
+        Without it the jib is clamped and level.
 
     Raises
     ------
@@ -61,6 +65,7 @@ class TowerCrane:
     jib_lateral: Beam | None = None
     shaft: Shaft | None = None
     roll_inertia: float = 0.0
+    luffing: LuffingJib | None = None
 
     def __post_init__(self) -> None:
         masses = ("counter_jib_mass_per_length", "counterweight", "trolley_mass", "gravity", "roll_inertia")
@@ -92,19 +97,25 @@ class TowerCrane:
     @property
     def slewing_mass(self) -> float:
         """Mass m_r of everything that turns, without trolley and load [kg]."""
+        if self.luffing is not None:
+            return self.luffing.standing_sums(self).mass
         return self.jib.mass + self.counter_mass
 
     @property
     def slewing_inertia(self) -> float:
-        """Moment of inertia J_r of everything that turns about the tower top [kg m^2].
+        """Moment of inertia J_r of everything that turns about the tower's axis [kg m^2].
 
         Full integrals; the additional factors 1/2 of Gao et al. (2023), Eq. 8 and 10, are misprints.
         """
+        if self.luffing is not None:
+            return self.luffing.standing_sums(self).zz
         return self.jib.mass * self.jib.length**2 / 3 + self.counter_inertia
 
     @property
     def static_moment(self) -> float:
         """First moment S_r of everything that turns about the tower axis, positive towards the jib [kg m]."""
+        if self.luffing is not None:
+            return self.luffing.standing_sums(self).forward
         return self.jib.mass * self.jib.length / 2 + self.counter_moment
 
     @property
@@ -116,6 +127,8 @@ class TowerCrane:
     @property
     def end_body(self) -> EndBody:
         """The slewing part as the tower's end body: what Gao et al. (2023), Eq. 26, calls m_r and J_r."""
+        if self.luffing is not None:
+            return self.luffing.standing_body(self)
         return EndBody(self.slewing_mass, self.slewing_inertia)
 
     def tower_modes(self, count: int) -> Modes | ChainModes:

@@ -12,6 +12,8 @@ from towercrane.cranes.tower.equations.constants import SLEWING
 from towercrane.kernels.algebra import dot, form
 
 if TYPE_CHECKING:
+    from towercrane.cranes.tower.equations.head import Head
+    from towercrane.cranes.tower.modes.mass_sums import Straight
     from towercrane.cranes.tower.outputs.kinematics import Kinematics
 
 
@@ -22,11 +24,8 @@ def total_energy(at: Kinematics) -> Any:
 
 def kinetic_energy(at: Kinematics) -> Any:
     """Kinetic energy of crane and load [J]."""
-    crane, rates = at.seen.crane, at.state.rates
-    own = rates[: crane.movers]
-    energy = 0.5 * form(own, crane.own_mass[: len(own), : len(own)], own)
-    energy = energy + 0.5 * dot(crane.cap, [rate * rate for rate in rates])
-    energy = energy + _turning_energy(at)
+    crane = at.seen.crane
+    energy = own_energy(at) + turning_energy(at, at.head, crane.straight)
     for mass, (_, speed) in ((crane.trolley_mass, at.trolley_in_space), (crane.load.mass, at.load_in_space)):
         energy = energy + 0.5 * mass * dot(speed, speed)
     return energy
@@ -36,22 +35,37 @@ def potential_energy(at: Kinematics) -> Any:
     """Elastic energy, and weights over the undeformed tower top [J]."""
     crane, q = at.seen.crane, at.state.coordinates
     moment = crane.static_moment, *at.deflection(crane.jib_mass[crane.movers :], q)
-    energy = 0.5 * form(q, crane.stiffness, q) + crane.self_gravity * dot(at.head.rows[2], moment)
+    energy = elastic_energy(at) + crane.self_gravity * dot(at.head.rows[2], moment)
     for mass, (place, _) in ((crane.trolley_mass, at.trolley_in_space), (crane.load.mass, at.load_in_space)):
         energy = energy + crane.gravity * mass * place[2]
+    return energy
+
+
+def own_energy(at: Kinematics) -> Any:
+    """Kinetic energy of the tower, of the drive and of what a cap adds [J]."""
+    crane, rates = at.seen.crane, at.state.rates
+    own = rates[: crane.movers]
+    energy = 0.5 * form(own, crane.own_mass[: len(own), : len(own)], own)
+    return energy + 0.5 * dot(crane.cap, [rate * rate for rate in rates])
+
+
+def elastic_energy(at: Kinematics) -> Any:
+    """Energy of modes and of the drive's coupling [J]."""
+    crane, q = at.seen.crane, at.state.coordinates
+    energy = 0.5 * form(q, crane.stiffness, q)
     if (drive := crane.drive) is not None:
         twist = at.slewing[0] - at.instant.drives[SLEWING][0]
         energy = energy + coupling_energy(twist, drive.soft, drive.stiff, drive.corner)
     return energy
 
 
-def _turning_energy(at: Kinematics) -> Any:
-    """Kinetic energy of what turns, without trolley.
+def turning_energy(at: Kinematics, head: Head, straight: Straight) -> Any:
+    """Kinetic energy of what turns, without trolley, in a head that moves so.
 
     Along each axis of the head its points at x move with v = constant + slope x + sum of bent phi(x).
     """
-    crane, (wx, wy, wz), (vx, vy, vz) = at.seen.crane, at.head.spin, at.head.top
-    mass, moment, roll, pitch, yaw = crane.straight
+    crane, (wx, wy, wz), (vx, vy, vz) = at.seen.crane, head.spin, head.top
+    mass, moment, roll, pitch, yaw = straight
     (left, up), (left_rates, up_rates) = at.of_jib(at.state.coordinates), at.of_jib(at.state.rates)
     energy = roll * wx * wx
     for constant, slope, inertia, bent in (
@@ -59,7 +73,7 @@ def _turning_energy(at: Kinematics) -> Any:
         (vy, wz, yaw, [*left_rates, *(-wx * q for q in up)]),
         (vz, -wy, pitch, [*(wx * q for q in left), *up_rates]),
     ):
-        jib = slice(crane.movers, None)
+        jib = slice(crane.movers, crane.vertical.stop)
         # Sums of m (constant + slope x)^2, of twice that times the bending, and of its square.
         energy = energy + (mass * constant * constant + 2.0 * moment * constant * slope + inertia * slope * slope)
         energy = energy + 2.0 * (constant * dot(crane.jib_mass[jib], bent) + slope * dot(crane.jib_moment[jib], bent))

@@ -127,7 +127,7 @@ class Kinematics:
     def of_jib(self, values: Row) -> tuple[Row, Row]:
         """Coordinates of the jib, or derivatives of them, to the left and up."""
         middle = self.seen.crane.vertical.start
-        return values[self.seen.crane.movers : middle], values[middle : self.seen.crane.coordinates]
+        return values[self.seen.crane.movers : middle], values[middle : self.seen.crane.vertical.stop]
 
     def deflection(self, shapes: Row, values: Row) -> Pair:
         """Sums of the jib's shapes with coordinates or their derivatives, to the left and up."""
@@ -152,9 +152,15 @@ class Kinematics:
         return in_space(self.state.swing)
 
     @cached_property
+    def below(self) -> Pair:
+        """Length of the rope to the load and its rate."""
+        length, hauling, _ = self.instant.drives[ROPE]
+        return length, hauling
+
+    @cached_property
     def load_in_space(self) -> tuple[Vector, Vector]:
         """Position of the load from the undeformed tower top, and its velocity."""
-        (place, velocity), (length, hauling, _) = self.trolley_in_space, self.instant.drives[ROPE]
+        (place, velocity), (length, hauling) = self.trolley_in_space, self.below
         x, y, z = (own + length * n for own, n in zip(place, self.rope, strict=True))
         u, v, w = (own + hauling * n + length * p for own, n, p in zip(velocity, self.rope, self.swing, strict=True))
         return (x, y, z), (u, v, w)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
+from towercrane.cranes.tower.equations.coordinates import ANGLES
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
 from towercrane.cranes.tower.outputs.energy import total_energy
 from towercrane.cranes.tower.outputs.kinematics import Kinematics
@@ -16,7 +17,7 @@ from towercrane.cranes.tower.targets import absent
 from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from towercrane.cranes.tower.equations.flexible import Equations
     from towercrane.cranes.tower.outputs.seen import Seen
@@ -160,13 +161,13 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
 class Outputs(dict[str, Any]):
     """Outputs at an instant by name, each worked out when it is asked for; vectors are sequences of numbers."""
 
-    def __init__(self, at: Sight) -> None:
+    def __init__(self, at: Sight, read: Mapping[str, tuple[Callable[[Any], Any], About]] = OUTPUTS) -> None:
         super().__init__()
-        self.at = at
+        self.at, self.read = at, read
 
     def __missing__(self, name: str) -> Any:
         kind = name.removesuffix("_coordinate")
-        self[name] = found = OUTPUTS[name][0](self.at) if name in OUTPUTS else self.at.amplitudes(kind)
+        self[name] = found = self.read[name][0](self.at) if name in self.read else self.at.amplitudes(kind)
         return found
 
 
@@ -175,20 +176,17 @@ def outputs(seen: Seen, instant: Instant) -> Outputs:
     return Outputs(Sight(seen, instant))
 
 
-def names() -> Collection[str]:
-    """Names of all outputs that runs may have."""
-    return OUTPUTS.keys()
-
-
-def about(model: Equations) -> dict[str, About]:
+def about(
+    model: Equations, read: Mapping[str, tuple[Callable[[Any], Any], About]] = OUTPUTS
+) -> dict[str, About]:  # fmt: skip
     """What the outputs are; where all stays in the jib's plane, without those that tell nothing there."""
     crane, counts = model.constants, dict(model.counts)
     if model.axes == 2:
         counts["tower_y"] = counts["tower_x"]
     there = {"shaft": crane.drive is not None, "wind": crane.wind}
-    found = {name: shown for name, (_, shown) in OUTPUTS.items() if there.get(name.partition("_")[0], True)}
+    found = {name: shown for name, (_, shown) in read.items() if there.get(name.partition("_")[0], True)}
     for kind, count in counts.items():
-        if count and kind != "slewing":
+        if count and kind not in ANGLES:
             name = f"amplitude of the mass-normalised modes: {kind.replace('_', ' ')}"
             found[f"{kind}_coordinate"] = About("kg^0.5 m", name, (f"{kind}_mode",), count)
     missing = absent(model.heading) if model.axes == 2 else ()

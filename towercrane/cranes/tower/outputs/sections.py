@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from towercrane.cranes.tower.equations.body import Body, body_of
-from towercrane.cranes.tower.equations.constants import ROPE
 from towercrane.cranes.tower.equations.jib import Sums
 from towercrane.cranes.tower.equations.motion import TENSION
 from towercrane.kernels.algebra import Row, Vector, cross, dot, form
@@ -106,21 +105,29 @@ class Sections:
         return body.pushed((0.0, exposure.mass * press, 0.0), (-rise * press, 0.0, exposure.moment * press))
 
     @cached_property
+    def hung(self) -> tuple[Vector, Vector]:
+        """Force of the rope on what it hangs from, and couple of its damper, which turns the jib."""
+        at, load = self.at, self.at.seen.crane.load
+        # The damper pulls the load back and the rope's upper end along.
+        away = dot(at.swing, at.rope)
+        across = tuple(p - away * n for p, n in zip(at.swing, at.rope, strict=True))
+        held = load.rope_damping / at.below[0]
+        x, y, z = (at.instant.guards[TENSION] * n + held * p for n, p in zip(at.rope, across, strict=True))
+        force = self.head.to_head((x, y, z))
+        x, y, z = (load.rope_damping * own for own in self.head.to_head(cross(at.rope, across)))
+        return force, (x, y, z)
+
+    @cached_property
     def jib_root(self) -> Body:
         """What is beyond the root of the jib: jib, trolley and load."""
         at, head, crane = self.at, self.head, self.at.seen.crane
         (left, up), end = at.paths, at.carry(head)
         moved = 0.0, *at.deflection(left.shapes + up.shapes, self.accelerations)
-        # The damper where the rope hangs pulls the load back and the trolley along, and its couple turns the jib.
-        away = dot(at.swing, at.rope)
-        across = tuple(p - away * n for p, n in zip(at.swing, at.rope, strict=True))
-        held = crane.load.rope_damping / at.instant.drives[ROPE][0]
-        x, y, z = (at.instant.guards[TENSION] * n + held * p for n, p in zip(at.rope, across, strict=True))
-        inertia = zip(self.felt(crane.gravity), end.bias, moved, head.to_head((x, y, z)), strict=True)
+        hung, couple = self.hung
+        inertia = zip(self.felt(crane.gravity), end.bias, moved, hung, strict=True)
         pull = tuple(force - crane.trolley_mass * (top + bias + own) for top, bias, own, force in inertia)
-        x, y, z = (crane.load.rope_damping * own for own in head.to_head(cross(at.rope, across)))
         body = self.turning(at.seen.jib, at.seen.jib_exposure)
-        return body.with_trolley(crane.trolley_mass, end.place, pull).pushed(NONE, (x, y, z))
+        return body.with_trolley(crane.trolley_mass, end.place, pull).pushed(NONE, couple)
 
     @cached_property
     def tower_top(self) -> Body:

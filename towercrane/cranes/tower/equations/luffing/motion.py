@@ -1,0 +1,169 @@
+"""Equations of motion of a tower crane whose jib pivots at its foot, held by a rope of elastic length.
+
+The hoist rope runs from its winch over the jib's head to several falls: the length below the head is
+l = (L_h - d) / n with the way d from winch to head, so that it pulls the jib towards the winch as it holds the load.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
+from towercrane.cranes.tower.equations.drive import Driven, drive
+from towercrane.cranes.tower.equations.head import Head, head_of
+from towercrane.cranes.tower.equations.luffing.hinge import Hinged, hinge, jib_part, luffing_of, pivot_of
+from towercrane.cranes.tower.equations.luffing.ropes import Held, hold, tied_at, way_to
+from towercrane.cranes.tower.equations.projection import Projected, Share, mass_matrix, project_mover, share_of
+from towercrane.cranes.tower.equations.structure import load_force
+from towercrane.kernels.algebra import Vector, dot
+from towercrane.kernels.payload import Rope, State, Structure, hang_load, slopes, state_of
+from towercrane.kernels.polynomial import polynomial
+
+if TYPE_CHECKING:
+    from towercrane.cranes.tower.equations.constants import Constants, Drives
+    from towercrane.cranes.tower.equations.luffing.pivot import Coupled
+
+TENSION, HOLDING, STOP, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, GUARDS = range(8)
+"""Guards, and how many: tension of the hoist's falls and of the luffing rope [N], way to the jib's stop [rad]; then
+as :mod:`towercrane.cranes.tower.equations.motion` has them."""
+
+COMMANDED = 0
+"""Motion of the luffing winch: the angle at which a straight jib would stand on a rope that does not stretch."""
+
+
+class LuffingStructure(NamedTuple):
+    """Structure that the load hangs on, and what else is asked of it.
+
+    Parameters
+    ----------
+    hanging : Structure
+    rope : Rope
+        Below the jib's head.
+    held : Held
+        The luffing rope.
+    tilt : number
+        Of the head [rad].
+    power : number
+        Of damping, luffing winch and drive [W].
+    share : Share
+        What turns.
+    projected : list of Projected
+        The coordinates.
+    hinged : Hinged
+    driven : Driven or None
+    """
+
+    hanging: Structure
+    rope: Rope
+    held: Held
+    tilt: Any
+    power: Any
+    share: Share
+    projected: list[Projected]
+    hinged: Hinged
+    driven: Driven | None
+
+
+def structure(crane: Constants, state: State, drives: Drives) -> LuffingStructure:
+    """The crane in a state, driven so."""
+    own, pivot, movers = luffing_of(crane), pivot_of(crane, state), crane.movers
+    head, tilt = head_of(crane, state, drives)
+    hinged = hinge(crane, head, state)
+    q, qd = jib_part(crane, state)
+    tied = tied_at(own, q, qd, own.attachment)
+    held = hold(own, way_to(own, own.frame_head, tied, pivot), pivot, drives[COMMANDED])
+    hauled = way_to(own, own.winch, tied_at(own, q, qd, 0.0), pivot)
+    length, rate, acceleration = drives[ROPE]
+    paid = [0.0] * movers + [-moved / own.falls for moved in hauled.moved]
+    rope = Rope(
+        length - (hauled.length - own.reference_way) / own.falls, rate, acceleration - hauled.bias / own.falls,
+        paid=paid,
+    )  # fmt: skip
+
+    # The bent jib's head is nearer to its foot, and lower: its weight there has the chord's inclination alone.
+    lowered, weight = [dot(row, q) for row in own.weighted], crane.self_gravity
+    sagging = [weight * pivot.s * along for along in lowered] + [0.5 * weight * pivot.c * dot(q, lowered)]
+    on_jib = [a + b + c for a, b, c in zip(hinged.forces, held.forces, sagging, strict=True)]
+    power, forces = held.power, []
+    for i in range(crane.coordinates):
+        loss = crane.damping[i] * state.rates[i]
+        power = power - loss * state.rates[i]
+        force = (on_jib[i - movers] if i >= movers else 0.0) - loss
+        for m in range(crane.coordinates):
+            force = force - crane.stiffness[i, m] * state.coordinates[m]
+        forces.append(force)
+
+    share = share_of(head, hinged.body, hinged.end.place)
+    projected = [project_mover(crane, i, share) for i in range(movers)]
+    projected += [project_row(head, row, end) for row, end in zip(hinged.rows, hinged.ends, strict=True)]
+    forces = [force + own.force for force, own in zip(forces, projected, strict=True)]
+    driven = drive(crane, state, drives) if crane.drive is not None else None
+    if driven is not None:
+        (turned,) = crane.part("slewing")
+        forces[turned] = forces[turned] + (driven.torque + driven.friction)
+        power = power + driven.power
+
+    axes, end = crane.fixed_axes, hinged.end
+    mass = mass_matrix(crane, projected, [0.0] * len(hinged.rows))
+    mass[-1][movers:] = hinged.pitching
+    velocity, bias = head.to_fixed(end.velocity), head.to_fixed(end.bias)
+    hanging = Structure(
+        mass=mass,
+        force=forces,
+        velocity=[velocity[k] for k in axes],
+        bias=[bias[k] for k in axes],
+        jacobian=[[own.end[k] for own in projected] for k in axes],
+        wind=[0.0] * crane.axes,
+    )
+    return LuffingStructure(hanging, rope, held, tilt, power, share, projected, hinged, driven)
+
+
+def project_row(head: Head, row: Coupled, end: Vector) -> Projected:
+    """A coordinate of the jib, with what it moves the sheave along the head's axes."""
+    x, y, _ = head.rows
+    momentum, moment = row
+    shared = (
+        dot(x, momentum), dot(y, momentum), dot(head.turn_x, moment), dot(head.turn_y, moment), moment[2],
+    )  # fmt: skip
+    return Projected(shared, 0.0, head.to_fixed(end))
+
+
+def slewing_torque(found: LuffingStructure, accelerations: list[Any], pull: list[Any]) -> Any:
+    """Torque that a prescribed slewing takes: the equation of the coordinate that is not free."""
+    column, _ = found.share.turning
+    torque = -found.share.forces[4]
+    for own, acceleration in zip(found.projected, accelerations, strict=True):
+        torque = torque + own.row[4] * acceleration
+    return torque - dot(column, pull)
+
+
+def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
+    """Slopes of the state (q, n, q', p, work), and guards."""
+    state, axes = state_of(y, crane.coordinates, crane.axes), range(crane.axes)
+    drives = [polynomial(channel, t) for channel in inputs]
+    found = structure(crane, state, drives)
+    hung = hang_load(found.hanging, state, found.rope, crane.load, crane.gravity)
+    power, torque, beyond = found.power, 0.0, 0.0
+    if found.driven is not None:
+        torque, beyond = found.driven.torque, found.driven.beyond
+    elif crane.axes == 3:
+        torque = slewing_torque(found, hung.accelerations, [hung.pull(k) for k in axes])
+        if crane.slewing == "prescribed":
+            _, turning, _ = drives[SLEWING]
+            power = power + torque * turning
+    slope = slopes(state, hung, hung.power + power)
+    stop = luffing_of(crane).highest_angle - state.coordinates[-1]
+    margins = [hung.tension, found.held.tension, stop, crane.tilt_limit - found.tilt]
+    return slope, [*margins, -beyond, beyond, torque]
+
+
+def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
+    """Forces on the coordinates y at rest, with the load that hangs at rest; inputs at their values."""
+    state = State(y, (), (), [0.0] * crane.coordinates, (), ())
+    found = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]])
+    pull, columns = load_force(crane, found.hanging.wind), zip(*found.hanging.jacobian, strict=True)
+    tension = np.sqrt(dot(pull, pull))
+    parts = zip(found.hanging.force, columns, found.rope.paid, strict=True)
+    return [own + dot(column, pull) + tension * paid for own, column, paid in parts], []

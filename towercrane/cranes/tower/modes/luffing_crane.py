@@ -1,0 +1,72 @@
+"""A tower crane with a jib that pivots, in modes of its members."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from modal.beams.beam import EndBody
+from modal.beams.shapes import cantilever_modes
+from towercrane.cranes.tower.modes.chord_shapes import ChordShapes
+from towercrane.cranes.tower.modes.mass_sums import point_sums, rigid_sums
+from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane, torsion_of
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
+    from towercrane.cranes.tower.modes.mass_sums import Basis
+    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
+
+    Floats = NDArray[np.float64]
+
+
+def luffing_of(crane: TowerCrane) -> LuffingJib:
+    """What a crane has of a jib that pivots."""
+    assert crane.luffing is not None, "the crane's jib pivots"
+    return crane.luffing
+
+
+def products(crane: TowerCrane, lateral: Basis, vertical: Basis) -> tuple[Floats, Floats]:
+    """Sums of slopes of either direction over the jib's length, and with the mass beyond; shapes (n, n)."""
+    from scipy.linalg import block_diag
+
+    slopes = block_diag(lateral.slope_matrix(), vertical.slope_matrix())
+    beyond = block_diag(lateral.weight_matrix(), vertical.weight_matrix()) + luffing_of(crane).tip_mass * slopes
+    return slopes, beyond
+
+
+def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> FlexibleCrane:
+    """Crane in so many modes of its members.
+
+    To its sides the jib bends as clamped at its foot and free at its head, up and down as held at both.
+
+    Parameters
+    ----------
+    crane : TowerCrane
+    modes : ModeCounts
+    planes : {1, 2}
+        Directions in which the tower bends.
+    """
+    own = luffing_of(crane)
+    lateral = cantilever_modes(crane.jib_lateral or crane.jib, modes.lateral, EndBody(own.tip_mass))
+    vertical = ChordShapes(crane.jib, modes.vertical)
+    rest = own.rest_sums(crane)
+    return FlexibleCrane(
+        name=crane.name,
+        tower_height=crane.tower.length,
+        jib_length=crane.jib.length,
+        tower=crane.tower_modes(modes.tower),
+        torsion=torsion_of(crane, modes.torsion),
+        lateral=lateral,
+        vertical=vertical,
+        jib=point_sums(*own.points_of(crane.jib), lateral, vertical),
+        counter=rigid_sums(rest.mass, rest.forward, rest.yy, modes.lateral + modes.vertical),
+        tower_mass=crane.tower_mass,
+        trolley_mass=0.0,
+        planes=planes,
+        gravity=crane.gravity,
+        luffing=own,
+        written=crane,
+    )
