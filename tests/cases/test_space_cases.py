@@ -171,7 +171,8 @@ def test_one_slip_makes_one_message(name, changes, key, words):
 def test_modes_of_a_member_need_its_data(write, table, line, key, words):
     crane = (case_folder() / "qtz5613" / "crane.toml").read_text("utf-8")
     whole = next(text for text in crane.splitlines() if text.startswith(line))
-    path = write(table, (whole + "\n", ""))
+    lattice = crane[crane.index("[tower.lattice]") : crane.index("[jib]")]
+    path = write(table, (whole + "\n", ""), (lattice, ""))
     fault = only_fault(path)
     assert (fault.key, fault.got) == (key, "nothing: the key is missing")
     assert words in fault.hint

@@ -13,7 +13,7 @@ from towercrane.schema.text import in_utf8, read_case
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from towercrane.cranes.registry import AnyCase
     from towercrane.motions.plans import Plan
@@ -165,4 +165,13 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     if located or checked is None or set(plans) != set(channels(tree, kind)):
         raise CaseError(located)
     name = case_name(found)
+    assumed += computed_values(kind, checked)
     return Case(name, found, checked.title or name, checked, plans, tuple(assumed), text.tree, tuple(overrides))
+
+
+def computed_values(kind: str, checked: AnyCase) -> Iterator[Assumption]:
+    """Values that a case's tables do not state and that others of them give."""
+    from towercrane.cranes.registry import KINDS
+
+    computed = KINDS[kind].computed
+    return computed(checked) if computed else iter(())

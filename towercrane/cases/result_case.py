@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from towercrane.cases.case import Case
+from towercrane.cases.case import Case, computed_values
 from towercrane.cases.kinds import kind_of
 from towercrane.cranes.registry import KINDS
 from towercrane.schema.provenance import split_provenance
@@ -45,6 +45,7 @@ def case_of(result: xr.Dataset) -> Case:
     # What no single value shows, such as a tower whose parts do not fit each other.
     for fault in (fault for check in KINDS[kind].checks for fault in check(tree)):
         raise ValueError(f"the result's case cannot be read by this version, at {fault.key}: {fault.got}")
+    assumed += computed_values(kind, checked)
     changes = tuple(json.loads(result.attrs.get("changes", "[]")))
     name = result.attrs["case"]
     return Case(name, Path(name), checked.title or name, checked, {}, tuple(assumed), written, changes)

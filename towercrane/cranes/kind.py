@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.parts.poses import Poses
     from towercrane.schema.faults import Fault
+    from towercrane.schema.provenance import Assumption
     from towercrane.schema.ranges import Range
     from towercrane.schema.targets import Targets
     from towercrane.simulation.system import Model
@@ -115,6 +116,8 @@ class Kind:
         Faults of a case as written that no single value shows.
     ranges : tuple of Range
         Plausible values that are not those of other kinds.
+    computed : callable, optional
+        Assumptions for values that its tables do not state and that others of them give.
     idle : callable, optional
         Beginnings of keys of its tables that do not enter the equations of motion.
     natural : callable, optional
@@ -150,6 +153,7 @@ class Kind:
     kernels: Callable[[Any, str], tuple[str, ...]] = run_kernels
     checks: tuple[Callable[[Tree], Iterator[Fault]], ...] = ()
     ranges: tuple[Range, ...] = ()
+    computed: Callable[[Any], Iterator[Assumption]] | None = None
     idle: Callable[..., Iterator[str]] | None = None
     natural: Callable[..., Natural] | None = None
     lengths: Callable[[Any], dict[str, float]] | None = None

@@ -22,6 +22,7 @@ TOWER = Kind(
     checks=(check_tower, check_scene),
     build=later("towercrane.cranes.tower.file.build", "tower_model"),
     poses=later("towercrane.cranes.tower.poses", "tower_poses"),
+    computed=later("towercrane.cranes.tower.file.torsion", "computed"),
     idle=later("towercrane.cranes.tower.file.idle", "idle"),
     kernels=later("towercrane.cranes.tower.file.kernels", "kernels"),
     natural=later("towercrane.cranes.tower.file.natural", "natural"),

@@ -20,18 +20,16 @@ if TYPE_CHECKING:
 
 def crane_of(tables: TowerCase) -> TowerCrane:
     """The crane of a case, on a tower without what the case's tolerance leaves out, with all that its file gives."""
-    from modal.beams.torsion import Shaft
-
     crane, standing = tables.crane, kept_tower(tables)
-    tower, jib = crane.tower, crane.jib
+    jib = crane.jib
     lateral, shaft = None, None
+    # Nobody asks a scene in the plane for torsion; sections of a lattice take a few milliseconds.
+    if heading_of(tables) is None or crane.tower.torsional_stiffness is not None:
+        from towercrane.cranes.tower.file.torsion import tower_shaft
+
+        shaft = tower_shaft(crane, standing.length)
     if jib.lateral_second_moment_of_area is not None:
         lateral = Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.lateral_second_moment_of_area)
-    if tower.torsional_stiffness is not None and tower.torsional_inertia_per_length is not None:
-        # A stated height may miss the sum of the segments by rounding.
-        springs = ((min(own.height, standing.length), own.torsional_stiffness) for own in tower.collars)
-        held = tuple(sorted(spring for spring in springs if spring[1]))
-        shaft = Shaft(standing.length, tower.torsional_inertia_per_length, tower.torsional_stiffness, held)
     return crane_on(standing, crane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from modal import Foundation
 from towercrane.cranes.tower.file.members import beam_choice, foundation_of
 from towercrane.cranes.tower.file.plane import stays_in_plane
+from towercrane.cranes.tower.file.torsion import KEYS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,15 +28,18 @@ def idle(tables: TowerCase, *, exact_crane: bool = False, all_modes: bool = Fals
     """
     crane, model = tables.crane, tables.model
     planar = exact_crane or stays_in_plane(tables)
+    rigid = planar or not (model.torsion_modes or all_modes)
     if not exact_crane:
         yield from ("crane.counter_jib.youngs_modulus", "crane.counter_jib.second_moment_of_area")
     if not crane.tower.segments:
-        stated = beam_choice(crane.tower, crane.tower) == "stated"
-        yield "crane.tower.lattice." if stated else "crane.tower.second_moment_of_area"
+        if beam_choice(crane.tower, crane.tower) != "stated":
+            yield "crane.tower.second_moment_of_area"
+        elif rigid or all(getattr(crane.tower, key) is not None for key in KEYS):
+            yield "crane.tower.lattice."
     if foundation_of(crane) == Foundation():
         yield "crane.foundation.block."
-    if planar or not (model.torsion_modes or all_modes):
-        yield from ("crane.tower.torsional_stiffness", "crane.tower.torsional_inertia_per_length")
+    if rigid:
+        yield from (f"crane.tower.{key}" for key in KEYS)
         yield from (f"crane.tower.collars.{k}.torsional_stiffness" for k in range(len(crane.tower.collars)))
     if planar or not (model.jib_lateral_modes or all_modes):
         yield "crane.jib.lateral_second_moment_of_area"

@@ -31,7 +31,7 @@ def tower_of(crane: Crane) -> Beam | Chain:
         modulus = tower.youngs_modulus
         assert modulus is not None, "the file is checked to give one"
         return Beam(uniform.length, uniform.mass_per_length, modulus, uniform.bending_stiffness / modulus)
-    segments = tuple(segment for piece in _pieces(tower) for segment in _segments(tower, piece))
+    segments = tuple(segment for piece in tower_pieces(tower) for segment in _segments(tower, piece))
     chain = Chain(segments, foundation=foundation_of(crane), shear_theory=tower.shear_theory)
     block = crane.foundation.block
     bodies = [(body.height, body) for body in tower.bodies] + ([(0.0, block)] if block is not None else [])
@@ -59,7 +59,7 @@ def uniform_of(crane: Crane) -> Segment | None:
     ground = foundation_of(crane) != Foundation() or crane.foundation.block is not None
     if tower.segments or tower.bodies or tower.collars or ground:
         return None
-    first = _segments(tower, _pieces(tower)[0])[0]
+    first = _segments(tower, tower_pieces(tower)[0])[0]
     return first if first.shear_stiffness == inf and first.rotary_inertia == 0.0 else None
 
 
@@ -110,7 +110,7 @@ def tower_truss(crane: Crane) -> ColumnTruss | None:
     """
     tower = crane.tower
     found: ColumnTruss | None = None
-    for piece in reversed(_pieces(tower)):
+    for piece in reversed(tower_pieces(tower)):
         modulus = piece.youngs_modulus or tower.youngs_modulus
         if piece.lattice is None or modulus is None:
             return None
@@ -120,7 +120,7 @@ def tower_truss(crane: Crane) -> ColumnTruss | None:
     return found
 
 
-def _pieces(tower: Tower) -> tuple[TowerSegment, ...]:
+def tower_pieces(tower: Tower) -> tuple[TowerSegment, ...]:
     """The segments of a tower; a uniform one has one."""
     from towercrane.cranes.tower.file.tower_tables import Section, TowerSegment
 

@@ -68,6 +68,8 @@ def _check_force(tree: dict[str, Any]) -> Iterator[Fault]:
 def _check_members(tree: dict[str, Any]) -> Iterator[Fault]:
     """Modes of members that the crane file does not describe."""
     for modes, keys in NEEDED.items():
+        if modes == "torsion_modes" and _laced_throughout(tree):
+            continue
         count = at(tree, f"model.{modes}")
         count = Model.model_fields[modes].default if count is None else count
         if not (isinstance(count, int) and count > 0) or not isinstance(at(tree, "crane.tower"), dict):
@@ -75,7 +77,17 @@ def _check_members(tree: dict[str, Any]) -> Iterator[Fault]:
         for key, unit in keys:
             if at(tree, f"crane.{key}") is None and isinstance(at(tree, f"crane.{key.partition('.')[0]}"), dict):
                 hint = f"model.{modes} = 0 leaves it rigid"
+                if modes == "torsion_modes":
+                    hint += "; a lattice of the whole tower gives it as well"
                 yield Fault("", f"crane.{key}", f"{wanted(unit)}, for model.{modes} = {count}", MISSING, hint)
+
+
+def _laced_throughout(tree: dict[str, Any]) -> bool:
+    """Whether the tower, or each of its segments, has its members given."""
+    tower = at(tree, "crane.tower")
+    segments = at(tree, "crane.tower.segments")
+    pieces = segments if isinstance(segments, list) and segments else [tower]
+    return all(isinstance(piece, dict) and isinstance(piece.get("lattice"), dict) for piece in pieces)
 
 
 def _check_drive(tree: dict[str, Any]) -> Iterator[Fault]:
