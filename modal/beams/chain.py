@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
 ShearTheory = Literal["haringx", "engesser"]
 
+_GAUSS_POINTS = 12
+"""Enough for any power of the breadth that a section has."""
+
 
 @dataclass(frozen=True, slots=True)
 class Foundation:
@@ -192,6 +195,25 @@ class Chain:
         for segment in self.segments:
             positions.append(positions[-1] + segment.length)
         return tuple(positions)
+
+    @property
+    def inertia(self) -> tuple[float, float, float, float]:
+        """Mass [kg], sums of m x [kg m] and m x^2 [kg m^2] from the foot, and own rotary inertia; bodies included."""
+        mass = first = second = rotary = 0.0
+        points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+        for segment, near in zip(self.segments, self.nodes[:-1], strict=True):
+            distance = 0.5 * segment.length * (points + 1.0)
+            weight = 0.5 * segment.length * weights
+            moving = weight * segment.section("mass_per_length", distance)
+            mass += segment.mass
+            first += float(moving @ (near + distance))
+            second += float(moving @ (near + distance) ** 2)
+            rotary += float(weight @ segment.section("rotary_inertia", distance))
+        for node, body in self.bodies.items():
+            place = self.nodes[node] + body.offset
+            mass, first, second = mass + body.mass, first + body.mass * place, second + body.mass * place**2
+            rotary += body.rotary_inertia
+        return mass, first, second, rotary
 
     def with_node(self, position: float) -> tuple[Chain, int]:
         """The same chain with a node at a position [m], and that node's number.

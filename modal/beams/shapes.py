@@ -113,6 +113,10 @@ class Modes:
         """Moment of momentum of the sections' own rotary inertia [kg^1/2 m], shape (n,): none here."""
         return np.zeros(self.count)
 
+    def rotary_matrix(self) -> NDArray[np.float64]:
+        """What the sections' own rotary inertia adds to the mass matrix [1], shape (n, n): nothing here."""
+        return np.zeros((self.count, self.count))
+
     def deflection_integrals(self) -> NDArray[np.float64]:
         """Integrals ``int phi dx`` [m kg^-1/2], shape (n,)."""
         return self.beam.length * shape_integrals(self.roots, self.coefficients)

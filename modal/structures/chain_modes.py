@@ -110,6 +110,13 @@ class ChainModes:
         )
         return along + sum(body.rotary_inertia * turn for body, _, turn in self._of_bodies())
 
+    def rotary_matrix(self) -> Floats:
+        """What the own rotary inertia of sections and bodies adds to the mass matrix [1], shape (n, n)."""
+        total = self.shapes.product(self.shapes.rotary_inertia, ROTATION, ROTATION)
+        for body, _, turn in self._of_bodies():
+            total = total + body.rotary_inertia * np.outer(turn, turn)
+        return total
+
     def deflection_integrals(self) -> Floats:
         """Integrals ``int phi dx`` [m kg^-1/2], shape (n,)."""
         integrals: Floats = np.tensordot(self.shapes.at_points(DEFLECTION), self.shapes.weights, 2)

@@ -75,7 +75,7 @@ class Motion:
         if self.duration <= time + SAME_INSTANT:
             return _padded(self.end, self.coefficients.shape[1])
         index = int(np.searchsorted(self.switch_times, time + SAME_INSTANT, side="right")) - 1
-        return _shifted(self.coefficients[index], time - self.switch_times[index])
+        return shifted(self.coefficients[index], time - self.switch_times[index])
 
     def __call__(self, time: ArrayLike, derivative: int = 0) -> Floats:
         """Value or derivative at ``time`` [s]; at a switch time the right limit. Shape as ``time``."""
@@ -220,7 +220,7 @@ def _roots(polynomials: Floats) -> Floats:
     return found
 
 
-def _shifted(coefficients: Floats, time: float) -> Floats:
+def shifted(coefficients: Floats, time: float) -> Floats:
     """Coefficients about ``time`` instead of 0, by repeated synthetic division."""
     shifted = np.array(coefficients, dtype=float)
     for first in range(len(shifted) - 1):

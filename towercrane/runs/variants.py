@@ -52,7 +52,8 @@ class Variant:
         """Whether it can run in vector lanes."""
         if self.run is None or not METHODS[self.case.solver.method].compiled:
             return False
-        return self.run.model.system.switch is None
+        system = self.run.model.system
+        return system.switch is None and not (system.crossings and system.crossings.crosses(self.run.phases))
 
     @property
     def company(self) -> tuple[Any, ...]:

@@ -79,6 +79,10 @@ def integrate(
     if not (split or solver.crosses_phases):
         able = ", ".join(name for name, own in METHODS.items() if own.crosses_phases)
         raise ValueError(f"split=False: wanted one of {able}, got {method!r}")
+    if system.crossings is not None:
+        if not split and system.crossings.crosses(phases):
+            raise ValueError("split: wanted True where the trolley passes a joint of its jib, got False")
+        phases = system.crossings.cut(phases)
     began, began_cpu = time.perf_counter(), time.process_time()
     run = Run(system, rtol, atol, np.array(start, dtype=float), np.empty((len(sample_times), system.size)))
     restore_rows(run.state, system.directions)
@@ -119,6 +123,8 @@ def evaluate(system: System, phases: Phases, times: Floats, states: Floats) -> t
     slopes, guards : ndarray, shapes (p, size) and (p, len(system.guards))
     """
     slopes, guards = np.empty_like(states), np.empty((len(times), len(system.guards)))
+    if system.crossings is not None:
+        phases = system.crossings.cut(phases)
     owner = phase_of(times, phases)
     for phase in np.unique(owner):
         mine = np.flatnonzero(owner == phase)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.motions.motion import Motion
+    from towercrane.motions.motion import Motion, Phases
     from towercrane.results.recording import Quantity
 
     Floats = NDArray[np.float64]
@@ -41,6 +41,22 @@ class Switch(Protocol):
         self, guard: int, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]
     ) -> bool:
         """Set the equations that hold after a guard has reached its floor; False if the run ends there."""
+
+
+class Crossings(Protocol):
+    """Instants, known beforehand, at which a system's rates jump: a trolley that passes a joint of its rail."""
+
+    def cut(self, phases: Phases) -> Phases:
+        """The phases cut at these instants; their inputs may have rows more than there are channels."""
+
+    def crosses(self, phases: Phases) -> bool:
+        """Whether there are such instants in phases that are not cut."""
+
+    def crossed(self, before: Floats, after: Floats) -> bool:
+        """Whether one is between phases, cut, with these inputs."""
+
+    def leap(self, state: Floats, before: Floats, time: float, after: Floats) -> Floats:
+        """State right after it, from that at the end of a phase that took so long [s]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +86,7 @@ class System:
         What a guard does instead of ending the run.
     fastest : callable, optional
         Highest angular frequency of its small motions [rad/s], if it is known.
+    crossings : Crossings, optional
     """
 
     equations: Callable[..., tuple[Sequence[Any], Sequence[Any]]]
@@ -81,6 +98,7 @@ class System:
     directions: Integers = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))
     switch: Switch | None = None
     fastest: Callable[[], float] | None = None
+    crossings: Crossings | None = None
 
     @cached_property
     def numbers(self) -> Floats:

@@ -70,6 +70,14 @@ class Run:
         self.counts = np.zeros(5, dtype=np.int64)
 
 
+def leapt(run: Run, phases: Phases, phase: int) -> Floats:
+    """State of a run at the start of a phase, from that at the end of the one before."""
+    before, after, crossings = phases.inputs[phase - 1], phases.inputs[phase], run.system.crossings
+    if crossings is None or not crossings.crossed(before, after):
+        return run.state
+    return crossings.leap(run.state, before, float(phases.times[phase] - phases.times[phase - 1]), after)
+
+
 def phase_of(times: Floats, phases: Phases) -> NDArray[np.int64]:
     """Index of the phase that each time belongs to; a switch time belongs to the phase it begins, the end to none.
 

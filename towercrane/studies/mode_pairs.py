@@ -102,7 +102,7 @@ def paired_modes(model: FlexibleModel, crane: PlaneCrane, trolley_position: floa
 
 
 def _model_modes(model: FlexibleModel, crane: PlaneCrane, trolley_position: float) -> tuple[Floats, Floats]:
-    """Frequencies of all modes of the model [Hz], and its shapes as those of the crane, its counter-jib straight."""
+    """Frequencies of all modes of the model [Hz], and its shapes as those of the crane."""
     matrices = plane_matrices(model, trolley_position, crane.frame.rope_length)
     frequencies, columns = reciprocal_modes(model, *matrices)
     vectors, tower, bases = columns.T.copy(), model.counts["tower_x"], model.crane
@@ -112,8 +112,8 @@ def _model_modes(model: FlexibleModel, crane: PlaneCrane, trolley_position: floa
     vectors[:, -1] += of_tower @ bases.tower(bases.tower_height)
     parts = {
         "tower": _Shapes(still, of_tower, bases.tower),
-        "jib": _Shapes(-turn, vectors[:, tower:-1], bases.vertical),
-        "counter-jib": _Shapes(turn, vectors[:, :0], None),
+        "jib": _Shapes(-turn, vectors[:, model.parts["jib_vertical"]], bases.vertical),
+        "counter-jib": _Shapes(turn, vectors[:, model.parts["counter_jib_vertical"]], bases.counter_vertical),
     }
     return frequencies / (2.0 * np.pi), crane.motion(trolley_position, parts, vectors[:, -1])
 

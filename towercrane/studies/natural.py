@@ -47,7 +47,7 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
     -------
     dict
         ``tower`` with what the results include, see ``effects`` (frequencies_hz, method, seconds; of a uniform tower
-        without effects roots; outcome and message where it buckles), ``jib`` (roots, frequencies_hz),
+        without effects roots; outcome and message where it buckles), ``jib`` (frequencies_hz, uniform: roots),
         ``finite_elements`` of the tower (frequencies_hz, relative_difference, elements, seconds), ``effects`` of
         shear, weight, rotary inertia and foundation, see `towercrane.cranes.tower.file.effects.effects_report`,
         ``crane`` (a list with trolley_position_m, frequencies_hz, swing_mode, exact_hz and relative_difference to the
@@ -56,7 +56,7 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
         message where the tower buckles), ``buckling_factor`` on all weights, ``lattice`` where the case describes
         one, ``assumed``.
     """
-    from modal import Beam
+    from modal import Beam, Modes
 
     tables = case.tables(TowerCase)
     model = model or tower_model(tables, planar=True)
@@ -72,7 +72,7 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
         "case": case.name,
         "name": crane.name,
         "tower": tower,
-        "jib": {"roots": jib.roots.tolist(), "frequencies_hz": jib.frequencies_hz.tolist()},
+        "jib": {"frequencies_hz": jib.frequencies_hz.tolist()},
         "finite_elements": check,
         "effects": effects_report(effects, actual=actual),
         "crane_model": {key: getattr(tables.model, key) for key in PLANE_MODES},
@@ -80,6 +80,8 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
         "rope_length_m": case.rope.length,
         "payload_mass_kg": case.payload.mass,
     }
+    if isinstance(jib, Modes):
+        report["jib"]["roots"] = jib.roots.tolist()
     report["crane"] = [_coupled(tables, model, crane, position) for position in asked.trolley_positions]
     report["buckling_factor"] = _buckling_factor(tables, asked.trolley_positions[0])
     if tables.crane.tower.published_roots and "roots" in tower:

@@ -11,8 +11,8 @@ from samples.qtz5613 import in_plane, model, motions
 from towercrane import load_case
 from towercrane.cranes.tower.equations.small_motions import plane_modes
 from towercrane.cranes.tower.file.build import crane_of
-from towercrane.cranes.tower.file.members import as_chain
 from towercrane.cranes.tower.modes.frequency_cap import added_mass
+from towercrane.cranes.tower.modes.parameters import as_chain
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.simulation.simulate import simulate

@@ -14,7 +14,8 @@ from towercrane.cases.models import motions_of
 from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.tower.equations.small_motions import plane_modes
 from towercrane.cranes.tower.file.build import crane_frame, crane_of
-from towercrane.cranes.tower.file.members import as_chain, joined
+from towercrane.cranes.tower.file.members import joined
+from towercrane.cranes.tower.modes.parameters import as_chain
 from towercrane.simulation.simulate import simulate
 
 CASE = load_case("qtz5613/condition-3")

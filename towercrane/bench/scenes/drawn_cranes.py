@@ -88,6 +88,7 @@ def any_crane(rng: Generator) -> TowerCrane:
 def in_space(rng: Generator, crane: TowerCrane) -> TowerCrane:
     """A crane of the plane with a jib that bends to its sides and a tower that twists."""
     jib, height = crane.jib, crane.tower.length
+    assert isinstance(jib, Beam), "drawn as one"
     lateral = Beam(jib.length, jib.mass_per_length, STEEL, jib.second_moment_of_area * spread(rng, 0.2, 1.5))
     # The whole twists at between a tenth and twice its frequency in bending, or thereabouts.
     inertia = crane.slewing_inertia

@@ -26,9 +26,10 @@ def modes_tables(report: dict[str, Any]) -> None:
     _effects(console, report)
 
     jib = report["jib"]
-    table = _table(f"{report['name']}: jib, clamped at the tower", "mode", "root", "frequency [Hz]")
-    for i, (root, frequency) in enumerate(zip(jib["roots"], jib["frequencies_hz"], strict=True)):
-        table.add_row(str(i + 1), f"{root:.6f}", f"{frequency:.6f}")
+    roots, title = jib.get("roots", []), f"{report['name']}: jib, clamped at the tower"
+    table = _table(title, "mode", *["root"][: len(roots)], "frequency [Hz]")
+    for i, frequency in enumerate(jib["frequencies_hz"]):
+        table.add_row(str(i + 1), *[f"{root:.6f}" for root in roots[i : i + 1]], f"{frequency:.6f}")
     console.print(table)
 
     model = report["crane_model"]

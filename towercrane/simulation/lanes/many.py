@@ -147,6 +147,8 @@ def integrate_many(
         raise ValueError("runs: wanted the same numbers and shapes of modes in all, got different ones")
     if system.switch is not None:
         raise ValueError("runs: wanted equations that do not switch, got some that do")
+    if system.crossings is not None and any(system.crossings.crosses(run.phases) for run in runs):
+        raise ValueError("runs: wanted trolleys that pass no joint of their jib, got some that do")
     names = scalars(model) if outputs is None else tuple(outputs)
     if unknown := set(names) - set(scalars(model)):
         raise ValueError(f"outputs: wanted some of {', '.join(scalars(model))}, got {min(unknown)!r}")

@@ -10,7 +10,7 @@ import numpy as np
 from towercrane.motions.motion import SAME_INSTANT
 from towercrane.simulation.methods.method import Method
 from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, STALLED
-from towercrane.simulation.trajectory import EVALUATIONS, Run, phase_of
+from towercrane.simulation.trajectory import EVALUATIONS, Run, leapt, phase_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -141,6 +141,8 @@ class RungeKutta(Method):
         step, growth, turn = 0.0, FREELY, self.longest_turn(run.rtol)
         owner = phase_of(sample_times, phases)
         for phase, inputs in enumerate(phases.inputs):
+            if phase:
+                run.state[:] = leapt(run, phases, phase)
             begin, t_end = float(phases.times[phase]), float(phases.times[phase + 1] - phases.times[phase])
             # Where a guard ends the run, nothing goes on from its state.
             retakes = 0.0 if system.switch is None else MOST_RETAKES

@@ -12,7 +12,7 @@ from towercrane.simulation.directions import restore_rows
 from towercrane.simulation.guards import first_fall
 from towercrane.simulation.methods.step_size import SHORTEST
 from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE
-from towercrane.simulation.trajectory import ACCEPTED, EVALUATIONS, REJECTED, WRITTEN, phase_of
+from towercrane.simulation.trajectory import ACCEPTED, EVALUATIONS, REJECTED, WRITTEN, leapt, phase_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -70,6 +70,8 @@ def solve(
     owner = phase_of(sample_times, phases)
     try:
         for current in range(len(phases.inputs) if split else 1):
+            if current:
+                run.state = leapt(run, phases, current)
             run.time = float(phases.times[current])
             stop = float(phases.times[current + 1] if split else phases.times[-1])
             wanted = sample_times[owner == current] if split else sample_times

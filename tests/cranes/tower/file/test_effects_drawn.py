@@ -16,7 +16,8 @@ from towercrane.accuracy.promise import stated
 from towercrane.accuracy.scene import scene_of, setting_of
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.effects import effects_in, effects_report, kept_tower
-from towercrane.cranes.tower.file.members import as_chain, joined
+from towercrane.cranes.tower.file.members import joined
+from towercrane.cranes.tower.modes.parameters import as_chain
 from towercrane.studies.natural import natural_frequencies
 
 BLOCK = (

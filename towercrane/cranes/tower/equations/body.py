@@ -68,6 +68,10 @@ def body_of(straight: Straight, head: Head, felt: Vector, left: Sums, up: Sums) 
     mx = mx + 2.0 * (eyy + ezz) * wx
     my = my + 2.0 * ((eyy + ezz) * wy - byd * wx - eyy * wy - eyz * wz)
     mz = mz + 2.0 * ((eyy + ezz) * wz - bzd * wx - ezy * wy - ezz * wz)
+    # Sections that turn by themselves: w x h, their moment of momentum h = (0, -h_up, h_left).
+    mx = mx + (wy * left.turned_rate + wz * up.turned_rate)
+    my = my - wx * left.turned_rate
+    mz = mz - wx * up.turned_rate
     return Body(mass, (sx, sy, sz), (ixx, ixy, ixz, iyy, iyz, izz), (fx, fy, fz), (-mx, -my, -mz))
 
 

@@ -35,7 +35,10 @@ SLIDE_X, SLIDE_Y, TILT_X, TILT_Y, TURN = range(5)
 Drives = Row
 """Value, rate and acceleration of each of these motions."""
 
-KINDS = "tower_x", "tower_y", "torsion", "slewing", "jib_lateral", "jib_vertical", "luffing"
+KINDS = (
+    "tower_x", "tower_y", "torsion", "slewing",
+    "jib_lateral", "counter_jib_lateral", "jib_vertical", "counter_jib_vertical", "luffing",
+)  # fmt: skip
 """Kinds of coordinates in the order of the state."""
 
 
@@ -47,7 +50,9 @@ class Constants:
     ----------
     axes : {2, 3}
         Of space for the load, the vertical last; with 2 the coordinates must leave the crane in its plane.
-    counts : tuple of 7 int
+    channels : int
+        Number of the motions that drive it.
+    counts : tuple of 9 int
         Coordinates of each kind.
     slewing : {"fixed", "prescribed", "driven"}
     wind : bool
@@ -66,19 +71,24 @@ class Constants:
         Of the angle from the fixed x axis to the first axis of the coordinates, not zero in a plane alone.
     motions : ndarray, shape (5, n)
         What a coordinate moves the head: SLIDE_X to TURN.
-    jib_mass, jib_moment : ndarray, shape (n,)
-        int m phi and int m x phi of the jib's modes, zero elsewhere.
+    jib_mass, jib_moment, jib_turning : ndarray, shape (n,)
+        int m phi, int m x phi and int rho I theta of the modes of jib and counter-jib, zero elsewhere.
     damping, exposure, cap : ndarray, shape (n,)
         Viscous damping; int c phi with the drag c per squared speed; mass added where a frequency is capped.
     own_mass, stiffness : ndarray, shape (n, n)
         Mass of the tower alone, of the drive, and int m phi_i phi_j of all jib modes, lateral with vertical too.
+    rotary_mass : ndarray, shape (n, n)
+        int rho I theta_i theta_j of the jib modes of either direction.
+    sections : ndarray, shape (s + 1,)
+        Ends of the pieces of the jib in which its shapes are smooth [m].
     shapes : ndarray, shape (cells, jib modes, terms)
-        Shapes of the jib's modes as polynomials about the middle of equal cells.
+        Shapes of the jib's modes as polynomials about the middle of cells, as many equal ones in every section.
     luffing : Luffing or None
         Of a jib that pivots.
     """
 
     axes: int
+    channels: int
     counts: tuple[int, ...]
     slewing: str
     wind: bool
@@ -101,11 +111,14 @@ class Constants:
     motions: Floats
     jib_mass: Floats
     jib_moment: Floats
+    jib_turning: Floats
     damping: Floats
     exposure: Floats
     cap: Floats
     own_mass: Floats
     stiffness: Floats
+    rotary_mass: Floats
+    sections: Floats
     shapes: Table
     luffing: Luffing | None
 
@@ -122,17 +135,29 @@ class Constants:
 
     @property
     def lateral(self) -> range:
-        """Jib modes to the left."""
-        return self.part("jib_lateral")
+        """Modes of jib and counter-jib to the left."""
+        return range(self.part("jib_lateral").start, self.part("counter_jib_lateral").stop)
 
     @property
     def vertical(self) -> range:
-        """Jib modes up."""
-        return self.part("jib_vertical")
+        """Modes of jib and counter-jib up."""
+        return range(self.part("jib_vertical").start, self.part("counter_jib_vertical").stop)
+
+    @property
+    def jointed(self) -> bool:
+        """Whether the jib has more than one section."""
+        return len(self.sections) > 2
+
+    def row_of(self, mode: int) -> int | None:
+        """Row of a mode's shape in the table; the counter-jib's have none."""
+        lateral, vertical = self.part("jib_lateral"), self.part("jib_vertical")
+        if mode in lateral:
+            return mode - lateral.start
+        return len(lateral) + mode - vertical.start if mode in vertical else None
 
     @property
     def movers(self) -> int:
-        """Number of coordinates that move the head; the jib's modes follow them."""
+        """Number of coordinates that move the head; the modes of jib and counter-jib follow them."""
         return self.lateral.start
 
     @property
@@ -168,6 +193,7 @@ def constants_of(model: Coordinates) -> Constants:
     crane, drive, slewing, exposure = model.crane, model.drive, model.crane.slewing, model.crane.exposure
     return Constants(
         axes=model.axes,
+        channels=len(model.channels),
         counts=tuple(model.counts.get(kind, 0) for kind in KINDS),
         slewing="driven" if drive is not None else str(model.slewing),
         wind=model.wind,
@@ -188,9 +214,11 @@ def constants_of(model: Coordinates) -> Constants:
         plane_cosine=np.cos(model.heading),
         plane_sine=np.sin(model.heading),
         cap=model.added_mass,
-        shapes=shape_table((crane.lateral, crane.vertical), crane.jib_length),
+        sections=np.array([0.0, *crane.joints, crane.jib_length]),
+        shapes=shape_table((crane.lateral, crane.vertical), (0.0, *crane.joints, crane.jib_length)),
         **_of_coordinates(model),
         own_mass=own_mass(model),
+        rotary_mass=rotary_mass(model),
         stiffness=stiffness(model),
         luffing=None,
     )
@@ -199,7 +227,8 @@ def constants_of(model: Coordinates) -> Constants:
 def _of_coordinates(model: Coordinates) -> dict[str, Floats]:
     """What each coordinate moves, carries, loses and shows the wind."""
     crane, parts, n = model.crane, model.parts, model.coordinates
-    motions, exposure, jib_mass, jib_moment = np.zeros((TURN + 1, n)), np.zeros(n), np.zeros(n), np.zeros(n)
+    motions, exposure = np.zeros((TURN + 1, n)), np.zeros(n)
+    jib_mass, jib_moment, jib_turning = np.zeros((3, n))
     # One mode list per plane of the tower: both see the same tip, slope and wind.
     swept = crane.tower_drag * crane.tower.deflection_integrals()
     for plane, slide, tilt, sense in (("tower_x", SLIDE_X, TILT_Y, 1.0), ("tower_y", SLIDE_Y, TILT_X, -1.0)):
@@ -209,17 +238,20 @@ def _of_coordinates(model: Coordinates) -> dict[str, Floats]:
             exposure[parts[plane]] = swept
     motions[TURN, parts["torsion"]] = crane.torsion(crane.tower_height)
     motions[TURN, parts["slewing"]] = 1.0
-    jib = slice(parts["jib_lateral"].start, parts["jib_vertical"].stop)
-    jib_mass[jib], jib_moment[jib] = crane.slewing.first, crane.slewing.second
+    jib = slice(parts["jib_lateral"].start, parts["counter_jib_vertical"].stop)
+    slewing = crane.slewing
+    jib_mass[jib], jib_moment[jib], jib_turning[jib] = slewing.first, slewing.second, slewing.turned
     if crane.exposure is not None:
         exposure[jib] = crane.exposure.first
     d = model.damping
-    lost = dict(zip(KINDS, (d.tower, d.tower, d.torsion, 0.0, d.lateral, d.vertical, 0.0), strict=True))
+    kinds = d.tower, d.tower, d.torsion, 0.0, d.lateral, d.counter_lateral, d.vertical, d.counter_vertical, 0.0
+    lost = dict(zip(KINDS, kinds, strict=True))
     ratios = np.concatenate([np.full(count, lost[kind]) for kind, count in model.counts.items()])
     # Of a mode that a cap slows, of its slowed frequency and greater mass: the ratio is as stated.
     damping = 2.0 * ratios * model.angular_frequencies * np.sqrt(1.0 + model.added_mass)
     return {
-        "motions": motions, "exposure": exposure, "jib_mass": jib_mass, "jib_moment": jib_moment, "damping": damping,
+        "motions": motions, "exposure": exposure, "damping": damping,
+        "jib_mass": jib_mass, "jib_moment": jib_moment, "jib_turning": jib_turning,
     }  # fmt: skip
 
 
@@ -232,9 +264,17 @@ def own_mass(model: Coordinates) -> Floats:
             own[parts[plane], parts[plane]] = crane.tower_matrices[0]
     own[parts["torsion"], parts["torsion"]] = crane.torsion.mass_matrix()
     own[parts["slewing"], parts["slewing"]] = model.drive_inertia
-    jib = slice(parts["jib_lateral"].start, parts["jib_vertical"].stop)
+    jib = slice(parts["jib_lateral"].start, parts["counter_jib_vertical"].stop)
     own[jib, jib] = crane.slewing.products
     return own
+
+
+def rotary_mass(model: Coordinates) -> Floats:
+    """What the own rotary inertia of jib and counter-jib adds to that; shape (n, n)."""
+    found = np.zeros((model.coordinates, model.coordinates))
+    jib = slice(model.parts["jib_lateral"].start, model.parts["counter_jib_vertical"].stop)
+    found[jib, jib] = model.crane.slewing.turned_products
+    return found
 
 
 def stiffness(model: Coordinates) -> Floats:
@@ -253,9 +293,13 @@ def scale(model: Coordinates) -> Floats:
     # The tip alone would not do: higher tower modes move it little and the mast below it a lot.
     crane = model.crane
     height, reach = (np.linspace(0.0, length, 201) for length in (crane.tower_height, crane.jib_length))
-    bends, sides, rises = crane.tower(height), crane.lateral(reach), crane.vertical(reach)
-    shapes = [bends, bends[: model.counts["tower_y"]], crane.torsion(height)]
-    shapes += [np.ones((model.counts["slewing"], 1)), sides, rises, np.ones((model.counts.get("luffing", 0), 1))]
-    largest = np.concatenate([abs(shape).max(axis=1) for shape in shapes])
-    sizes = np.concatenate([1.0 / largest, np.ones(model.axes)])
+    bends = crane.tower(height)
+    largest = [abs(bends).max(axis=1), abs(bends[: model.counts["tower_y"]]).max(axis=1)]
+    largest += [abs(crane.torsion(height)).max(axis=1), np.ones(model.counts["slewing"])]
+    for jib, counter in ((crane.lateral, crane.counter_lateral), (crane.vertical, crane.counter_vertical)):
+        largest.append(abs(jib(reach)).max(axis=1))
+        if counter is not None:
+            largest.append(abs(counter(np.linspace(0.0, counter.length, 201))).max(axis=1))
+    largest.append(np.ones(model.counts.get("luffing", 0)))
+    sizes = np.concatenate([1.0 / np.concatenate(largest), np.ones(model.axes)])
     return np.concatenate([sizes, sizes, [model.load.work_scale(crane.gravity, crane.jib_length)]])

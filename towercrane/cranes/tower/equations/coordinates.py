@@ -86,7 +86,7 @@ class Coordinates:
         if not isinstance(self.cap, int | float) or not self.cap > 0.0:
             raise ValueError(f"FlexibleModel.cap: wanted a positive frequency [Hz], got {self.cap!r}")
         crane = self.crane
-        leaves = crane.planes > 1 or crane.torsion.count or crane.lateral.count or self.slewing != "fixed"
+        leaves = crane.planes > 1 or crane.torsion.count or any(crane.groups[:2]) or self.slewing != "fixed"
         if self.axes == 2 and leaves:
             raise ValueError("FlexibleModel.axes: wanted 3 for a crane that moves out of its plane, got 2")
         if self.axes == 3 and self.heading != 0.0:
@@ -128,13 +128,16 @@ class Coordinates:
     def counts(self) -> dict[str, int]:
         """Number of coordinates of each kind, in the order of the state."""
         crane = self.crane
+        lateral, counter_lateral, vertical, counter_vertical = crane.groups
         modes = {
             "tower_x": crane.tower.count,
             "tower_y": crane.tower.count if crane.planes > 1 else 0,
             "torsion": crane.torsion.count,
             "slewing": int(self.drive is not None),
-            "jib_lateral": crane.lateral.count,
-            "jib_vertical": crane.vertical.count,
+            "jib_lateral": lateral,
+            "counter_jib_lateral": counter_lateral,
+            "jib_vertical": vertical,
+            "counter_jib_vertical": counter_vertical,
         }
         return modes if crane.luffing is None else {**modes, "luffing": 1}
 
@@ -170,13 +173,13 @@ class Coordinates:
         """Of each coordinate's mode by itself [rad/s], zero for an angle; shape (coordinates,)."""
         crane, counts = self.crane, self.counts
         tower = np.asarray(crane.tower.angular_frequencies)
+        bases = crane.lateral, crane.counter_lateral, crane.vertical, crane.counter_vertical
         return np.concatenate([
             tower,
             tower[: counts["tower_y"]],
             crane.torsion.angular_frequencies,
             np.zeros(counts["slewing"]),
-            crane.lateral.angular_frequencies,
-            crane.vertical.angular_frequencies,
+            *(basis.angular_frequencies for basis in bases if basis is not None),
             np.zeros(counts.get("luffing", 0)),
         ])  # fmt: skip
 

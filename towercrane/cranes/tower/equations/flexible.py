@@ -20,6 +20,7 @@ from towercrane.cranes.tower.equations.constants import (
     stiffness,
 )
 from towercrane.cranes.tower.equations.coordinates import Coordinates
+from towercrane.cranes.tower.equations.joints import Joints
 from towercrane.cranes.tower.equations.structure import load_force, static_force, structure
 from towercrane.cranes.tower.equations.wind import wind_velocity
 from towercrane.kernels.payload import SLACK, Load, State, Structure
@@ -52,7 +53,8 @@ class Equations(Coordinates):
     def system(self) -> System:
         """The model as the solver sees it."""
         n, drive = self.coordinates, self.drive
-        floors = np.full(motion.GUARDS, -np.inf)
+        section = ("section", "section", "section") if self.constants.jointed else ()
+        floors = np.full(motion.GUARDS + len(section), -np.inf)
         floors[motion.TENSION] = -np.inf if self.rope_as_rod else SLACK
         floors[[motion.INNER_END, motion.OUTER_END]] = -ROUNDING
         floors[motion.TILT] = 0.0
@@ -60,13 +62,14 @@ class Equations(Coordinates):
         return System(
             equations=motion.motion,
             size=self.size,
-            guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded),
+            guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded, *section),
             floors=floors,
             scale=scale(self),
             constants=self.constants,
             directions=np.array([[n, 2 * n + self.axes, self.axes]]),
             switch=Corner(motion.INSIDE, motion.OUTSIDE) if drive and drive.soft != drive.stiff else None,
             fastest=lambda: self.fastest,
+            crossings=Joints(self.constants) if self.constants.jointed else None,
         )
 
     @cached_property
@@ -100,7 +103,10 @@ class Equations(Coordinates):
             constants, fastest = replace(constants, stiffness=stiffness(other)), lambda: other.fastest
         # Cached properties that are filled beforehand.
         vars(other)["constants"] = constants
-        vars(other)["system"] = replace(self.system, constants=constants, scale=steered, fastest=fastest)
+        crossings = None if self.system.crossings is None else Joints(constants)
+        vars(other)["system"] = replace(
+            self.system, constants=constants, scale=steered, fastest=fastest, crossings=crossings
+        )
         return other
 
     def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:

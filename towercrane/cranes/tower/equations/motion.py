@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
+from towercrane.cranes.tower.equations.jib import Section
 from towercrane.cranes.tower.equations.structure import slewing_torque, structure
 from towercrane.kernels.algebra import dot
 from towercrane.kernels.payload import Rope, hang_load, slopes, state_of
@@ -16,14 +17,19 @@ if TYPE_CHECKING:
 TENSION, INNER_END, OUTER_END, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, TROLLEY_FORCE, GUARDS = range(9)
 """Guards, and how many: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad], way to the
 corner of the drive's coupling from inside and from outside [rad]. Outputs beside them: torque of the slewing drive
-[N m] and force of the trolley's [N]."""
+[N m] and force of the trolley's [N]; of a jib with joints the trolley's section follows."""
 
 
 def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
-    """Slopes of the state (q, n, q', p, work), and guards."""
+    """Slopes of the state (q, n, q', p, work), and guards.
+
+    One row of inputs more than there are channels says on which section of the jib the trolley is, as in
+    :mod:`towercrane.cranes.tower.equations.joints`.
+    """
     state, axes = state_of(y, crane.coordinates, crane.axes), range(crane.axes)
-    drives = [polynomial(channel, t) for channel in inputs]
-    found, rope = structure(crane, state, drives), Rope(*drives[ROPE])
+    drives = [polynomial(channel, t) for channel in inputs[: crane.channels]]
+    section = Section(*inputs[crane.channels][:3]) if len(inputs) > crane.channels else None
+    found, rope = structure(crane, state, drives, section), Rope(*drives[ROPE])
     hung = hang_load(found.hanging, state, rope, crane.load, crane.gravity)
     power, torque, beyond = found.power, 0.0, 0.0
     if found.drive is not None:
@@ -41,4 +47,4 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     force = dot([found.path[k] for k in crane.fixed_axes], held)
     slope = slopes(state, hung, hung.power + (power + force * found.trolley.rate))
     margins = [hung.tension, found.trolley.x, crane.jib_length - found.trolley.x, crane.tilt_limit - found.tilt]
-    return slope, [*margins, -beyond, beyond, torque, force]
+    return slope, [*margins, -beyond, beyond, torque, force, *(found.trolley.section if crane.jointed else ())]

@@ -90,12 +90,13 @@ def project_bending(
     For each mode N q with the other direction and the shape at the trolley are given.
 
     A mode along e2 turns about b e3 - c e1, one along e3 about c e1 - b e2, with b and c its first moments along the
-    jib and with the deflection across it.
+    jib, the sections' own turning included, and with the deflection across it.
     """
     along, other, found = [row[axis] for row in head.rows], place[3 - axis], []
     for i, shape, across in zip(modes, shapes, crossed, strict=True):
         carried = crane.trolley_mass * shape
-        mass, b, c = crane.jib_mass[i] + carried, crane.jib_moment[i] + carried * place[0], across + carried * other
+        mass, c = crane.jib_mass[i] + carried, across + carried * other
+        b = crane.jib_moment[i] + crane.jib_turning[i] + carried * place[0]
         turns = head.turn_x, head.turn_y
         if axis == 1:
             rolled, pitched, twisted = *(b * turn[2] - c * turn[0] for turn in turns), b
@@ -118,7 +119,8 @@ def mass_matrix(crane: Constants, projected: list[Projected], shapes: list[Any])
         ]  # fmt: skip
         for m in range(movers, i + 1):
             if i in lateral or m not in lateral:
-                row.append(crane.own_mass[i][m] + crane.trolley_mass * shapes[i - movers] * shapes[m - movers])
+                own_mass = crane.own_mass[i][m] + crane.rotary_mass[i][m]
+                row.append(own_mass + crane.trolley_mass * shapes[i - movers] * shapes[m - movers])
             else:
                 row.append(0.0)
         row[i] = row[i] + crane.cap[i]

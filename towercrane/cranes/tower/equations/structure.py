@@ -30,7 +30,7 @@ from towercrane.kernels.payload import State, Structure
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.constants import Constants, Drives
-    from towercrane.cranes.tower.equations.jib import Trolley
+    from towercrane.cranes.tower.equations.jib import Section, Trolley
 
 
 class CraneStructure(NamedTuple):
@@ -63,9 +63,9 @@ class CraneStructure(NamedTuple):
     drive: Driven | None
 
 
-def structure(crane: Constants, state: State, drives: Drives) -> CraneStructure:
-    """The crane in a state, driven so."""
-    (head, tilt), trolley = head_of(crane, state, drives), trolley_of(crane, drives)
+def structure(crane: Constants, state: State, drives: Drives, section: Section | None = None) -> CraneStructure:
+    """The crane in a state, driven so, its trolley on a section of the jib, see `trolley_of`."""
+    (head, tilt), trolley = head_of(crane, state, drives), trolley_of(crane, drives, section)
     left, up = bend(crane, head, state)
     across, rise = (path_of(crane, modes, trolley, state) for modes in (crane.lateral, crane.vertical))
     end = carried(head, trolley, across, rise)
@@ -142,6 +142,6 @@ def slewing_torque(crane: Constants, found: CraneStructure, accelerations: list[
         torque = torque + dot(row, crane.motions[:, i]) * accelerations[i]
     hung = crane.trolley_mass * found.trolley.x
     for i in crane.lateral:
-        moment = crane.jib_moment[i] + hung * found.shapes[i - crane.movers]
+        moment = crane.jib_moment[i] + crane.jib_turning[i] + hung * found.shapes[i - crane.movers]
         torque = torque + moment * accelerations[i]
     return torque - dot(column, pull)

@@ -41,14 +41,16 @@ def press_wind(crane: Constants, state: State, head: Head, drives: Drives) -> Bl
     speed = np.sqrt(dot(wind, wind))
     normal = dot(wind, head.rotation[1::3])
     press = abs(normal) * normal
-    pressures: dict[str, Any] = {"tower_x": speed * wind[0], "tower_y": speed * wind[1], "jib_lateral": press}
+    pressed = (
+        (crane.part("tower_x"), speed * wind[0]), (crane.part("tower_y"), speed * wind[1]), (crane.lateral, press),
+    )  # fmt: skip
     forces: list[Any] = [0.0] * crane.coordinates
     power, rolling = 0.0, 0.0
-    for kind, pressure in pressures.items():
-        for i in crane.part(kind):
+    for modes, pressure in pressed:
+        for i in modes:
             forces[i] = pressure * crane.exposure[i]
             power = power + forces[i] * state.rates[i]
-    for i in crane.part("jib_vertical"):
+    for i in crane.vertical:
         rolling = rolling - crane.exposure[i] * state.coordinates[i] * press
     side, turning = crane.head_area * press, crane.head_area_moment * press
     power = power + (side * head.top[1] + rolling * head.spin[0] + turning * head.spin[2])

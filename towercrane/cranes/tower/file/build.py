@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from modal import Beam, CraneFrame, EndBody
 from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.tower.file.effects import kept_tower, softened
-from towercrane.cranes.tower.file.members import as_chain, counter_jib_of, crane_on, with_end_body
+from towercrane.cranes.tower.file.members import counter_jib_of, crane_on, with_end_body
 from towercrane.cranes.tower.file.plane import heading_of
+from towercrane.cranes.tower.modes.parameters import as_chain
 
 if TYPE_CHECKING:
     from modal import Chain

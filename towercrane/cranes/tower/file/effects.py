@@ -13,7 +13,8 @@ from modal import Beam, Chain, chain_frequencies, chain_structure
 from modal.structures.influence import EFFECTS, Effect, Influence, effects_of, influence, keeping
 from modal.structures.members import Unstable
 from modal.structures.structure_modes import structure_modes
-from towercrane.cranes.tower.file.members import as_chain, crane_on, laced_column, tower_of, with_end_body
+from towercrane.cranes.tower.file.members import crane_on, laced_column, tower_of, with_end_body
+from towercrane.cranes.tower.modes.parameters import as_chain
 
 if TYPE_CHECKING:
     from collections.abc import Collection

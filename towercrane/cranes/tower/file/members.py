@@ -130,13 +130,6 @@ def tower_pieces(tower: Tower) -> tuple[TowerSegment, ...]:
     return (TowerSegment.model_construct(length=tower.height, **whole),)
 
 
-def as_chain(beam: Beam | Chain) -> Chain:
-    """A uniform beam as a chain of one segment; a chain as it is."""
-    if isinstance(beam, Chain):
-        return beam
-    return Chain((Segment(beam.length, beam.mass_per_length, beam.bending_stiffness),))
-
-
 def with_end_body(tower: Chain, body: EndBody) -> Chain:
     """The tower with one body more on its end."""
     top = len(tower.segments)

@@ -13,8 +13,8 @@ class ModalDamping:
 
     Parameters
     ----------
-    tower, torsion, lateral, vertical : float
-        Zero or more.
+    tower, torsion, lateral, vertical, counter_lateral, counter_vertical : float
+        Zero or more; of the jib to its sides and up and down, then of the counter-jib.
 
     Raises
     ------
@@ -26,6 +26,8 @@ class ModalDamping:
     torsion: float = 0.0
     lateral: float = 0.0
     vertical: float = 0.0
+    counter_lateral: float = 0.0
+    counter_vertical: float = 0.0
 
     def __post_init__(self) -> None:
         check_fields(self, not_negative=self.__slots__)

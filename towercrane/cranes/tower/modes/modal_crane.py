@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from modal.beams.shapes import cantilever_modes
 from modal.beams.torsion import torsion_modes
 from modal.checks import whole_number
 from towercrane.cranes.parts import wind
-from towercrane.cranes.tower.modes.mass_sums import Basis, MassSums, rigid_sums, uniform_sums
+from towercrane.cranes.tower.modes.jib_shapes import shapes_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from modal.structures.chain_modes import ChainModes
     from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
+    from towercrane.cranes.tower.modes.mass_sums import Basis, MassSums
     from towercrane.cranes.tower.modes.parameters import TowerCrane
 
     Floats = NDArray[np.float64]
@@ -59,6 +60,8 @@ class ModeCounts:
         Of the tower.
     lateral, vertical : int
         Of the jib.
+    counter_lateral, counter_vertical : int
+        Of the counter-jib.
 
     Raises
     ------
@@ -70,6 +73,8 @@ class ModeCounts:
     torsion: int = 1
     lateral: int = 1
     vertical: int = 1
+    counter_lateral: int = 0
+    counter_vertical: int = 0
 
     def __post_init__(self) -> None:
         for name in self.__slots__:
@@ -78,7 +83,10 @@ class ModeCounts:
 
 @dataclass(frozen=True, eq=False)
 class FlexibleCrane:
-    """Tower on the ground, head that slews and tilts with its top, jib with trolley, rigid counter-jib.
+    """Tower on the ground, head that slews and tilts with its top, jib with trolley, counter-jib.
+
+    Sums over what turns know four groups of shapes, in this order: of the jib to the left, of the counter-jib to the
+    left, of the jib up, of the counter-jib up.
 
     Parameters
     ----------
@@ -91,7 +99,7 @@ class FlexibleCrane:
     lateral, vertical : Basis
         Bending of the jib to the left and up.
     jib, counter : MassSums
-        The jib; counter-jib, counterweight and whatever else is rigid on the head.
+        The jib; counter-jib, counterweight and whatever else is on the head.
     tower_mass : float
         Of the tower and its own bodies [kg].
     trolley_mass : float
@@ -106,6 +114,10 @@ class FlexibleCrane:
         [m/s^2]
     luffing : LuffingJib, optional
         Of a jib that pivots: its shapes are then seen from the chord from foot to head, its sums about the foot.
+    counter_lateral, counter_vertical : ChainModes, optional
+        Bending of the counter-jib, from its root outward, to the left and up.
+    joints : tuple of float
+        Places on the jib, between its ends and ascending, at which its slope or curvature may step [m].
     written : TowerCrane, optional
         The parameters that it is made of; without, it was put together by hand.
 
@@ -132,6 +144,9 @@ class FlexibleCrane:
     tower_drag: float = 0.0
     gravity: float = 9.81
     luffing: LuffingJib | None = None
+    counter_lateral: ChainModes | None = None
+    counter_vertical: ChainModes | None = None
+    joints: tuple[float, ...] = ()
     written: TowerCrane | None = None
 
     def __post_init__(self) -> None:
@@ -164,12 +179,27 @@ class FlexibleCrane:
         """What unit force on the tower's top, and its own weight under unit gravity, take from the stiffness."""
         return self.tower.slope_matrix(), self.tower.weight_matrix()
 
+    @cached_property
+    def groups(self) -> tuple[int, int, int, int]:
+        """How many shapes each group has."""
+        bases = self.lateral, self.counter_lateral, self.vertical, self.counter_vertical
+        lateral, counter_lateral, vertical, counter_vertical = (0 if own is None else own.count for own in bases)
+        return lateral, counter_lateral, vertical, counter_vertical
+
+    @property
+    def carrying(self) -> NDArray[np.int64]:
+        """Which of the shapes are the jib's, that the trolley runs on."""
+        lateral, aside, vertical, _ = self.groups
+        return np.concatenate([np.arange(lateral), lateral + aside + np.arange(vertical)])
+
     def jib_shapes(self, position: ArrayLike, derivative: int = 0) -> Floats:
-        """Shapes of the jib to the left, then up, or their derivatives; shape (jib modes, *shape of position)."""
+        """Shapes on the jib, or their derivatives; shape (shapes, *shape of position). Those of the counter-jib are
+        zero there."""
+        found = np.zeros((sum(self.groups), *np.shape(position)))
         bases = [basis for basis in (self.lateral, self.vertical) if basis.count]
-        if not bases:
-            return np.empty((0, *np.shape(position)))
-        return np.concatenate([basis(position, derivative) for basis in bases])
+        if bases:
+            found[self.carrying] = np.concatenate([basis(position, derivative) for basis in bases])
+        return found
 
     @cached_property
     def tip_shapes(self) -> Floats:
@@ -200,43 +230,29 @@ def flexible_crane(
     ValueError
         If there are modes of a member that the crane does not describe.
     """
-    for member, count, wanted in (("shaft", modes.torsion, "torsion"), ("jib_lateral", modes.lateral, "lateral")):
+    described = {
+        "shaft": (modes.torsion, "torsion"), "jib_lateral": (modes.lateral, "lateral"),
+        "counter_jib_lateral": (modes.counter_lateral, "lateral"),
+        "counter_jib": (modes.counter_vertical, "vertical"),
+    }  # fmt: skip
+    for member, (count, wanted) in described.items():
         if count and getattr(crane, member) is None:
             raise ValueError(f"TowerCrane.{member}: wanted for {count} {wanted} modes, got None")
-    lateral = cantilever_modes(crane.jib_lateral or crane.jib, modes.lateral)
-    vertical = cantilever_modes(crane.jib, modes.vertical)
-    # The shapes do not depend on the bending stiffness: the longer list serves both directions.
-    both = max(lateral, vertical, key=lambda m: m.count)
-    jib = uniform_sums(crane.jib.length, crane.jib.mass_per_length, both, modes.lateral, modes.vertical)
-    counter = rigid_sums(
-        crane.counter_mass,
-        crane.counter_moment,
-        crane.counter_inertia,
-        modes.lateral + modes.vertical,
-        roll=crane.roll_inertia,
-    )
+    shapes = shapes_of(crane, modes)
     tower = crane.tower_modes(modes.tower)
     jib_exposure, counter_exposure = None, None
     if areas is not None:
-        length, per_length = crane.counter_jib_length, wind.drag(areas.counter_jib)
-        tip = wind.drag(areas.counterweight)
-        jib_exposure = jib.scaled(wind.drag(areas.jib) / crane.jib.mass_per_length)
-        counter_exposure = rigid_sums(
-            per_length * length + tip,
-            -(per_length * length / 2 + tip) * length,
-            (per_length * length / 3 + tip) * length**2,
-            modes.lateral + modes.vertical,
-        )
+        jib_exposure, counter_exposure = shapes.exposures(areas)
     return FlexibleCrane(
         name=crane.name,
         tower_height=crane.tower.length,
         jib_length=crane.jib.length,
         tower=tower,
         torsion=torsion_of(crane, modes.torsion),
-        lateral=lateral,
-        vertical=vertical,
-        jib=jib,
-        counter=counter,
+        lateral=shapes.lateral,
+        vertical=shapes.vertical,
+        jib=shapes.jib,
+        counter=shapes.counter,
         tower_mass=crane.tower_mass,
         trolley_mass=crane.trolley_mass,
         planes=planes,
@@ -244,6 +260,9 @@ def flexible_crane(
         counter_exposure=counter_exposure,
         tower_drag=wind.drag(areas.tower) if areas is not None else 0.0,
         gravity=crane.gravity,
+        counter_lateral=shapes.counter_lateral,
+        counter_vertical=shapes.counter_vertical,
+        joints=crane.joints,
         written=crane,
     )
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class TowerCrane:
-    """Parameters of a tower crane with a flexible tower and jib and a rigid counter-jib.
+    """Parameters of a tower crane with a flexible tower and jib.
 
     Parameters
     ----------
@@ -26,8 +26,8 @@ class TowerCrane:
     tower : Beam or Chain
         The tower below the slewing part: a uniform clamped Euler beam, or a chain of segments on its foundation with
         bodies of its own. Its length is the tower's height.
-    jib : Beam
-        Its length is the jib's radius.
+    jib : Beam or Chain
+        In bending up and down; its length is the jib's radius.
     counter_jib_length : float
         Distance of the counterweight from the tower axis [m].
     counter_jib_mass_per_length : float
@@ -38,8 +38,11 @@ class TowerCrane:
         Mass of the trolley [kg].
     gravity : float
         Acceleration of gravity [m/s^2].
-    jib_lateral : Beam, optional
+    jib_lateral : Beam or Chain, optional
         The jib in bending to its sides; needed for such modes alone.
+    counter_jib, counter_jib_lateral : Chain, optional
+        The counter-jib with its bodies in bending up and down and to its sides, from the tower's axis outward.
+        Without them it is rigid. With them its mass and the counterweight are theirs: the numbers above are zero.
     shaft : Shaft, optional
         The tower in torsion; needed for such modes alone.
     roll_inertia : float
@@ -51,55 +54,87 @@ class TowerCrane:
     Raises
     ------
     ValueError
-        If a number is negative or not finite, or jib and lateral jib, or tower and shaft, differ in what they share.
+        If a number is negative or not finite, the counter-jib has its mass twice, or a member in one direction and in
+        the other, or tower and shaft, differ in what they share.
     """
 
     name: str
     tower: Beam | Chain
-    jib: Beam
+    jib: Beam | Chain
     counter_jib_length: float
     counter_jib_mass_per_length: float
     counterweight: float
     trolley_mass: float
     gravity: float = 9.81
-    jib_lateral: Beam | None = None
+    jib_lateral: Beam | Chain | None = None
     shaft: Shaft | None = None
     roll_inertia: float = 0.0
     luffing: LuffingJib | None = None
+    counter_jib: Chain | None = None
+    counter_jib_lateral: Chain | None = None
 
     def __post_init__(self) -> None:
         masses = ("counter_jib_mass_per_length", "counterweight", "trolley_mass", "gravity", "roll_inertia")
         check_fields(self, not_negative=("counter_jib_length", *masses))
-        pairs = [("jib_lateral", self.jib_lateral, self.jib, "length"), ("shaft", self.shaft, self.tower, "length")]
-        pairs.append(("jib_lateral", self.jib_lateral, self.jib, "mass_per_length"))
-        for name, other, member, shared in pairs:
-            if other is not None and getattr(other, shared) != getattr(member, shared):
-                wanted, got = getattr(member, shared), getattr(other, shared)
-                raise ValueError(f"TowerCrane.{name}.{shared}: wanted {wanted!r}, as in the plane, got {got!r}")
+        if self.shaft is not None and self.shaft.length != self.tower.length:
+            wanted, got = self.tower.length, self.shaft.length
+            raise ValueError(f"TowerCrane.shaft.length: wanted {wanted!r}, as in the plane, got {got!r}")
+        for name in ("jib", "counter_jib"):
+            upright, sideways = getattr(self, name), getattr(self, f"{name}_lateral")
+            if sideways is not None and (upright is None or _carried(upright) != _carried(sideways)):
+                raise ValueError(
+                    f"TowerCrane.{name}_lateral: wanted lengths and masses as in the plane, got {sideways!r}"
+                )
+        if self.counter_jib is not None and (self.counter_jib_mass_per_length or self.counterweight):
+            raise ValueError("TowerCrane.counter_jib: wanted its mass in its segments and bodies alone, got it twice")
+        if self.counter_jib is not None and self.counter_jib.length != self.counter_jib_length:
+            wanted, got = self.counter_jib.length, self.counter_jib_length
+            raise ValueError(f"TowerCrane.counter_jib_length: wanted {wanted!r}, that of its segments, got {got!r}")
 
     @property
     def counter_mass(self) -> float:
         """Mass of counter-jib and counterweight [kg]."""
+        if self.counter_jib is not None:
+            return self.counter_jib.inertia[0]
         return self.counter_jib_mass_per_length * self.counter_jib_length + self.counterweight
 
     @property
     def counter_inertia(self) -> float:
         """Moment of inertia of counter-jib and counterweight about the tower top [kg m^2]."""
+        if self.counter_jib is not None:
+            return self.counter_jib.inertia[2] + self.counter_jib.inertia[3]
         length = self.counter_jib_length
         return self.counter_jib_mass_per_length * length**3 / 3 + self.counterweight * length**2
 
     @property
     def counter_moment(self) -> float:
         """First moment of counter-jib and counterweight about the tower axis, which is negative [kg m]."""
+        if self.counter_jib is not None:
+            return -self.counter_jib.inertia[1]
         counter = self.counter_jib_mass_per_length * self.counter_jib_length / 2 + self.counterweight
         return -counter * self.counter_jib_length
+
+    @property
+    def jib_inertia(self) -> tuple[float, float, float]:
+        """Mass of the jib [kg], its first moment [kg m] and its moment of inertia about the tower top [kg m^2]."""
+        if isinstance(self.jib, Beam):
+            return self.jib.mass, self.jib.mass * self.jib.length / 2, self.jib.mass * self.jib.length**2 / 3
+        mass, first, second, rotary = self.jib.inertia
+        return mass, first, second + rotary
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Places between the ends of the jib at which its sections change or a body sits [m], ascending."""
+        members = (self.jib, self.jib_lateral)
+        found = {place for member in members if not isinstance(member, Beam | None) for place in member.nodes[1:-1]}
+        return tuple(sorted(found))
 
     @property
     def slewing_mass(self) -> float:
         """Mass m_r of everything that turns, without trolley and load [kg]."""
         if self.luffing is not None:
             return self.luffing.standing_sums(self).mass
-        return self.jib.mass + self.counter_mass
+        return self.jib_inertia[0] + self.counter_mass
 
     @property
     def slewing_inertia(self) -> float:
@@ -109,14 +144,14 @@ class TowerCrane:
         """
         if self.luffing is not None:
             return self.luffing.standing_sums(self).zz
-        return self.jib.mass * self.jib.length**2 / 3 + self.counter_inertia
+        return self.jib_inertia[2] + self.counter_inertia
 
     @property
     def static_moment(self) -> float:
         """First moment S_r of everything that turns about the tower axis, positive towards the jib [kg m]."""
         if self.luffing is not None:
             return self.luffing.standing_sums(self).forward
-        return self.jib.mass * self.jib.length / 2 + self.counter_moment
+        return self.jib_inertia[1] + self.counter_moment
 
     @property
     def tower_mass(self) -> float:
@@ -133,16 +168,37 @@ class TowerCrane:
 
     def tower_modes(self, count: int) -> Modes | ChainModes:
         """Modes of the tower with the slewing part on its end."""
-        if isinstance(self.tower, Beam):
-            from modal.beams.shapes import cantilever_modes
+        return modes_of(self.tower, count, self.end_body)
 
-            return cantilever_modes(self.tower, count, self.end_body)
-        from modal.structures.chain_modes import chain_modes
-
-        return chain_modes(self.tower, count, self.end_body)
-
-    def jib_modes(self, count: int) -> Modes:
+    def jib_modes(self, count: int) -> Modes | ChainModes:
         """Modes of the jib, clamped at the tower top and free at its end."""
+        return modes_of(self.jib, count)
+
+
+def modes_of(member: Beam | Chain, count: int, end_body: EndBody = EndBody()) -> Modes | ChainModes:  # noqa: B008
+    """Modes of a member clamped at its foot, or on its foundation, with a body at its end."""
+    if isinstance(member, Beam):
         from modal.beams.shapes import cantilever_modes
 
-        return cantilever_modes(self.jib, count)
+        return cantilever_modes(member, count, end_body)
+    from modal.structures.chain_modes import chain_modes
+
+    return chain_modes(member, count, end_body)
+
+
+def as_chain(beam: Beam | Chain) -> Chain:
+    """A uniform beam as a chain of one segment; a chain as it is."""
+    if not isinstance(beam, Beam):
+        return beam
+    from modal.beams.chain import Chain
+    from modal.beams.segment import Segment
+
+    return Chain((Segment(beam.length, beam.mass_per_length, beam.bending_stiffness),))
+
+
+def _carried(member: Beam | Chain) -> tuple[object, ...]:
+    """What a member has in common with itself in another direction of bending: lengths and masses."""
+    if isinstance(member, Beam):
+        return member.length, member.mass_per_length
+    segments = tuple((own.length, own.mass_per_length, own.end_ratio, own.mass_power) for own in member.segments)
+    return segments, tuple((node, body.mass, body.offset) for node, body in member.bodies.items())

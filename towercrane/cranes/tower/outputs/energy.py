@@ -67,15 +67,19 @@ def turning_energy(at: Kinematics, head: Head, straight: Straight) -> Any:
     crane, (wx, wy, wz), (vx, vy, vz) = at.seen.crane, head.spin, head.top
     mass, moment, roll, pitch, yaw = straight
     (left, up), (left_rates, up_rates) = at.of_jib(at.state.coordinates), at.of_jib(at.state.rates)
+    jib = slice(crane.movers, crane.vertical.stop)
     energy = roll * wx * wx
     for constant, slope, inertia, bent in (
         (vx, 0.0, 0.0, [*(-wz * q for q in left), *(wy * q for q in up)]),
         (vy, wz, yaw, [*left_rates, *(-wx * q for q in up)]),
         (vz, -wy, pitch, [*(wx * q for q in left), *up_rates]),
     ):
-        jib = slice(crane.movers, crane.vertical.stop)
         # Sums of m (constant + slope x)^2, of twice that times the bending, and of its square.
         energy = energy + (mass * constant * constant + 2.0 * moment * constant * slope + inertia * slope * slope)
         energy = energy + 2.0 * (constant * dot(crane.jib_mass[jib], bent) + slope * dot(crane.jib_moment[jib], bent))
         energy = energy + form(bent, crane.own_mass[jib, jib], bent)
+    # The sections' own turning, beside that of the straight jib.
+    turned, middle, rates = crane.jib_turning[jib], len(left), [*left_rates, *up_rates]
+    energy = energy + 2.0 * (wz * dot(turned[:middle], left_rates) - wy * dot(turned[middle:], up_rates))
+    energy = energy + form(rates, crane.rotary_mass[jib, jib], rates)
     return 0.5 * energy

@@ -14,7 +14,8 @@ import numpy as np
 from towercrane.cranes.tower.equations.body import Carried, carried
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TURN
 from towercrane.cranes.tower.equations.head import Head, head_of
-from towercrane.cranes.tower.equations.jib import Path, Trolley, path_of, trolley_of
+from towercrane.cranes.tower.equations.jib import Path, Section, Trolley, path_of, trolley_of
+from towercrane.cranes.tower.equations.motion import GUARDS
 from towercrane.cranes.tower.equations.wind import wind_velocity
 from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.payload import State, state_of
@@ -34,7 +35,7 @@ class Kinematics:
     ----------
     seen : Seen
     instant : Instant
-        Of which slopes and guards do not matter here.
+        Of which slopes, and guards but those of joints, do not matter here.
     """
 
     seen: Seen
@@ -56,8 +57,9 @@ class Kinematics:
 
     @cached_property
     def trolley(self) -> Trolley:
-        """The trolley along the jib."""
-        return trolley_of(self.seen.crane, self.instant.drives)
+        """The trolley along the jib; at a joint the guards know on which section."""
+        crane, known = self.seen.crane, self.instant.guards[GUARDS:]
+        return trolley_of(crane, self.instant.drives, Section(*known) if crane.jointed and len(known) else None)
 
     @cached_property
     def paths(self) -> tuple[Path, Path]:

@@ -29,13 +29,15 @@ NONE = 0.0, 0.0, 0.0
 class Swept(NamedTuple):
     """What modes of one direction move of a part of the jib.
 
-    Sums of m, of m x, of m times the deflection this way, and of m times that the other way.
+    Sums of m, of m x, of m times the deflection this way, and of m times that the other way; of the sections' own
+    rotary inertia times their turning.
     """
 
     zeroth: Any
     first: Any
     own: Any
     other: Any
+    turned: Any
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +86,8 @@ class Sections:
         def of(moved: Row, own: slice, q: Row, other: slice, q_other: Row) -> Swept:
             rows = part.products[own]
             crossed = form(moved, rows[:, own], q), form(moved, rows[:, other], q_other)
-            return Swept(dot(moved, part.first[own]), dot(moved, part.second[own]), *crossed)
+            along, turned = (dot(moved, sums[own]) for sums in (part.second, part.turned))
+            return Swept(dot(moved, part.first[own]), along, *crossed, turned)
 
         return of(left, sides, q_left, rise, q_up), of(up, rise, q_up, sides, q_left)
 
@@ -96,7 +99,8 @@ class Sections:
         )
         sums = (Sums(*chain(*zip(*pair, strict=True))) for pair in zip(places, rates, strict=True))
         body = body_of(part.straight, self.head, self.felt(crane.self_gravity), *sums)
-        body = body.pushed((0.0, -left.zeroth, -up.zeroth), (left.other - up.other, up.first, -left.first))
+        turned = left.other - up.other, up.first + up.turned, -left.first - left.turned
+        body = body.pushed((0.0, -left.zeroth, -up.zeroth), turned)
         if exposure is None:
             return body
         normal = dot(self.at.wind, self.head.rotation[1::3])

@@ -1,0 +1,137 @@
+"""Joints of the jib: where the trolley passes from one section to the next.
+
+The slope of a shear-flexible jib steps where its shear strain does, at a change of section and at a body. A trolley
+that crosses such a joint is thrown up or down: rates jump, places do not. No force acts along a coordinate or across
+the rope in no time, so the momenta dT/dq' go on as they were, and so does the load's velocity across the rope.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.cranes.tower.equations.constants import ROPE, TROLLEY
+from towercrane.cranes.tower.equations.jib import Section
+from towercrane.cranes.tower.equations.structure import structure
+from towercrane.kernels.payload import state_of
+from towercrane.kernels.polynomial import polynomial
+from towercrane.motions.motion import SAME_INSTANT, Phases, shifted
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.tower.equations.constants import Constants
+    from towercrane.cranes.tower.equations.structure import CraneStructure
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Joints:
+    """Joints of a crane's jib, as :class:`towercrane.simulation.system.Crossings` has them.
+
+    Parameters
+    ----------
+    crane : Constants
+    """
+
+    crane: Constants
+
+    def cut(self, phases: Phases) -> Phases:
+        """The phases cut where the trolley crosses a joint, with its section as one row of inputs more.
+
+        Where the trolley stands on a joint it keeps its section.
+        """
+        ends, width = self.crane.sections, phases.inputs.shape[2]
+        times, inputs, section = [], [], _section(ends, float(phases.inputs[0, TROLLEY, 0]))
+        for begin, until, rows in zip(phases.times[:-1], phases.times[1:], phases.inputs, strict=True):
+            span = float(until - begin)
+            moments = [0.0, *_crossings(rows[TROLLEY], ends[1:-1], span), span]
+            for now, after in pairwise(moments):
+                moved = np.array([shifted(row, now) for row in rows]) if now else rows
+                place, _, _ = polynomial(moved[TROLLEY], 0.5 * (after - now))
+                if not ends[section] <= place <= ends[section + 1]:
+                    section = _section(ends, float(place))
+                times.append(float(begin) + now)
+                inputs.append(np.vstack([moved, self._row(section, width)]))
+        after_all = np.vstack([phases.after, self._row(section, width)])
+        return Phases(np.array([*times, phases.times[-1]]), np.array(inputs), after_all)
+
+    def crosses(self, phases: Phases) -> bool:
+        """Whether the trolley comes to a joint in motion, so that its place alone does not tell its section."""
+        cut = self.cut(phases)
+        section = np.unique(cut.inputs[:, -1, 1])
+        spans = np.diff(cut.times)[:, None] * (0.0, 0.5, 1.0)
+        places = [polynomial(row, span)[0] for row, span in zip(cut.inputs[:, TROLLEY], spans, strict=True)]
+        found = {float(self.crane.sections[_section(self.crane.sections, place)]) for place in np.ravel(places)}
+        return len(section) > 1 or found != set(section.tolist())
+
+    def crossed(self, before: Floats, after: Floats) -> bool:
+        """Whether the trolley is on another section in the phase with the inputs ``after``."""
+        return bool(before[-1, 0] != after[-1, 0])
+
+    def leap(self, state: Floats, before: Floats, time: float, after: Floats) -> Floats:
+        """State right after a joint, from that right before it.
+
+        With dv the jump of the velocity of the rope's upper end at the rates before, and n along the rope,
+        ``(M + m n-row n-row^T) dq' = -J^T (m_c + m n n^T) dv``. The load's velocity across the rope is kept. What the
+        trolley's drive puts in is the impulse on trolley and load along the mean of the two ways of the trolley.
+
+        Parameters
+        ----------
+        state : ndarray
+        before : ndarray
+            Inputs of the phase that ends at the joint, after ``time`` [s].
+        after : ndarray
+            Inputs of the phase that begins there.
+        """
+        crane = self.crane
+        inner, outer = self._seen(state, before, time), self._seen(state, after, 0.0)
+        velocity = np.array(outer.hanging.velocity) - np.array(inner.hanging.velocity)
+        parts, load = state_of(state, crane.coordinates, crane.axes), crane.load.mass
+        n = np.array(parts.direction) / np.linalg.norm(parts.direction)
+        jacobian = np.array(outer.hanging.jacobian, dtype=float).reshape(crane.axes, crane.coordinates)
+        dragged = crane.trolley_mass * np.eye(crane.axes) + load * np.outer(n, n)
+        row = jacobian.T @ n
+        mass = outer.hanging.mass_matrix() + load * np.outer(row, row)
+        rates = np.linalg.solve(mass, -jacobian.T @ dragged @ velocity) if crane.coordinates else np.empty(0)
+        thrown = jacobian @ rates + velocity
+        length, _, _ = polynomial(after[ROPE], 0.0)
+        _, speed, _ = polynomial(after[TROLLEY], 0.0)
+        found, place = state.copy(), crane.coordinates + crane.axes
+        found[place : place + crane.coordinates] += rates
+        found[place + crane.coordinates : 2 * place] -= (thrown - n * (n @ thrown)) / length
+        way = 0.5 * (np.array(inner.path) + np.array(outer.path))[list(crane.fixed_axes)]
+        found[-1] += speed * way @ dragged @ thrown
+        return found
+
+    def _row(self, section: int, width: int) -> Floats:
+        crane = self.crane
+        cells = crane.shapes.shape[0] // (len(crane.sections) - 1)
+        start, end = crane.sections[section : section + 2]
+        return np.pad([float(section * cells), start, (end - start) / cells], (0, width - 3))
+
+    def _seen(self, state: Floats, inputs: Floats, time: float) -> CraneStructure:
+        drives = [polynomial(channel, time) for channel in inputs[: self.crane.channels].tolist()]
+        parts = state_of(state.tolist(), self.crane.coordinates, self.crane.axes)
+        return structure(self.crane, parts, drives, Section(*inputs[-1, :3].tolist()))
+
+
+def _section(ends: Floats, place: float) -> int:
+    return int(np.clip(np.searchsorted(ends, place, side="right") - 1, 0, len(ends) - 2))
+
+
+def _crossings(trolley: Floats, joints: Floats, span: float) -> list[float]:
+    """Times within a phase at which a polynomial is at a joint [s], ascending."""
+    found: list[Any] = []
+    for joint in joints:
+        coefficients = np.polynomial.polynomial.polytrim(trolley - joint * (np.arange(len(trolley)) == 0))
+        if len(coefficients) > 1:
+            roots = np.polynomial.polynomial.polyroots(coefficients)
+            real = roots.real[abs(roots.imag) <= 1e-9 * (1.0 + abs(roots.real))]
+            found += [root for root in real.tolist() if SAME_INSTANT < root < span - SAME_INSTANT]
+    moments = sorted(found)
+    return [moment for k, moment in enumerate(moments) if k == 0 or moment > moments[k - 1] + SAME_INSTANT]

@@ -1,0 +1,86 @@
+"""Tables of jibs and counter-jibs: uniform or of segments from the tower's axis outward, with their bodies."""
+
+from __future__ import annotations
+
+from math import inf
+
+from towercrane.schema.fields import (
+    InertiaOrNone,
+    Length,
+    LengthIfAny,
+    MassIfAny,
+    MassOrNone,
+    MassPerLengthIfAny,
+    ModulusIfAny,
+    Reach,
+    RotaryInertiaPerLength,
+    SecondMomentIfAny,
+    ShearStiffness,
+    Table,
+)
+
+
+class JibSection(Table):
+    """Cross-section of a uniform jib or of a segment; what is lateral is that of bending to the sides."""
+
+    mass_per_length: MassPerLengthIfAny = None
+    youngs_modulus: ModulusIfAny = None
+    second_moment_of_area: SecondMomentIfAny = None
+    lateral_second_moment_of_area: SecondMomentIfAny = None
+    shear_stiffness: ShearStiffness = inf
+    lateral_shear_stiffness: ShearStiffness = inf
+    rotary_inertia_per_length: RotaryInertiaPerLength = 0.0
+    lateral_rotary_inertia_per_length: RotaryInertiaPerLength = 0.0
+
+
+class JibSegment(JibSection):
+    """Uniform piece of a jib; its mass is given per length or as a whole, its modulus may be the jib's."""
+
+    length: Length
+    mass: MassIfAny = None
+
+
+class JibBody(Table):
+    """Rigid body on a jib: a winch, the jib's end, ballast; its rotary inertia counts in both directions."""
+
+    position: Reach
+    mass: MassOrNone
+    rotary_inertia: InertiaOrNone = 0.0
+
+
+class Jib(JibSection):
+    """Jib, uniform or of segments. Which keys belong together is for :mod:`towercrane.cranes.tower.file.jib_checks`."""
+
+    length: LengthIfAny = None
+    segments: tuple[JibSegment, ...] = ()
+    bodies: tuple[JibBody, ...] = ()
+
+    @property
+    def pieces(self) -> tuple[JibSegment, ...]:
+        """The segments; a uniform jib has one."""
+        if self.segments or not self.length:
+            return self.segments
+        whole = {name: getattr(self, name) for name in JibSection.model_fields}
+        return (JibSegment.model_construct(length=self.length, **whole),)
+
+    @property
+    def reach(self) -> float:
+        """Its length [m]: the stated one, which the segments' sum may miss by rounding, is not asked."""
+        return sum(piece.length for piece in self.pieces)
+
+
+class CounterJib(Jib):
+    """Counter-jib with the counterweight at its end, and other bodies.
+
+    Without a second moment of area it is rigid. With one it bends where a model has modes of it, and in exact
+    frequencies of the crane.
+    """
+
+    length: Reach | None = None
+    counterweight: MassOrNone = 0.0
+
+    @property
+    def bends(self) -> bool:
+        """Whether its stiffness is given."""
+        pieces = self.pieces
+        return bool(pieces) and all(piece.second_moment_of_area is not None for piece in pieces)

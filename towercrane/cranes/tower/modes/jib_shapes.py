@@ -1,0 +1,134 @@
+"""Shapes of jib and counter-jib, and sums over their mass and over what the wind meets of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modal.beams.beam import Beam
+from modal.beams.shapes import cantilever_modes
+from modal.structures.chain_modes import chain_modes
+from modal.structures.part_shapes import gauss
+from towercrane.cranes.parts import wind
+from towercrane.cranes.tower.modes.mass_sums import (
+    Basis,
+    MassSums,
+    chain_sums,
+    point_sums,
+    rigid_sums,
+    uniform_sums,
+)
+from towercrane.cranes.tower.modes.parameters import as_chain
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from modal import Chain, Modes
+    from modal.structures.chain_modes import ChainModes
+    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+    from towercrane.cranes.tower.modes.parameters import TowerCrane
+
+
+@dataclass(frozen=True, eq=False)
+class JibShapes:
+    """Shapes of what turns, in the groups of :class:`towercrane.cranes.tower.modes.modal_crane.FlexibleCrane`.
+
+    Parameters
+    ----------
+    crane : TowerCrane
+    lateral, vertical : Basis
+        Of the jib.
+    counter_lateral, counter_vertical : ChainModes or None
+        Of a counter-jib that bends.
+    jib, counter : MassSums
+        Over the jib, and over what else turns.
+    """
+
+    crane: TowerCrane
+    lateral: Basis
+    vertical: Basis
+    counter_lateral: ChainModes | None
+    counter_vertical: ChainModes | None
+    jib: MassSums
+    counter: MassSums
+
+    def exposures(self, areas: wind.WindAreas) -> tuple[MassSums, MassSums]:
+        """Sums over the drag per squared speed of jib and counter-jib, in place of their mass."""
+        crane = self.crane
+        per_length, tip = wind.drag(areas.counter_jib), wind.drag(areas.counterweight)
+        if isinstance(crane.jib, Beam):
+            jib = self.jib.scaled(wind.drag(areas.jib) / crane.jib.mass_per_length)
+        else:
+            swept = _along(crane.jib, wind.drag(areas.jib), self.lateral, self.vertical)
+            jib = swept.among(*self._places("jib"))
+        length = crane.counter_jib_length
+        if self.counter_vertical is None or self.counter_lateral is None:
+            total, count = per_length * length + tip, len(self.jib.first)
+            moment = -(per_length * length / 2 + tip) * length
+            return jib, rigid_sums(total, moment, (per_length * length / 3 + tip) * length**2, count)
+        bases = self.counter_lateral, self.counter_vertical
+        assert crane.counter_jib is not None
+        swept = _along(crane.counter_jib, per_length, *bases, side=-1.0) + point_sums(length, tip, *bases, side=-1.0)
+        return jib, swept.among(*self._places("counter"))
+
+    def _places(self, member: str) -> tuple[NDArray[np.int64], int]:
+        return _places(self.lateral, self.counter_lateral, self.vertical, self.counter_vertical)[member]
+
+
+def shapes_of(crane: TowerCrane, modes: ModeCounts) -> JibShapes:
+    """Shapes of a crane's jib and counter-jib, so many of each kind."""
+    lateral: Modes | ChainModes
+    vertical: Modes | ChainModes
+    if isinstance(crane.jib, Beam) and isinstance(crane.jib_lateral, Beam | None):
+        lateral = cantilever_modes(crane.jib_lateral or crane.jib, modes.lateral)
+        vertical = cantilever_modes(crane.jib, modes.vertical)
+        # The shapes do not depend on the bending stiffness: the longer list serves both directions.
+        both = max(lateral, vertical, key=lambda m: m.count)
+        jib = uniform_sums(crane.jib.length, crane.jib.mass_per_length, both, modes.lateral, modes.vertical)
+    else:
+        lateral, vertical, jib = _of_chain(crane.jib, crane.jib_lateral, modes.lateral, modes.vertical)
+    counter_lateral = counter_vertical = None
+    mass, moment, inertia = 0.0, 0.0, 0.0
+    if crane.counter_jib is None:
+        mass, moment, inertia = crane.counter_mass, crane.counter_moment, crane.counter_inertia
+    else:
+        members = crane.counter_jib, crane.counter_jib_lateral
+        counts = modes.counter_lateral, modes.counter_vertical
+        counter_lateral, counter_vertical, counter = _of_chain(*members, *counts, side=-1.0)
+    places = _places(lateral, counter_lateral, vertical, counter_vertical)
+    rest = rigid_sums(mass, moment, inertia, places["jib"][1], roll=crane.roll_inertia)
+    if crane.counter_jib is not None:
+        rest = counter.among(*places["counter"]) + rest
+    return JibShapes(crane, lateral, vertical, counter_lateral, counter_vertical, jib.among(*places["jib"]), rest)
+
+
+def _of_chain(
+    vertical: Beam | Chain, lateral: Beam | Chain | None, left: int, up: int, side: float = 1.0
+) -> tuple[ChainModes, ChainModes, MassSums]:
+    """Modes of a member to the left and up, so many of either, and sums over its mass."""
+    upright, sideways = as_chain(vertical), None if lateral is None else as_chain(lateral)
+    to_left, upward = chain_modes(sideways or upright, left), chain_modes(upright, up)
+    return to_left, upward, chain_sums(upright, sideways, upward, to_left, side)
+
+
+def _along(chain: Chain, per_length: float, lateral: Basis, vertical: Basis, side: float = 1.0) -> MassSums:
+    """Sums over the same for every length of a member."""
+    points, weights = gauss()
+    ends = np.asarray(chain.nodes)
+    distance = (ends[:-1, None] + np.diff(ends)[:, None] * points).ravel()
+    swept = per_length * (np.diff(ends)[:, None] * weights).ravel()
+    return point_sums(distance, swept, lateral, vertical, side)
+
+
+def _places(
+    lateral: Basis, counter_lateral: Basis | None, vertical: Basis, counter_vertical: Basis | None
+) -> dict[str, tuple[NDArray[np.int64], int]]:
+    """Which of all shapes those of jib and counter-jib are, and how many there are."""
+    counts = [0 if own is None else own.count for own in (lateral, counter_lateral, vertical, counter_vertical)]
+    ends = np.cumsum([0, *counts])
+    own = [np.arange(a, b) for a, b in pairwise(ends)]
+    found = {"jib": np.concatenate(own[::2]), "counter": np.concatenate(own[1::2])}
+    return {member: (places, int(ends[-1])) for member, places in found.items()}
