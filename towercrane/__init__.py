@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from towercrane.cases.case import load_case
     from towercrane.cranes.tower.crane_model import tower_crane_model
     from towercrane.cranes.tower.model import FlexibleModel
-    from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
+    from towercrane.cranes.tower.modes.modal_crane import flexible_crane
+    from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.kernels.payload import Load
     from towercrane.runs.run import run_case
@@ -38,7 +39,7 @@ __all__ = [
 _HOME = {
     "FlexibleModel": "cranes.tower.model",
     "Load": "kernels.payload",
-    "ModeCounts": "cranes.tower.modes.modal_crane",
+    "ModeCounts": "cranes.tower.modes.mode_counts",
     "TowerCrane": "cranes.tower.modes.parameters",
     "flexible_crane": "cranes.tower.modes.modal_crane",
     "load_case": "cases.case",

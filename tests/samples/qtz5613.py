@@ -7,7 +7,7 @@ from towercrane.accuracy.setting import Setting
 from towercrane.cranes.tower.crane_model import tower_crane_model
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest

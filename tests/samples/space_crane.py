@@ -8,7 +8,8 @@ from samples import qtz5613
 from modal.beams.beam import Beam
 from modal.beams.torsion import Shaft
 from towercrane.cranes.tower.model import FlexibleModel
-from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
+from towercrane.cranes.tower.modes.modal_crane import flexible_crane
+from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.outputs.kinematics import Kinematics
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence

@@ -40,10 +40,15 @@ KIND_OF = {
     "torsion": "torsion_modes",
     "jib_lateral": "jib_lateral_modes",
     "jib_vertical": "jib_vertical_modes",
+    "counter_jib_lateral": "counter_jib_lateral_modes",
+    "counter_jib_vertical": "counter_jib_vertical_modes",
 }
 """Kind of modes of each kind of coordinates."""
 
-LAST = {"tower_modes": 2, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2}
+LAST = {
+    "tower_modes": 2, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2,
+    "counter_jib_lateral_modes": 1, "counter_jib_vertical_modes": 1,
+}  # fmt: skip
 """Modes of the rich model whose effect stands for that of all beyond it."""
 
 

@@ -37,7 +37,10 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-MOST = {"tower_modes": 4, "torsion_modes": 3, "jib_lateral_modes": 7, "jib_vertical_modes": 7}
+MOST = {
+    "tower_modes": 4, "torsion_modes": 3, "jib_lateral_modes": 7, "jib_vertical_modes": 7,
+    "counter_jib_lateral_modes": 3, "counter_jib_vertical_modes": 3,
+}  # fmt: skip
 """Modes of each kind that are chosen at most."""
 
 SAFETY = np.array([[4.0], [2.0]])

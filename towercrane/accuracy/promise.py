@@ -44,7 +44,10 @@ AS_ASKED = (KEPT, VERIFIED)
 FINER, FINE = 1e-2, 1e-8
 """Rtol of the run that verifies: over that of the run, and at most; fast modes that only it has need the latter."""
 
-MORE = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2}
+MORE = {
+    "tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2,
+    "counter_jib_lateral_modes": 1, "counter_jib_vertical_modes": 1,
+}  # fmt: skip
 """Modes that the model of such a run has more where nothing is foretold."""
 
 

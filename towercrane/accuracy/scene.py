@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 from towercrane.accuracy.setting import Setting
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.crane_model import described, moving, tower_crane_model
-from towercrane.cranes.tower.file.build import described_scene
+from towercrane.cranes.tower.file.build import asked_modes, described_scene
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import softened
 from towercrane.cranes.tower.file.plane import heading_of, stays_in_plane
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.targets import ALL, FORETOLD, absent
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import looks_per_row, record
@@ -152,5 +152,6 @@ def setting_of(case: Case) -> Setting:
     tables = case.tables(TowerCase)
     planar, solver = stays_in_plane(tables), tables.solver
     plain = Setting(planar=planar, method=solver.method, rtol=solver.rtol, atol=solver.atol)
-    counts = {kind: getattr(tables.model, kind) for kind in moving(planar)}
+    asked = asked_modes(tables)
+    counts = {kind: asked[kind] for kind in moving(planar)}
     return replace(plain.with_counts(counts), weight_softening=softened(tables))

@@ -21,6 +21,7 @@ class Setting:
     ----------
     tower_modes, torsion_modes, jib_lateral_modes, jib_vertical_modes : int
         0 for rigid; those of the tower count in both directions.
+    counter_jib_lateral_modes, counter_jib_vertical_modes : int
     planar : bool
         Whether all stays in the jib's vertical plane, along x.
     cap : float
@@ -36,6 +37,8 @@ class Setting:
     torsion_modes: int = 0
     jib_lateral_modes: int = 0
     jib_vertical_modes: int = 0
+    counter_jib_lateral_modes: int = 0
+    counter_jib_vertical_modes: int = 0
     planar: bool = False
     cap: float = np.inf
     weight_softening: bool = True

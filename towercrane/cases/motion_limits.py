@@ -127,8 +127,8 @@ def _joints(tree: dict[str, Any], drives: Drives) -> tuple[str, ...]:
 
 
 def _track(tree: dict[str, Any], track: Track, folder: Path) -> tuple[list[Fault], Plan | None]:
-    name, key, along = track
-    length = si_at(tree, key, "m")
+    name, length_of, along = track
+    length = length_of(tree)
     known = f"from 0 to {length:g} m (the length of the {along})" if length else "from 0 on"
     way = Way(f"motion.{name}", length, False, f"positions on the {along}, {known}", f"the {name} leaves the {along}")
     faults = _out_of_way(tree, way, ("start", "end"))

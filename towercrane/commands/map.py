@@ -75,7 +75,7 @@ def frequency_map(
     tables = loaded.tables(TowerCase)
     asked = map_of(tables)
     masses = _masses(asked, payload)
-    reach = tables.crane.jib.length
+    reach = tables.crane.jib.reach
     where = None if shapes is None else _position(shapes, reach)
     task.compile("map")
     import numpy as np

@@ -91,5 +91,5 @@ def _pictures(case: Case) -> dict[str, Any]:
         modes = modes_at(model, place, tables.modes.crane_count)
     except NoEquilibrium:
         return files
-    counter_jib = tables.crane.counter_jib.length
+    counter_jib = tables.crane.counter_jib.reach
     return {"modes.png": pictured.shapes(model, modes, place, counter_jib, f"{title}modes, {where}", notes), **files}

@@ -53,10 +53,11 @@ class Natural(NamedTuple):
 
 
 class Track(NamedTuple):
-    """What something runs along: name of its motion, key of the length of its track, and the track in a word."""
+    """What something runs along: name of its motion, length of its track [m] in a case as written, None where it is
+    not known, and the track in a word."""
 
     name: str
-    length: str
+    length: Callable[[dict[str, Any]], float | None]
     along: str
 
 

@@ -64,6 +64,7 @@ QUANTITIES = {
     "m^4": ("a second moment of area", "0.014 m^4"),
     "kg": ("a mass", "800 kg"),
     "kg/m": ("a mass per length", "350 kg/m"),
+    "kg/m^3": ("a density", "7850 kg/m^3"),
     "s": ("a time", "120 s"),
     "m/s": ("a speed", "0.8 m/s"),
     "m/s^2": ("an acceleration", "0.1 m/s^2"),

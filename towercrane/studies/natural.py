@@ -12,7 +12,7 @@ from towercrane.cases.assumptions import as_entries, left_out, rests_on
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.crane_model import PLANE_MODES
 from towercrane.cranes.tower.equations.small_motions import plane_modes
-from towercrane.cranes.tower.file.build import crane_frame, tower_model
+from towercrane.cranes.tower.file.build import asked_modes, crane_frame, tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import effects_in, effects_report
 from towercrane.cranes.tower.file.members import lattice_of
@@ -75,7 +75,7 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
         "jib": {"frequencies_hz": jib.frequencies_hz.tolist()},
         "finite_elements": check,
         "effects": effects_report(effects, actual=actual),
-        "crane_model": {key: getattr(tables.model, key) for key in PLANE_MODES},
+        "crane_model": {kind: asked_modes(tables)[kind] for kind in PLANE_MODES},
         "left_out": left_out(case),
         "rope_length_m": case.rope.length,
         "payload_mass_kg": case.payload.mass,

@@ -11,7 +11,7 @@ from towercrane.cases.assumptions import as_entries, rests_on
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.crane_model import described
 from towercrane.cranes.tower.equations.small_motions import natural_modes
-from towercrane.cranes.tower.file.build import crane_of, tower_model
+from towercrane.cranes.tower.file.build import asked_modes, crane_of, tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.simulation.system import NoEquilibrium
 from towercrane.studies.branches import CLEAR
@@ -123,7 +123,8 @@ def space_frequencies(case: Case) -> dict[str, Any]:
 def richer_model(tables: TowerCase) -> FlexibleModel:
     """The case's crane with more modes of every kind that it has, those that the case leaves out too."""
     kinds = described(crane_of(tables))
-    return tower_model(tables, **{kind: getattr(tables.model, kind) + RICHER for kind in kinds})
+    asked = asked_modes(tables)
+    return tower_model(tables, **{kind: asked[kind] + RICHER for kind in kinds})
 
 
 def beside_a_richer(

@@ -276,7 +276,9 @@ def test_model_refuses_what_it_cannot_be():
         ModalDamping(torsion=-0.1)
     with pytest.raises(ValueError, match=r"FlexibleCrane.planes: wanted 1 or 2, got 3"):
         space.model(planes=3)
-    with pytest.raises(ValueError, match=r"TowerCrane.jib_lateral.length: wanted 55.6, as in the plane, got 50.0"):
+    with pytest.raises(
+        ValueError, match=r"TowerCrane.jib_lateral: wanted lengths and masses as in the plane, got .*50.0"
+    ):
         dataclasses.replace(space.CRANE, jib_lateral=Beam(50.0, 123.8, 206e9, 0.002))
     with pytest.raises(ValueError, match=r"ModeCounts.torsion: wanted zero or more, got -1"):
         space.model(1, -1, 0, 0)

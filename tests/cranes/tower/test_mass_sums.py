@@ -59,7 +59,7 @@ def test_lumped_tip_and_rigid_part():
 
 def test_shape_table_reproduces_shapes_and_derivatives_everywhere():
     lateral, vertical = cantilever_modes(JIB, 2), cantilever_modes(JIB, 6)
-    table = shape_table((lateral, vertical), JIB.length)
+    table = shape_table((lateral, vertical), (0.0, JIB.length))
     width = JIB.length / len(table)
     x = np.linspace(0.0, JIB.length, 777)
     cell = np.minimum((x / width).astype(int), len(table) - 1)

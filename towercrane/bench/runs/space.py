@@ -12,7 +12,8 @@ from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.tower.file.build import crane_of
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.model import FlexibleModel
-from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
+from towercrane.cranes.tower.modes.modal_crane import flexible_crane
+from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.motions.motion import phases
 
 EVALUATIONS = 20_000

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import pi
 from typing import TYPE_CHECKING
 
 from towercrane.cranes.kind import Drives, Kind, Panel, Signals, Track, later
 from towercrane.cranes.overhead.tables import OverheadCase
 from towercrane.cranes.parts.height import summed
-from towercrane.schema.ranges import LENGTHS, Range
+from towercrane.schema.ranges import LENGTHS, Range, si_at
 
 if TYPE_CHECKING:
     from towercrane.cranes.kind import Pictures
@@ -41,7 +42,10 @@ OVERHEAD = Kind(
     tables=OverheadCase,
     drives=Drives(
         summed("crane.runway.height"), "the height of the runway",
-        (Track("bridge", "crane.runway.length", "runway"), Track("trolley", "crane.bridge.span", "bridge")),
+        (
+            Track("bridge", partial(si_at, key="crane.runway.length", unit="m"), "runway"),
+            Track("trolley", partial(si_at, key="crane.bridge.span", unit="m"), "bridge"),
+        ),
     ),
     ranges=(
         Range("crane.runway.height", "m", 1, 200, LENGTHS),

@@ -9,11 +9,12 @@ import numpy as np
 
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.cranes.tower.modes.modal_crane import ModeCounts, flexible_crane
+from towercrane.cranes.tower.modes.modal_crane import flexible_crane
 
 if TYPE_CHECKING:
     from towercrane.cranes.parts.wind import WindAreas
     from towercrane.cranes.slewing.description import Drive
+    from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.kernels.payload import Load
 
@@ -23,11 +24,13 @@ MODE_KINDS = {
     "torsion_modes": "torsion of the tower",
     "jib_lateral_modes": "bending of the jib to its sides",
     "jib_vertical_modes": "bending of the jib up and down",
+    "counter_jib_lateral_modes": "bending of the counter-jib to its sides",
+    "counter_jib_vertical_modes": "bending of the counter-jib up and down",
 }
 """Kinds of modes, by the key that counts them, in the order of
-:class:`towercrane.cranes.tower.modes.modal_crane.ModeCounts`."""
+:class:`towercrane.cranes.tower.modes.mode_counts.ModeCounts`."""
 
-PLANE_MODES = ("tower_modes", "jib_vertical_modes")
+PLANE_MODES = ("tower_modes", "jib_vertical_modes", "counter_jib_vertical_modes")
 """Kinds that move in the jib's vertical plane."""
 
 
@@ -38,7 +41,12 @@ def moving(planar: bool) -> tuple[str, ...]:
 
 def described(crane: TowerCrane) -> tuple[str, ...]:
     """Kinds of modes for which a crane has data."""
-    missing = {"torsion_modes": crane.shaft is None, "jib_lateral_modes": crane.jib_lateral is None}
+    missing = {
+        "torsion_modes": crane.shaft is None,
+        "jib_lateral_modes": crane.jib_lateral is None,
+        "counter_jib_lateral_modes": crane.counter_jib_lateral is None,
+        "counter_jib_vertical_modes": crane.counter_jib is None,
+    }
     return tuple(kind for kind in MODE_KINDS if not missing.get(kind, False))
 
 
@@ -58,7 +66,7 @@ def tower_crane_model(
     rope_as_rod: bool = False,
     cap: float = np.inf,
 ) -> FlexibleModel:
-    """Equations of motion of a tower crane; the counter-jib is rigid.
+    """Equations of motion of a tower crane.
 
     Parameters
     ----------
@@ -81,7 +89,7 @@ def tower_crane_model(
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
     """
     if planar:
-        modes, drive, drive_inertia = replace(modes, torsion=0, lateral=0), None, 0.0
+        modes, drive, drive_inertia = replace(modes, torsion=0, lateral=0, counter_lateral=0), None, 0.0
     return FlexibleModel(
         flexible_crane(crane, modes, areas, planes=1 if planar else 2),
         load,

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from towercrane.cranes.kind import Drives, Kind, Signals, Track, later
 from towercrane.cranes.tower.file.case_tables import TowerCase
-from towercrane.cranes.tower.file.checks import check_tower, tower_height
-from towercrane.cranes.tower.file.scene_checks import check_scene
+from towercrane.cranes.tower.file.checks.jib import check_jibs, jib_length
+from towercrane.cranes.tower.file.checks.scene import check_scene
+from towercrane.cranes.tower.file.checks.tower import check_tower, tower_height
 
-TRACKS = (Track("trolley", "crane.jib.length", "jib"),)
+TRACKS = (Track("trolley", jib_length, "jib"),)
 
 FASTEST_SLEWING = 0.5
 """Largest plausible speed of a tower crane's head whose motion states none [rad/s]; they turn at 0.1 or less."""
@@ -19,7 +20,7 @@ TOWER = Kind(
         tower_height, "the height of the tower", TRACKS,
         joints=(("shaft", "slewing"),), fastest_turn=FASTEST_SLEWING, wind=True,
     ),
-    checks=(check_tower, check_scene),
+    checks=(check_tower, check_jibs, check_scene),
     build=later("towercrane.cranes.tower.file.build", "tower_model"),
     poses=later("towercrane.cranes.tower.poses", "tower_poses"),
     computed=later("towercrane.cranes.tower.file.torsion", "computed"),

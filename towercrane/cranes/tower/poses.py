@@ -42,7 +42,7 @@ def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, tim
     """
     from scipy.spatial.transform import Rotation
 
-    crane, behind = model.crane, tables.crane.counter_jib.length
+    crane, behind = model.crane, tables.crane.counter_jib.reach
     # In the plane the head does not turn.
     heading = sampled(result, "slewing_angle", times) if "slewing_angle" in result else np.zeros(len(times))
     q = {

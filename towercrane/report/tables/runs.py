@@ -118,8 +118,12 @@ def _accuracy(console: Console, promised: dict[str, Any]) -> None:
 
 def setting_words(setting: dict[str, Any]) -> str:
     """Model and solver of a run in words, as :func:`towercrane.accuracy.setting.Setting.provenance` gives them."""
-    moving = ("tower_modes", "jib_vertical_modes") if setting.get("planar") else setting
-    counts = {key.removesuffix("_modes").replace("_", " "): setting[key] for key in moving if key.endswith("_modes")}
+    keys = [key for key in setting if key.endswith("_modes")]
+    if setting.get("planar"):
+        keys = ["tower_modes", "jib_vertical_modes", "counter_jib_vertical_modes"]
+    # A counter-jib is rigid as a rule.
+    counts = {key: setting.get(key) for key in keys if setting.get(key) or not key.startswith("counter")}
+    counts = {key.removesuffix("_modes").replace("_", " "): count for key, count in counts.items()}
     modes = ", ".join(f"{count} {kind}" for kind, count in counts.items())
     cap = f" capped at {setting['cap']:.3g} Hz" if setting.get("cap") else ""
     planar = " in the plane," if setting.get("planar") else ""

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.equations.constants import ROPE, TROLLEY
+from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
 from towercrane.cranes.tower.equations.jib import Section
-from towercrane.cranes.tower.equations.structure import structure
+from towercrane.cranes.tower.equations.structure import slewing_torque, structure
 from towercrane.kernels.payload import state_of
 from towercrane.kernels.polynomial import polynomial
 from towercrane.motions.motion import SAME_INSTANT, Phases, shifted
@@ -76,9 +76,10 @@ class Joints:
     def leap(self, state: Floats, before: Floats, time: float, after: Floats) -> Floats:
         """State right after a joint, from that right before it.
 
-        With dv the jump of the velocity of the rope's upper end at the rates before, and n along the rope,
-        ``(M + m n-row n-row^T) dq' = -J^T (m_c + m n n^T) dv``. The load's velocity across the rope is kept. What the
-        trolley's drive puts in is the impulse on trolley and load along the mean of the two ways of the trolley.
+        With dv the jump of the velocity of the rope's upper end D at the rates before, n along the rope and J what
+        rates move D, ``(M + m J^T n n^T J) dq' = -J^T (m_c + m n n^T) dv``. The load's velocity across the rope is
+        kept. Each drive that is prescribed puts in its impulse times its rate: the trolley's on trolley and load,
+        along the mean of its two ways; the hoist's in the rope; the slewing's about the tower's axis.
 
         Parameters
         ----------
@@ -99,13 +100,18 @@ class Joints:
         mass = outer.hanging.mass_matrix() + load * np.outer(row, row)
         rates = np.linalg.solve(mass, -jacobian.T @ dragged @ velocity) if crane.coordinates else np.empty(0)
         thrown = jacobian @ rates + velocity
-        length, _, _ = polynomial(after[ROPE], 0.0)
-        _, speed, _ = polynomial(after[TROLLEY], 0.0)
+        (length, hauling, _), (_, speed, _) = (polynomial(after[row], 0.0) for row in (ROPE, TROLLEY))
         found, place = state.copy(), crane.coordinates + crane.axes
         found[place : place + crane.coordinates] += rates
         found[place + crane.coordinates : 2 * place] -= (thrown - n * (n @ thrown)) / length
-        way = 0.5 * (np.array(inner.path) + np.array(outer.path))[list(crane.fixed_axes)]
-        found[-1] += speed * way @ dragged @ thrown
+        way, along = 0.5 * (np.array(inner.path) + np.array(outer.path))[list(crane.fixed_axes)], load * (n @ thrown)
+        found[-1] += speed * way @ dragged @ thrown + hauling * along
+        if crane.slewing == "prescribed":
+            column, _ = outer.share.turning
+            turned = crane.trolley_mass * np.array(column) @ velocity
+            for moved, sign in ((rates, 1.0), (0.0 * rates, -1.0)):
+                turned += sign * slewing_torque(crane, outer, moved.tolist(), (-along * n * (sign > 0.0)).tolist())
+            found[-1] += polynomial(after[SLEWING], 0.0)[1] * turned
         return found
 
     def _row(self, section: int, width: int) -> Floats:

@@ -208,8 +208,8 @@ def _rows(model: Equations) -> dict[str, list[int]]:
     n = model.coordinates
     at = {kind: list(range(*rows.indices(n))) for kind, rows in model.parts.items()}
     groups = (
-        at["tower_x"] + at["jib_vertical"] + at.get("luffing", []),
-        at["tower_y"] + at["jib_lateral"],
+        at["tower_x"] + at["jib_vertical"] + at["counter_jib_vertical"] + at.get("luffing", []),
+        at["tower_y"] + at["jib_lateral"] + at["counter_jib_lateral"],
         at["torsion"] + at["slewing"],
         [n],
         [n + 1],

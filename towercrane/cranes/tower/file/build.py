@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from modal import Beam, CraneFrame, EndBody
+from modal import CraneFrame, EndBody
 from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.tower.file.effects import kept_tower, softened
-from towercrane.cranes.tower.file.members import counter_jib_of, crane_on, with_end_body
+from towercrane.cranes.tower.file.members import counter_jib_of, crane_on, jib_of, with_end_body
 from towercrane.cranes.tower.file.plane import heading_of
 from towercrane.cranes.tower.modes.parameters import as_chain
 
 if TYPE_CHECKING:
-    from modal import Chain
     from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.parameters import TowerCrane
@@ -22,16 +21,16 @@ if TYPE_CHECKING:
 def crane_of(tables: TowerCase) -> TowerCrane:
     """The crane of a case, on a tower without what the case's tolerance leaves out, with all that its file gives."""
     crane, standing = tables.crane, kept_tower(tables)
-    jib = crane.jib
-    lateral, shaft = None, None
     # Nobody asks a scene in the plane for torsion; sections of a lattice take a few milliseconds.
+    shaft = None
     if heading_of(tables) is None or crane.tower.torsional_stiffness is not None:
         from towercrane.cranes.tower.file.torsion import tower_shaft
 
         shaft = tower_shaft(crane, standing.length)
-    if jib.lateral_second_moment_of_area is not None:
-        lateral = Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.lateral_second_moment_of_area)
-    return crane_on(standing, crane, jib_lateral=lateral, shaft=shaft, roll_inertia=crane.roll_inertia)
+    return crane_on(
+        standing, crane, jib_lateral=jib_of(crane, "lateral"), shaft=shaft, roll_inertia=crane.roll_inertia,
+        counter_jib_lateral=counter_jib_of(crane, "lateral"),
+    )  # fmt: skip
 
 
 def crane_frame(tables: TowerCase, *, weight: bool = False) -> CraneFrame:
@@ -46,27 +45,18 @@ def crane_frame(tables: TowerCase, *, weight: bool = False) -> CraneFrame:
     weight : bool
         Whether the weight softens the tower.
     """
-    counter_jib = counter_jib_of(tables.crane)
-    crane, load = crane_of(tables), tables.payload
-    return frame_of(crane, load.mass, tables.rope.length, weight=weight, counter_jib=counter_jib)
+    return frame_of(crane_of(tables), tables.payload.mass, tables.rope.length, weight=weight)
 
 
-def frame_of(
-    crane: TowerCrane,
-    payload_mass: float,
-    rope_length: float,
-    *,
-    weight: bool = False,
-    counter_jib: Chain | None = None,
-) -> CraneFrame:
-    """A crane with its load in their common vertical plane; without a counter-jib of its own, that is rigid."""
+def frame_of(crane: TowerCrane, payload_mass: float, rope_length: float, *, weight: bool = False) -> CraneFrame:
+    """A crane with its load in their common vertical plane."""
     tower = as_chain(crane.tower)
-    if counter_jib is None:
+    if crane.counter_jib is None:
         tower = with_end_body(tower, EndBody(crane.counter_mass, crane.counter_inertia))
     return CraneFrame(
         tower=replace(tower, gravity=crane.gravity if weight else 0.0),
         jib=as_chain(crane.jib),
-        counter_jib=counter_jib,
+        counter_jib=crane.counter_jib,
         trolley_mass=crane.trolley_mass,
         payload_mass=payload_mass,
         rope_length=rope_length,
@@ -85,17 +75,30 @@ def described_model(tables: TowerCase, **changes: Any) -> dict[str, Any]:
     """What a case says of its model, by the arguments of
     :func:`towercrane.cranes.tower.crane_model.tower_crane_model`."""
     from towercrane.cranes.tower.crane_model import MODE_KINDS
-    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+    from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 
     heading = heading_of(tables)
     chosen = {
-        **{key: getattr(tables.model, key) for key in MODE_KINDS},
+        **asked_modes(tables),
         "weight_softening": softened(tables),
         "planar": heading is not None,
         "heading": heading or 0.0,
     } | changes
     counts = ModeCounts(*(chosen.pop(key) for key in MODE_KINDS))
     return {**described_scene(tables), "modes": counts, **chosen}
+
+
+def asked_modes(tables: TowerCase) -> dict[str, int]:
+    """Number of modes of each kind that a case takes; of a counter-jib one of each kind that its file gives."""
+    from towercrane.cranes.tower.crane_model import MODE_KINDS
+
+    jib = tables.crane.counter_jib
+    bends = {
+        "counter_jib_vertical_modes": jib.bends,
+        "counter_jib_lateral_modes": jib.bends and counter_jib_of(tables.crane, "lateral") is not None,
+    }
+    stated = {kind: getattr(tables.model, kind) for kind in MODE_KINDS}
+    return {kind: int(bends[kind]) if count is None else count for kind, count in stated.items()}
 
 
 def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[str, Any]:
@@ -125,6 +128,8 @@ def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[
             model.torsion_damping_ratio,
             model.jib_lateral_damping_ratio,
             model.jib_vertical_damping_ratio,
+            model.counter_jib_lateral_damping_ratio,
+            model.counter_jib_vertical_damping_ratio,
         ),
         "drive": drive,
         "drive_inertia": crane.drive.inertia if drive is not None and crane.drive is not None else 0.0,

@@ -46,18 +46,23 @@ class Accuracy(Asked):
 class Model(Table):
     """Modes that the model includes, zero for what is rigid; those of the tower count in both directions.
 
-    A scene in the jib's plane takes those of the tower and of the jib up and down.
+    A scene in the jib's plane takes those of the tower and of the jibs up and down. A counter-jib whose stiffness is
+    given takes one of a kind by default.
     """
 
     tower_modes: ModeCount = 2
     torsion_modes: ModeCount = 1
     jib_lateral_modes: ModeCount = 2
     jib_vertical_modes: ModeCount = 3
+    counter_jib_lateral_modes: ModeCount | None = None
+    counter_jib_vertical_modes: ModeCount | None = None
     weight_softening: StrictBool = False
     tower_damping_ratio: Ratio = 0.0
     torsion_damping_ratio: Ratio = 0.0
     jib_lateral_damping_ratio: Ratio = 0.0
     jib_vertical_damping_ratio: Ratio = 0.0
+    counter_jib_lateral_damping_ratio: Ratio = 0.0
+    counter_jib_vertical_damping_ratio: Ratio = 0.0
 
 
 class Wind(Table):

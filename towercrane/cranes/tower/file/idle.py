@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from modal import Foundation
+from towercrane.cranes.tower.file.build import asked_modes
 from towercrane.cranes.tower.file.members import beam_choice, foundation_of
 from towercrane.cranes.tower.file.plane import stays_in_plane
 from towercrane.cranes.tower.file.torsion import KEYS
@@ -13,6 +14,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from towercrane.cranes.tower.file.case_tables import TowerCase
+
+SIDEWAYS = "second_moment_of_area", "shear_stiffness", "rotary_inertia_per_length"
+"""What a jib's bending to its sides has of its own."""
 
 
 def idle(tables: TowerCase, *, exact_crane: bool = False, all_modes: bool = False) -> Iterator[str]:
@@ -28,8 +32,13 @@ def idle(tables: TowerCase, *, exact_crane: bool = False, all_modes: bool = Fals
     """
     crane, model = tables.crane, tables.model
     planar = exact_crane or stays_in_plane(tables)
+<<<<<<< HEAD
     rigid = planar or not (model.torsion_modes or all_modes)
     if not exact_crane:
+=======
+    counter_jib = 0 if exact_crane else asked_modes(tables)["counter_jib_vertical_modes"]
+    if not (exact_crane or all_modes or counter_jib):
+>>>>>>> 33ff174 (Jibs and counter-jibs of segments in crane files: beams, lattices, bodies; modes of the counter-jib)
         yield from ("crane.counter_jib.youngs_modulus", "crane.counter_jib.second_moment_of_area")
     if not crane.tower.segments:
         if beam_choice(crane.tower, crane.tower) != "stated":
@@ -42,7 +51,8 @@ def idle(tables: TowerCase, *, exact_crane: bool = False, all_modes: bool = Fals
         yield from (f"crane.tower.{key}" for key in KEYS)
         yield from (f"crane.tower.collars.{k}.torsional_stiffness" for k in range(len(crane.tower.collars)))
     if planar or not (model.jib_lateral_modes or all_modes):
-        yield "crane.jib.lateral_second_moment_of_area"
+        pieces = [f"segments.{number}." for number, _ in enumerate(crane.jib.segments)] or [""]
+        yield from (f"crane.jib.{piece}lateral_{name}" for piece in pieces for name in SIDEWAYS)
     if planar:
         yield "crane.roll_inertia"
     if planar or tables.motion.shaft is None:

@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from math import inf
 
+from modal.lattices.jib import Shape, Side  # noqa: TC001 - pydantic reads annotations when the class is made
+from modal.lattices.section import Lacing  # noqa: TC001
 from towercrane.schema.fields import (
+    Area,
+    AreaIfAny,
+    AreaOrNone,
+    Density,
     InertiaOrNone,
     Length,
     LengthIfAny,
     MassIfAny,
     MassOrNone,
     MassPerLengthIfAny,
+    MassPerLengthOrNone,
     ModulusIfAny,
     Reach,
     RotaryInertiaPerLength,
@@ -20,6 +27,30 @@ from towercrane.schema.fields import (
 )
 
 
+class JibLattice(Table):
+    """Members of a lattice jib, see :class:`modal.lattices.jib.JibLattice`, with the same keys."""
+
+    height: Length
+    breadth: Length
+    base_chord_area: Area
+    opposite_chord_area: Area
+    panel_length: Length
+    side_diagonal_area: Area
+    base_diagonal_area: Area
+    side_lacing: Lacing = "zigzag"
+    base_lacing: Lacing = "zigzag"
+    side_post_area: AreaOrNone = 0.0
+    base_post_area: AreaOrNone = 0.0
+    shape: Shape = "triangle"
+    side: Side = "up"
+    end_height: LengthIfAny = None
+    opposite_lacing: Lacing | None = None
+    opposite_diagonal_area: AreaIfAny = None
+    opposite_post_area: AreaIfAny = None
+    density: Density = 7850.0
+    further_mass_per_length: MassPerLengthOrNone = 0.0
+
+
 class JibSection(Table):
     """Cross-section of a uniform jib or of a segment; what is lateral is that of bending to the sides."""
 
@@ -27,6 +58,7 @@ class JibSection(Table):
     youngs_modulus: ModulusIfAny = None
     second_moment_of_area: SecondMomentIfAny = None
     lateral_second_moment_of_area: SecondMomentIfAny = None
+    lattice: JibLattice | None = None
     shear_stiffness: ShearStiffness = inf
     lateral_shear_stiffness: ShearStiffness = inf
     rotary_inertia_per_length: RotaryInertiaPerLength = 0.0
@@ -49,7 +81,10 @@ class JibBody(Table):
 
 
 class Jib(JibSection):
-    """Jib, uniform or of segments. Which keys belong together is for :mod:`towercrane.cranes.tower.file.jib_checks`."""
+    """Jib, uniform or of segments.
+
+    Which keys belong together is for :mod:`towercrane.cranes.tower.file.checks.jib`.
+    """
 
     length: LengthIfAny = None
     segments: tuple[JibSegment, ...] = ()
@@ -65,7 +100,7 @@ class Jib(JibSection):
 
     @property
     def reach(self) -> float:
-        """Its length [m]: the stated one, which the segments' sum may miss by rounding, is not asked."""
+        """Its length [m], of segments their sum: the stated one may miss that by rounding."""
         return sum(piece.length for piece in self.pieces)
 
 
@@ -83,4 +118,4 @@ class CounterJib(Jib):
     def bends(self) -> bool:
         """Whether its stiffness is given."""
         pieces = self.pieces
-        return bool(pieces) and all(piece.second_moment_of_area is not None for piece in pieces)
+        return bool(pieces) and all(piece.second_moment_of_area or piece.lattice for piece in pieces)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from modal import Beam, Chain, Collar, ColumnTruss, EndBody, Foundation, LacedColumn, Segment
+from modal.lattices.jib import JibLattice
 from modal.lattices.lattice_taper import column_segments
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 
 if TYPE_CHECKING:
+    from towercrane.cranes.tower.file.jib_tables import Jib, JibSegment
     from towercrane.cranes.tower.file.tables import Crane
     from towercrane.cranes.tower.file.tower_tables import BeamChoice, Lattice, Section, Tower, TowerSegment
 
@@ -146,19 +148,63 @@ def joined(first: EndBody, second: EndBody) -> EndBody:
     return EndBody(mass, inertia, offset)
 
 
-def jib_of(crane: Crane) -> Beam:
-    """The jib of a checked crane file."""
+Plane = Literal["vertical", "lateral"]
+
+
+def jib_of(crane: Crane, plane: Plane = "vertical") -> Beam | Chain | None:
+    """The jib of a checked crane file in bending up and down or to its sides; None where the file does not say."""
     jib = crane.jib
-    return Beam(jib.length, jib.mass_per_length, jib.youngs_modulus, jib.second_moment_of_area)
+    (first, *more), prefix = jib.pieces, "lateral_" if plane == "lateral" else ""
+    inertia: float | None = getattr(first, f"{prefix}second_moment_of_area")
+    plain = getattr(first, f"{prefix}shear_stiffness") == inf and first.rotary_inertia_per_length == 0.0
+    if not more and not jib.bodies and first.lattice is None and plain and first.lateral_shear_stiffness == inf:
+        modulus, mass = first.youngs_modulus or jib.youngs_modulus, first.mass_per_length
+        assert modulus is not None, "the file is checked to give one"
+        return None if inertia is None else Beam(first.length, _spread(first) or mass or 0.0, modulus, inertia)
+    return _jib_chain(jib, plane)
 
 
-def counter_jib_of(crane: Crane) -> Chain | None:
-    """The counter-jib with its counterweight; None where it is rigid."""
+def counter_jib_of(crane: Crane, plane: Plane = "vertical") -> Chain | None:
+    """The counter-jib with its bodies and the counterweight; None where it is rigid, or not described in a plane."""
     jib = crane.counter_jib
-    if jib.youngs_modulus is None or jib.second_moment_of_area is None:
-        return None
-    segment = Segment(jib.length, jib.mass_per_length, jib.youngs_modulus * jib.second_moment_of_area)
-    return Chain((segment,), {1: EndBody(jib.counterweight)})
+    chain = _jib_chain(jib, plane) if jib.bends else None
+    if chain is None or not jib.counterweight:
+        return chain
+    end = len(chain.segments)
+    weight = joined(chain.bodies.get(end, EndBody()), EndBody(jib.counterweight))
+    return replace(chain, bodies={**chain.bodies, end: weight})
+
+
+def _jib_chain(jib: Jib, plane: Plane) -> Chain | None:
+    segments: list[Segment] = []
+    for piece in jib.pieces:
+        modulus = piece.youngs_modulus or jib.youngs_modulus
+        assert modulus is not None, "the file is checked to give one"
+        if piece.lattice is not None:
+            lattice = JibLattice(**dict(piece.lattice), youngs_modulus=modulus)
+            segments += lattice.segments(piece.length, plane, _spread(piece))
+            continue
+        prefix = "lateral_" if plane == "lateral" else ""
+        inertia, shear, rotary = (
+            getattr(piece, f"{prefix}{name}")
+            for name in ("second_moment_of_area", "shear_stiffness", "rotary_inertia_per_length")
+        )
+        if inertia is None:
+            return None
+        mass = _spread(piece)
+        assert mass is not None, "the file is checked to give one"
+        segments.append(Segment(piece.length, mass, modulus * inertia, shear, rotary))
+    chain = Chain(tuple(segments))
+    for body in jib.bodies:
+        chain, node = chain.with_node(min(body.position, chain.length))
+        more = joined(chain.bodies.get(node, EndBody()), EndBody(body.mass, body.rotary_inertia))
+        chain = replace(chain, bodies={**chain.bodies, node: more})
+    return chain
+
+
+def _spread(piece: JibSegment) -> float | None:
+    """Mass per length of a piece [kg/m], stated or from its whole mass."""
+    return piece.mass_per_length if piece.mass is None else piece.mass / piece.length
 
 
 def crane_on(tower: Beam | Chain, crane: Crane, **aside: Any) -> TowerCrane:
@@ -166,13 +212,16 @@ def crane_on(tower: Beam | Chain, crane: Crane, **aside: Any) -> TowerCrane:
 
     Keyword arguments are what a :class:`towercrane.cranes.tower.modes.parameters.TowerCrane` has out of that plane.
     """
+    jib, counter, rigid = jib_of(crane), counter_jib_of(crane), crane.counter_jib
+    assert jib is not None, "the file is checked to give its stiffness"
     return TowerCrane(
         name=crane.name,
         tower=tower,
-        jib=jib_of(crane),
-        counter_jib_length=crane.counter_jib.length,
-        counter_jib_mass_per_length=crane.counter_jib.mass_per_length,
-        counterweight=crane.counter_jib.counterweight,
+        jib=jib,
+        counter_jib_length=counter.length if counter is not None else rigid.reach,
+        counter_jib_mass_per_length=0.0 if counter is not None else rigid.mass_per_length or 0.0,
+        counterweight=0.0 if counter is not None else rigid.counterweight,
+        counter_jib=counter,
         trolley_mass=crane.trolley.mass,
         gravity=crane.gravity,
         **aside,

@@ -25,7 +25,7 @@ def modes_of(tables: TowerCase, trolley: Motion) -> ModesRequest:
 
 def map_of(tables: TowerCase) -> MapRequest:
     """Where the frequency map is taken."""
-    asked, jib, load = tables.map, tables.crane.jib.length, tables.payload.mass
+    asked, jib, load = tables.map, tables.crane.jib.reach, tables.payload.mass
     steps = asked.position_count - 1
     positions = asked.trolley_positions or tuple(jib * i / steps for i in range(steps + 1))
     masses = asked.payload_masses or (0.5 * load, load, 2.0 * load)
@@ -42,8 +42,8 @@ def targets_of(tables: TowerCase) -> Targets:
 
 
 def modes_that_move(tables: TowerCase) -> dict[str, str]:
-    """Kinds of modes that move in a scene, by the key that counts them."""
-    named = zip(MODE_KINDS, ("tower", "torsion", "lateral", "vertical"), strict=True)
+    """Kinds of modes that move in a scene, by the key that counts them; a counter-jib bends as the case has it."""
+    named = zip(MODE_KINDS, ("tower", "torsion", "lateral", "vertical"), strict=False)
     return {key: word for key, word in named if key in moving(stays_in_plane(tables))}
 
 

@@ -7,46 +7,15 @@ from typing import Literal
 from pydantic import Field
 
 from towercrane.cranes.parts.tables import CraneTable, Drive, Friction
+from towercrane.cranes.tower.file.jib_tables import CounterJib, Jib  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.file.tower_tables import Foundation, Tower
 from towercrane.schema.fields import (
     AreaOrNone,
     InertiaOrNone,
-    Length,
     MassOrNone,
-    MassPerLength,
-    MassPerLengthOrNone,
-    Modulus,
-    ModulusIfAny,
     PressedLength,
-    Reach,
-    SecondMoment,
-    SecondMomentIfAny,
     Table,
 )
-
-
-class Jib(Table):
-    """Jib as a uniform beam; the lateral second moment of area is that of bending to its sides."""
-
-    length: Length
-    mass_per_length: MassPerLength
-    youngs_modulus: Modulus
-    second_moment_of_area: SecondMoment
-    lateral_second_moment_of_area: SecondMomentIfAny = None
-
-
-class CounterJib(Table):
-    """Counter-jib with the counterweight at its end.
-
-    It is rigid in the equations of motion. Modulus and second moment of area, both or none, let it bend in the exact
-    frequencies of the crane, see :func:`towercrane.cranes.tower.file.build.crane_frame`.
-    """
-
-    length: Reach
-    mass_per_length: MassPerLengthOrNone
-    counterweight: MassOrNone
-    youngs_modulus: ModulusIfAny = None
-    second_moment_of_area: SecondMomentIfAny = None
 
 
 class Trolley(Table):

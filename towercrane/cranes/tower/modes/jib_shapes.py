@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from modal import Chain, Modes
     from modal.structures.chain_modes import ChainModes
-    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+    from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from modal.beams.torsion import torsion_modes
-from modal.checks import whole_number
 from towercrane.cranes.parts import wind
 from towercrane.cranes.tower.modes.jib_shapes import shapes_of
 
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from modal.structures.chain_modes import ChainModes
     from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
     from towercrane.cranes.tower.modes.mass_sums import Basis, MassSums
+    from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
 
     Floats = NDArray[np.float64]
@@ -46,39 +46,6 @@ class TorsionBasis(Protocol):
 
     def with_stiffness(self, factor: float) -> TorsionBasis:
         """As many shapes of a tower so many times as stiff."""
-
-
-@dataclass(frozen=True, slots=True)
-class ModeCounts:
-    """Numbers of modes of each kind, zero for what is rigid.
-
-    Parameters
-    ----------
-    tower : int
-        Bending, in each direction: unlike numbers would make the tower stiffer one way than the other.
-    torsion : int
-        Of the tower.
-    lateral, vertical : int
-        Of the jib.
-    counter_lateral, counter_vertical : int
-        Of the counter-jib.
-
-    Raises
-    ------
-    ValueError
-        If one is no whole number of zero or more.
-    """
-
-    tower: int = 1
-    torsion: int = 1
-    lateral: int = 1
-    vertical: int = 1
-    counter_lateral: int = 0
-    counter_vertical: int = 0
-
-    def __post_init__(self) -> None:
-        for name in self.__slots__:
-            whole_number(f"ModeCounts.{name}", getattr(self, name))
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""What of a crane file's tower and counter-jib belongs together, checked on the tables as written."""
+"""What of a crane file's tower belongs together, checked on the tables as written."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ MISSING = "nothing: the key is missing"
 
 
 def check_tower(tree: dict[str, Any]) -> Iterator[Fault]:
-    """Faults of a tower crane's tower, of its bodies and of its counter-jib as wholes.
+    """Faults of a tower crane's tower and of what it bears as wholes.
 
     Keys that are wrong by themselves are for others to report.
     """
     tower = at(tree, TOWER)
     if isinstance(tower, dict):
-        segments = _tables(tower.get("segments"))
+        segments = tables_in(tower.get("segments"))
         both = [name for name in UNIFORM if name in tower]
         if segments and both:
             hint = "the segments have keys of their own; youngs_modulus and beam may stay with the tower"
@@ -47,20 +47,20 @@ def check_tower(tree: dict[str, Any]) -> Iterator[Fault]:
         for key, section in ((TOWER, tower), *_numbered("segments", segments)):
             yield from _check_lattice(f"{key}.lattice", section.get("lattice"))
         for name in ("bodies", "collars"):
-            yield from _check_heights(name, _tables(tower.get(name)), tower_height(tree))
-        yield from _check_apart(_tables(tower.get("collars")))
+            yield from _check_heights(name, tables_in(tower.get(name)), tower_height(tree))
+        yield from _check_apart(tables_in(tower.get("collars")))
     yield from _check_coupling(tree)
-    yield from _check_counter_jib(tree)
 
 
 def tower_height(tree: dict[str, Any]) -> float | None:
     """Height of a crane's tower, stated or the sum of its segments [m]; None where it is not known."""
     height = si_at(tree, f"{TOWER}.height", "m")
-    return _sum_of_segments(tree) if height is None else height if height > 0.0 else None
+    return sum_of_segments(tree, TOWER) if height is None else height if height > 0.0 else None
 
 
-def _sum_of_segments(tree: dict[str, Any]) -> float | None:
-    segments = _tables(at(tree, f"{TOWER}.segments"))
+def sum_of_segments(tree: dict[str, Any], member: str) -> float | None:
+    """Sum of the lengths of a member's segments [m]; None where one is not known."""
+    segments = tables_in(at(tree, f"{member}.segments"))
     lengths = [si_at(segment, "length", "m") for segment in segments]
     known = [length for length in lengths if length is not None and length > 0.0]
     return sum(known) if known and len(known) == len(lengths) else None
@@ -69,11 +69,11 @@ def _sum_of_segments(tree: dict[str, Any]) -> float | None:
 def _check_uniform(tower: dict[str, Any]) -> Iterator[Fault]:
     """What a uniform tower lacks, and a beam that its keys do not give."""
     needed = {"height": "m", "mass_per_length": "kg/m", "youngs_modulus": "Pa"}
-    yield from _missing(TOWER, tower, needed, Tower.model_fields)
+    yield from missing(TOWER, tower, needed, Tower.model_fields)
     chosen = tower.get("beam") or ("stated" if "second_moment_of_area" in tower else "shear-flexible")
     key = f"{TOWER}.second_moment_of_area"
     if "lattice" not in tower and "second_moment_of_area" not in tower:
-        if not _meant(tower, Tower.model_fields) & {"lattice", "second_moment_of_area"}:
+        if not meant(tower, Tower.model_fields) & {"lattice", "second_moment_of_area"}:
             yield Fault("", key, f"{wanted('m^4')}, or a table [tower.lattice]", MISSING)
     elif chosen == "stated" and "second_moment_of_area" not in tower:
         hint = "without the key beam the lattice gives the beam"
@@ -98,9 +98,9 @@ def _check_segments(tree: dict[str, Any], tower: dict[str, Any], segments: list[
         yield Fault("", f"{TOWER}.beam", what, shown(chosen), hint)
     for key, segment in _numbered("segments", segments):
         if "youngs_modulus" not in tower:
-            yield from _missing(key, segment, {"youngs_modulus": "Pa"}, TowerSegment.model_fields)
+            yield from missing(key, segment, {"youngs_modulus": "Pa"}, TowerSegment.model_fields)
         yield from _check_section(key, segment)
-    height, total = si_at(tree, f"{TOWER}.height", "m"), _sum_of_segments(tree)
+    height, total = si_at(tree, f"{TOWER}.height", "m"), sum_of_segments(tree, TOWER)
     if height and total and abs(height - total) > ROUNDING * total:
         got = f"{shown(tower['height'])}"
         hint = "a segment is missing or counted twice? height may be left out"
@@ -115,7 +115,7 @@ def _check_section(key: str, segment: dict[str, Any]) -> Iterator[Fault]:
         what = "one of second_moment_of_area and lattice in a segment"
         yield Fault("", name, what, f"{shown(segment['second_moment_of_area'])} beside a lattice", "leave one out")
     elif not stated and not laced:
-        if not _meant(segment, TowerSegment.model_fields) & {"lattice", "second_moment_of_area"}:
+        if not meant(segment, TowerSegment.model_fields) & {"lattice", "second_moment_of_area"}:
             yield Fault("", name, f"{wanted('m^4')}, or a lattice of the segment", MISSING)
     elif laced:
         if "shear_stiffness" in segment:
@@ -189,37 +189,20 @@ def _check_coupling(tree: dict[str, Any]) -> Iterator[Fault]:
             yield Fault("", f"{key}.coupling_stiffness", f"less than {limit:.4g} N in either sense", got, hint)
 
 
-def _check_counter_jib(tree: dict[str, Any]) -> Iterator[Fault]:
-    """A counter-jib that is half flexible."""
-    key = "crane.counter_jib"
-    jib = at(tree, key)
-    names = {"youngs_modulus": "Pa", "second_moment_of_area": "m^4"}
-    if not isinstance(jib, dict) or not set(names) & set(jib):
-        return
-    for name, unit in names.items():
-        if name not in jib:
-            hint = "a counter-jib without both is rigid"
-            yield Fault("", f"{key}.{name}", f"{wanted(unit)}, for a counter-jib that bends", MISSING, hint)
-    for name, unit in (("length", "m"), ("mass_per_length", "kg/m")):
-        if si_at(jib, name, unit) == 0.0:
-            hint = "without length or mass it is rigid: leave youngs_modulus and second_moment_of_area out"
-            yield Fault("", f"{key}.{name}", f"{wanted(unit)}, above 0 for a counter-jib that bends", "0", hint)
-
-
-def _missing(key: str, table: dict[str, Any], needed: dict[str, str], known: Iterable[str]) -> Iterator[Fault]:
+def missing(key: str, table: dict[str, Any], needed: dict[str, str], known: Iterable[str]) -> Iterator[Fault]:
     """Keys that are not there, unless a misspelt one is."""
     for name, unit in needed.items():
-        if name not in table and name not in _meant(table, known):
+        if name not in table and name not in meant(table, known):
             yield Fault("", f"{key}.{name}", wanted(unit), MISSING)
 
 
-def _meant(table: dict[str, Any], known: Iterable[str]) -> set[str | None]:
+def meant(table: dict[str, Any], known: Iterable[str]) -> set[str | None]:
     """Known keys that unknown ones are closest to."""
     names = list(known)
     return {closest(name, names) for name in table if name not in names}
 
 
-def _tables(value: object) -> list[dict[str, Any]]:
+def tables_in(value: object) -> list[dict[str, Any]]:
     """The tables of a list; what is no list of tables is for others to report."""
     return value if isinstance(value, list) and all(isinstance(item, dict) for item in value) else []
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.tower.file.case_tables import Model
+from towercrane.cranes.tower.file.checks.tower import tables_in
 from towercrane.cranes.tower.file.plane import heading_written
 from towercrane.cranes.tower.targets import ALL, absent
 from towercrane.schema.faults import Fault, shown
@@ -18,7 +19,6 @@ MISSING = "nothing: the key is missing"
 
 NEEDED = {
     "torsion_modes": (("tower.torsional_stiffness", "N m^2"), ("tower.torsional_inertia_per_length", "kg m^2/m")),
-    "jib_lateral_modes": (("jib.lateral_second_moment_of_area", "m^4"),),
 }
 """What of the crane modes of a kind need, and its unit."""
 
@@ -40,7 +40,10 @@ def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
         yield from _check_outputs(tree, absent(heading))
     else:
         yield from _check_members(tree)
+        yield from _check_bending(tree, "lateral")
         yield from _check_force(tree)
+    if at(tree, "model.counter_jib_vertical_modes"):
+        yield from _check_bending(tree, "vertical")
     yield from _check_drive(tree)
     yield from _check_wind(tree)
 
@@ -76,10 +79,34 @@ def _check_members(tree: dict[str, Any]) -> Iterator[Fault]:
             continue
         for key, unit in keys:
             if at(tree, f"crane.{key}") is None and isinstance(at(tree, f"crane.{key.partition('.')[0]}"), dict):
+<<<<<<< HEAD:towercrane/cranes/tower/file/scene_checks.py
                 hint = f"model.{modes} = 0 leaves it rigid"
                 if modes == "torsion_modes":
                     hint += "; a lattice of the whole tower gives it as well"
                 yield Fault("", f"crane.{key}", f"{wanted(unit)}, for model.{modes} = {count}", MISSING, hint)
+=======
+                yield _undescribed(f"crane.{key}", unit, modes, count)
+
+
+def _check_bending(tree: dict[str, Any], plane: str) -> Iterator[Fault]:
+    """Modes of jibs whose file does not say how they bend to their sides, or of a counter-jib up and down."""
+    name = "lateral_second_moment_of_area" if plane == "lateral" else "second_moment_of_area"
+    for member in ("jib", "counter_jib"):
+        jib, key = at(tree, f"crane.{member}"), f"{member}_{plane}_modes"
+        count = at(tree, f"model.{key}")
+        count = Model.model_fields[key].default if count is None else count
+        if not isinstance(jib, dict) or not (isinstance(count, int) and count > 0):
+            continue
+        pieces = [(f"crane.{member}.segments.{k}", own) for k, own in enumerate(tables_in(jib.get("segments")))]
+        for place, piece in pieces or [(f"crane.{member}", jib)]:
+            if name not in piece and "lattice" not in piece:
+                yield _undescribed(f"{place}.{name}", "m^4", key, count)
+
+
+def _undescribed(key: str, unit: str, modes: str, count: int) -> Fault:
+    what = f"{wanted(unit)}, for model.{modes} = {count}"
+    return Fault("", key, what, MISSING, f"model.{modes} = 0 leaves it rigid")
+>>>>>>> 33ff174 (Jibs and counter-jibs of segments in crane files: beams, lattices, bodies; modes of the counter-jib):towercrane/cranes/tower/file/checks/scene.py
 
 
 def _laced_throughout(tree: dict[str, Any]) -> bool:

@@ -1,0 +1,1 @@
+"""What belongs together in a tower crane's files, checked as written. Never imports equations or outputs."""
