@@ -8,7 +8,7 @@ from modal.beams.torsion import Shaft
 from towercrane.cranes.tower.luffing_model import LuffingModel
 from towercrane.cranes.tower.modes.luffing_crane import luffing_crane
 from towercrane.cranes.tower.modes.luffing_jib import HeadBody, LuffingJib
-from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 from towercrane.kernels.payload import Load
 

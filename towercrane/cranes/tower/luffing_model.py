@@ -37,7 +37,7 @@ def pivoting(model: FlexibleModel) -> Luffing:
     assert written is not None, "it is made of its parameters"
     own, length = luffing_of(written), crane.jib_length
     shortening, weighted = products(written, crane.lateral, crane.vertical)
-    rest, (along, mass) = own.rest_sums(written), own.points_of(written.jib)
+    rest, (along, mass) = own.rest_sums(written), own.points_of(written.uniform_jib)
     none = [np.zeros(basis.count) for basis in (crane.lateral, crane.vertical)]
     return Luffing(
         foot=np.array(own.foot),

@@ -32,13 +32,9 @@ def idle(tables: TowerCase, *, exact_crane: bool = False, all_modes: bool = Fals
     """
     crane, model = tables.crane, tables.model
     planar = exact_crane or stays_in_plane(tables)
-<<<<<<< HEAD
     rigid = planar or not (model.torsion_modes or all_modes)
-    if not exact_crane:
-=======
     counter_jib = 0 if exact_crane else asked_modes(tables)["counter_jib_vertical_modes"]
     if not (exact_crane or all_modes or counter_jib):
->>>>>>> 33ff174 (Jibs and counter-jibs of segments in crane files: beams, lattices, bodies; modes of the counter-jib)
         yield from ("crane.counter_jib.youngs_modulus", "crane.counter_jib.second_moment_of_area")
     if not crane.tower.segments:
         if beam_choice(crane.tower, crane.tower) != "stated":

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 
 from modal.lattices.jib import Shape, Side  # noqa: TC001 - pydantic reads annotations when the class is made
-from modal.lattices.section import Lacing  # noqa: TC001
+from modal.lattices.walls import Lacing  # noqa: TC001
 from towercrane.schema.fields import (
     Area,
     AreaIfAny,
@@ -16,10 +16,12 @@ from towercrane.schema.fields import (
     LengthIfAny,
     MassIfAny,
     MassOrNone,
+    MassPerLengthFromNone,
     MassPerLengthIfAny,
     MassPerLengthOrNone,
     ModulusIfAny,
     Reach,
+    ReachIfAny,
     RotaryInertiaPerLength,
     SecondMomentIfAny,
     ShearStiffness,
@@ -111,7 +113,8 @@ class CounterJib(Jib):
     frequencies of the crane.
     """
 
-    length: Reach | None = None
+    length: ReachIfAny = None
+    mass_per_length: MassPerLengthFromNone = None
     counterweight: MassOrNone = 0.0
 
     @property

@@ -92,15 +92,9 @@ class Collar(Table):
 class Tower(Section):
     """Tower: a uniform beam, or segments from the foot up.
 
-<<<<<<< HEAD
-    Which keys belong together is for :mod:`towercrane.cranes.tower.file.checks`. Roots that the source of a uniform
-    tower prints are shown beside the computed ones. Stated torsion is that of one uniform shaft from the foot to the
-    top; without it a lattice gives it piece by piece. It matters to a scene that leaves the plane alone.
-=======
     Which keys belong together is for :mod:`towercrane.cranes.tower.file.checks.tower`. Roots that the source of a
-    uniform tower prints are shown beside the computed ones. Torsion is that of one uniform shaft from the foot to the top,
-    whatever the tower bends like, and matters to a scene that leaves the plane alone.
->>>>>>> 33ff174 (Jibs and counter-jibs of segments in crane files: beams, lattices, bodies; modes of the counter-jib)
+    uniform tower prints are shown beside the computed ones. Stated torsion is that of one uniform shaft from the foot
+    to the top; without it a lattice gives it piece by piece. It matters to a scene that leaves the plane alone.
     """
 
     height: LengthIfAny = None

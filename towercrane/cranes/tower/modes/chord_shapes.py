@@ -96,6 +96,10 @@ class ChordShapes:
         """Moment of momentum of the sections' own rotary inertia, shape (n,): none here."""
         return np.zeros(self.count)
 
+    def rotary_matrix(self) -> Floats:
+        """What that adds to the mass matrix, shape (n, n)."""
+        return np.zeros((self.count, self.count))
+
     def deflection_integrals(self) -> Floats:
         """Integrals ``int phi dx`` [m kg^-1/2], shape (n,)."""
         return self.mass_moments()[0] / self.beam.mass_per_length

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from modal.beams.beam import EndBody
-from modal.beams.shapes import cantilever_modes
 from towercrane.cranes.tower.modes.chord_shapes import ChordShapes
 from towercrane.cranes.tower.modes.mass_sums import point_sums, rigid_sums
 from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane, torsion_of
+from towercrane.cranes.tower.modes.parameters import modes_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
     from towercrane.cranes.tower.modes.mass_sums import Basis
-    from towercrane.cranes.tower.modes.modal_crane import ModeCounts
+    from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
 
     Floats = NDArray[np.float64]
@@ -50,8 +50,9 @@ def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> Flexible
         Directions in which the tower bends.
     """
     own = luffing_of(crane)
-    lateral = cantilever_modes(crane.jib_lateral or crane.jib, modes.lateral, EndBody(own.tip_mass))
-    vertical = ChordShapes(crane.jib, modes.vertical)
+    jib, lateral_jib = crane.uniform_jib, crane.jib_lateral
+    lateral = modes_of(lateral_jib or jib, modes.lateral, EndBody(own.tip_mass))
+    vertical = ChordShapes(jib, modes.vertical)
     rest = own.rest_sums(crane)
     return FlexibleCrane(
         name=crane.name,
@@ -61,7 +62,7 @@ def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> Flexible
         torsion=torsion_of(crane, modes.torsion),
         lateral=lateral,
         vertical=vertical,
-        jib=point_sums(*own.points_of(crane.jib), lateral, vertical),
+        jib=point_sums(*own.points_of(jib), lateral, vertical),
         counter=rigid_sums(rest.mass, rest.forward, rest.yy, modes.lateral + modes.vertical),
         tower_mass=crane.tower_mass,
         trolley_mass=0.0,

@@ -28,7 +28,7 @@ class Turning(Protocol):
     :class:`towercrane.cranes.tower.modes.parameters.TowerCrane`."""
 
     @property
-    def jib(self) -> Beam:
+    def uniform_jib(self) -> Beam:
         """The jib."""
 
     @property
@@ -158,7 +158,7 @@ class LuffingJib:
 
     def standing_sums(self, crane: Turning) -> RigidSums:
         """Of all that turns, the jib straight at its reference angle."""
-        along, mass = self.points_of(crane.jib)
+        along, mass = self.points_of(crane.uniform_jib)
         (x, z), angle = self.foot, self.reference_angle
         return self.rest_sums(crane).with_points(mass, x + along * cos(angle), z + along * sin(angle))
 

@@ -123,6 +123,19 @@ class TowerCrane:
         return mass, first, second + rotary
 
     @property
+    def uniform_jib(self) -> Beam:
+        """The jib, if it is uniform.
+
+        Raises
+        ------
+        ValueError
+            If it is a chain.
+        """
+        if not isinstance(self.jib, Beam):
+            raise ValueError("TowerCrane.jib: wanted a uniform beam for a jib that pivots, got a chain")
+        return self.jib
+
+    @property
     def joints(self) -> tuple[float, ...]:
         """Places between the ends of the jib at which its sections change or a body sits [m], ascending."""
         members = (self.jib, self.jib_lateral)

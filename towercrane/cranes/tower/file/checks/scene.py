@@ -79,13 +79,8 @@ def _check_members(tree: dict[str, Any]) -> Iterator[Fault]:
             continue
         for key, unit in keys:
             if at(tree, f"crane.{key}") is None and isinstance(at(tree, f"crane.{key.partition('.')[0]}"), dict):
-<<<<<<< HEAD:towercrane/cranes/tower/file/scene_checks.py
-                hint = f"model.{modes} = 0 leaves it rigid"
-                if modes == "torsion_modes":
-                    hint += "; a lattice of the whole tower gives it as well"
-                yield Fault("", f"crane.{key}", f"{wanted(unit)}, for model.{modes} = {count}", MISSING, hint)
-=======
-                yield _undescribed(f"crane.{key}", unit, modes, count)
+                more = "; a lattice of the whole tower gives it as well" if modes == "torsion_modes" else ""
+                yield _undescribed(f"crane.{key}", unit, modes, count, more)
 
 
 def _check_bending(tree: dict[str, Any], plane: str) -> Iterator[Fault]:
@@ -103,10 +98,9 @@ def _check_bending(tree: dict[str, Any], plane: str) -> Iterator[Fault]:
                 yield _undescribed(f"{place}.{name}", "m^4", key, count)
 
 
-def _undescribed(key: str, unit: str, modes: str, count: int) -> Fault:
+def _undescribed(key: str, unit: str, modes: str, count: int, more: str = "") -> Fault:
     what = f"{wanted(unit)}, for model.{modes} = {count}"
-    return Fault("", key, what, MISSING, f"model.{modes} = 0 leaves it rigid")
->>>>>>> 33ff174 (Jibs and counter-jibs of segments in crane files: beams, lattices, bodies; modes of the counter-jib):towercrane/cranes/tower/file/checks/scene.py
+    return Fault("", key, what, MISSING, f"model.{modes} = 0 leaves it rigid{more}")
 
 
 def _laced_throughout(tree: dict[str, Any]) -> bool:
