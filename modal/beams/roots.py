@@ -21,14 +21,15 @@ from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numba import types
 
 from modal.beams.basis import shares
 from modal.checks import check_not_negative, number_in, whole_number
-from modal.compiler.compiled import kernel
+from modal.compiler.native import native
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from modal.compiler.kinds import Row
 
 LARGEST_RATIO = 1e100
 
@@ -67,7 +68,7 @@ def characteristic_roots(
     """
     roots = np.empty(whole_number("count", count, 1))
     _check_ratios(mass_ratio, inertia_ratio, offset_ratio)
-    _find(*shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio), roots)
+    _find_roots(*shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio), roots)
     return roots
 
 
@@ -93,7 +94,7 @@ def count_roots_below(x: float, mass_ratio: float, inertia_ratio: float, *, offs
     """
     check_not_negative("x", x)
     _check_ratios(mass_ratio, inertia_ratio, offset_ratio)
-    return int(_count(float(x), *shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio)))
+    return int(_count_roots(float(x), *shares(mass_ratio), *shares(inertia_ratio), float(offset_ratio)))
 
 
 def _check_ratios(mass_ratio: float, inertia_ratio: float, offset_ratio: float) -> None:
@@ -104,7 +105,6 @@ def _check_ratios(mass_ratio: float, inertia_ratio: float, offset_ratio: float) 
     number_in("offset_ratio", offset_ratio, "a finite number")
 
 
-@kernel()
 def _products(x: float) -> tuple[float, float, float, float, float]:
     """1 + cC, 1 - cC, sC - cS, sC + cS and sS of x, all divided by cosh x.
 
@@ -136,7 +136,6 @@ def _products(x: float) -> tuple[float, float, float, float, float]:
     return sech + c, sech - c, s - c * t, s + c * t, s * t
 
 
-@kernel()
 def _characteristic(x: float, a_body: float, a_beam: float, j_body: float, j_beam: float, h: float) -> float:
     """F over cosh x, (1 + a), (1 + j) and its growth with x, all of them positive.
 
@@ -161,7 +160,6 @@ def _characteristic(x: float, a_body: float, a_beam: float, j_body: float, j_bea
     return float(value / ((a_beam + a_x) * (j_beam + j_x)))
 
 
-@kernel(types.int64(*[types.float64] * 6))
 def _count(x: float, a_body: float, a_beam: float, j_body: float, j_beam: float, h: float) -> int:
     """Number of roots below x, those at zero that infinite ratios leave behind excepted."""
     if x == 0.0:
@@ -187,7 +185,6 @@ def _count(x: float, a_body: float, a_beam: float, j_body: float, j_beam: float,
     return below if below > 0 else 0
 
 
-@kernel(inline=True)
 def _refine(low: float, high: float, a_body: float, a_beam: float, j_body: float, j_beam: float, h: float) -> float:
     """Root of F between two points of opposite sign (Brent 1973, Algorithms for Minimization, ch. 4)."""
     a, b = low, high
@@ -226,8 +223,7 @@ def _refine(low: float, high: float, a_body: float, a_beam: float, j_body: float
     return b
 
 
-@kernel(types.void(*[types.float64] * 5, types.float64[::1]))
-def _find(a_body: float, a_beam: float, j_body: float, j_beam: float, h: float, roots: NDArray[np.float64]) -> None:
+def _find(a_body: float, a_beam: float, j_body: float, j_beam: float, h: float, roots: Row) -> None:
     """Write the first roots in ascending order."""
     at_zero = (1 if a_beam == 0.0 else 0) + (1 if j_beam == 0.0 else 0)
     for k in range(1, roots.size + 1):
@@ -253,3 +249,6 @@ def _find(a_body: float, a_beam: float, j_body: float, j_beam: float, h: float, 
                 low, below_low = middle, below
             middle = 0.5 * (low + high)
         roots[k - 1] = middle
+
+
+_find_roots, _count_roots = native("roots", _find, _count)

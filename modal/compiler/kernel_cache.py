@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import hashlib
 import io
-import os
 import pickle
-import warnings
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 from numba.core import caching, config
 
-from modal.compiler.folder import CacheWarning, obstacle
+from modal.compiler.files import say, sealed, verified
+from modal.compiler.folder import obstacle
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
-
-DIGEST = hashlib.sha256().digest_size
-"""Bytes at the beginning of each file that tell whether the rest is what was written."""
-
 
 # Numba's own classes carry no types, and its settings too narrow ones.
 _caching: Any = caching
@@ -34,7 +28,7 @@ def keep(dispatcher: Any, function: Callable[..., Any], folder: Path, content: s
     text that is equal for equal code.
     """
     if reason := obstacle(folder):
-        _say(f"kernels are compiled each time, for {folder} cannot keep them: {reason}")
+        say(f"kernels are compiled each time, for {folder} cannot keep them: {reason}")
         return
     before, _config.CACHE_DIR = _config.CACHE_DIR, str(folder)
     try:
@@ -45,7 +39,7 @@ def keep(dispatcher: Any, function: Callable[..., Any], folder: Path, content: s
     if kept.cache_path.startswith(str(folder)):
         dispatcher._cache = kept
     else:
-        _say(f"kernels are compiled each time, for {folder} cannot keep them: no right to write in its folders")
+        say(f"kernels are compiled each time, for {folder} cannot keep them: no right to write in its folders")
 
 
 class KernelCache(_caching.FunctionCache):  # type: ignore[misc]
@@ -68,7 +62,7 @@ class KernelCache(_caching.FunctionCache):  # type: ignore[misc]
             return super().load_overload(signature, context)
         # Bytes that are no pickle raise whatever they make of it.
         except Exception as error:
-            _say(f"damaged machine code in {self.cache_path} is compiled anew ({error})")
+            say(f"damaged machine code in {self.cache_path} is compiled anew ({error})")
             with suppress(OSError):
                 self.flush()
             return None
@@ -78,18 +72,15 @@ class KernelCache(_caching.FunctionCache):  # type: ignore[misc]
         try:
             super().save_overload(signature, data)
         except OSError as error:
-            _say(f"machine code cannot be kept in {self.cache_path}: {(error.strerror or str(error)).lower()}")
+            say(f"machine code cannot be kept in {self.cache_path}: {(error.strerror or str(error)).lower()}")
 
 
 class KernelFile(_caching.IndexDataCacheFile):  # type: ignore[misc]
-    """Index and machine code of one kernel; each file begins with a digest of the rest.
-
-    Machine code with a single wrong bit computes wrong numbers or ends the process, and no later check finds it.
-    """
+    """Index and machine code of one kernel; each file begins with a digest of the rest."""
 
     def _load_index(self) -> dict[Any, str]:
         try:
-            content = io.BytesIO(_verified(self._index_path))
+            content = io.BytesIO(verified(self._index_path))
         except FileNotFoundError:
             return {}
         if pickle.load(content) != self._version:
@@ -98,31 +89,11 @@ class KernelFile(_caching.IndexDataCacheFile):  # type: ignore[misc]
         return dict(overloads) if stamp == self._source_stamp else {}
 
     def _load_data(self, name: str) -> Any:
-        return pickle.loads(_verified(self._data_path(name)))
+        return pickle.loads(verified(self._data_path(name)))
 
     @contextmanager
     def _open_for_write(self, path: str) -> Iterator[io.BytesIO]:
         content = io.BytesIO()
         yield content
         with super()._open_for_write(path) as file:
-            file.write(hashlib.sha256(content.getbuffer()).digest())
-            file.write(content.getbuffer())
-
-
-def _verified(path: str) -> bytes:
-    """What a file holds after its digest."""
-    with open(path, "rb") as file:
-        digest, content = file.read(DIGEST), file.read()
-    if hashlib.sha256(content).digest() != digest:
-        raise ValueError(f"{os.path.basename(path)} is not what was written")
-    return content
-
-
-def _say(text: str) -> None:
-    """Warn once in a process, whatever the kernel."""
-    if not _said:
-        _said.append(text)
-        warnings.warn(text, CacheWarning, stacklevel=2)
-
-
-_said: list[str] = []
+            file.write(sealed(content.getvalue()))

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modal.structures.kernels import block_counts, dynamic_stiffness, find_roots, find_runs
+from modal.structures.kernels.blocks import SIZES
 from modal.structures.kernels.piece import TERMS
 from modal.structures.kernels.stiffness import ROWS
-from modal.structures.kernels.structure import block_count, dynamic_stiffness, find_roots, find_runs
 from modal.structures.members import HELD, POINTS, Members
 
 if TYPE_CHECKING:
@@ -86,7 +87,9 @@ class Assembly:
     def roots(self, above: float, below: float, known: int, count: int, *, by_load: bool = False) -> Floats:
         """The next natural angular frequencies [rad/s], or load factors, between two; so many are known below."""
         roots, unit = np.zeros(count), 1.0 if by_load else self.units[2]
-        find_roots(dynamic_stiffness, *self.arrays, by_load, above / unit, below / unit, known, roots)
+        unknowns = self.points.shape[1]
+        scratch, bounds = np.zeros((unknowns + 2, unknowns)), np.zeros((2, count))
+        find_roots(*self.arrays, scratch, bounds, by_load, above / unit, below / unit, known, roots)
         return roots * unit
 
     def stiffness(self, unknowns: int) -> Floats:
@@ -131,11 +134,12 @@ def refined(structure: Members, angular_frequency: float, load: float = 1.0, mos
     squared = (angular_frequency / units[2]) ** 2
     fine = Members(structure.unknowns, shear_theory=structure.shear_theory)
     parts = [part for member in structure.members for part in _even(member, fine)]
-    blocks = [block_count(row_of(part, structure, units), squared, load) for part in parts]
-    longest = max(LONGEST, sum(blocks) // most_runs)
+    blocks = np.zeros(len(parts))
+    block_counts(np.array([row_of(part, structure, units) for part in parts]), squared, load, np.zeros(SIZES), blocks)
+    longest = max(LONGEST, int(blocks.sum()) // most_runs)
     for part, count in zip(parts, blocks, strict=True):
         # Equal ones would all have the same fixed-end frequencies.
-        cut = part.cut(-(-count // longest), len(fine.unknowns), spread=0.1)
+        cut = part.cut(-(-int(count) // longest), len(fine.unknowns), spread=0.1)
         fine.members += cut
         fine.unknowns += ("m", "rad") * (len(cut) - 1)
     for name in POINTS:
@@ -174,9 +178,9 @@ def assembly(
             for column, (i, j) in enumerate(((v, v), (v, theta), (theta, theta))):
                 nodes[s, row, column] = found.get((i, j), 0.0) * scale[name] * size[i] * size[j] / (force * length)
     squared, runs = (angular_frequency / frequency) ** 2, np.zeros((len(segments), 3), dtype=np.int64)
-    longest, number = LONGEST, most_runs + 1
+    scratch, longest, number = np.zeros((4, SIZES)), LONGEST, most_runs + 1
     while number > most_runs and longest <= LONGEST * len(segments):
-        number = find_runs(segments, nodes, free, squared, load, longest, STRONGEST, runs)
+        number = find_runs(segments, nodes, free, squared, load, longest, STRONGEST, scratch, runs)
         longest *= 2
     runs = runs[:number]
 

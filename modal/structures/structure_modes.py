@@ -122,9 +122,9 @@ def _orthonormal(modes: StructureModes) -> Floats:
 def _shapes(fine: Members, omega: Floats) -> tuple[list[Floats], Floats]:
     """Shape along every member (n, p, terms, 5), in SI, and motions of all unknowns (n, u), not yet of unit mass."""
     from modal.structures.assembly import assembly
+    from modal.structures.kernels import piece_ends, run_shape
     from modal.structures.kernels.piece import TERMS
-    from modal.structures.kernels.shapes import run_shape
-    from modal.structures.kernels.structure import piece_ends
+    from modal.structures.kernels.stiffness import ROWS, SLOT
 
     none = np.empty(1)
     motions, counts = np.zeros((omega.size, len(fine.unknowns))), np.empty(0, dtype=int)
@@ -140,10 +140,13 @@ def _shapes(fine: Members, omega: Floats) -> tuple[list[Floats], Floats]:
         for k, vector in zip(range(omega.size)[of], ready.null_vectors(omega[of]), strict=True):
             motions[k] = ready.composition @ vector
             for (first, last, single), motion in zip(ready.runs, ready.motions, strict=True):
-                out, along = np.zeros((counts[first:last].sum(), TERMS + 1, 5)), np.zeros((last - first + 1, 2))
+                pieces = counts[first:last].sum()
+                out, along = np.zeros((pieces, TERMS + 1, 5)), np.zeros((last - first + 1, 2))
+                work, scratch = np.zeros((ROWS, TERMS)), np.zeros((SLOT * pieces + pieces + 1, 4))
                 run_shape(
                     ready.segments, ready.nodes, first, last, single == 1, highest,
-                    float((omega[k] / frequency) ** 2), 1.0, motion @ vector, out, along,
+                    float((omega[k] / frequency) ** 2), 1.0, motion @ vector, work, scratch,
+                    out, along,
                 )  # fmt: skip
                 # Deflections come in the unit of length, forces in that of force.
                 out *= np.array([length, 1.0, force, force * length, 1.0])
@@ -159,7 +162,7 @@ def _shapes(fine: Members, omega: Floats) -> tuple[list[Floats], Floats]:
 def _part(fine: Members, part: str, shapes: list[Floats], highest: float) -> PartShapes:
     """Shapes along one part from those along its members, whose pieces are those of the highest frequency."""
     from modal.structures.assembly import row_of, units_of
-    from modal.structures.kernels.structure import piece_ends
+    from modal.structures.kernels import piece_ends
 
     units = units_of(fine)
     along, found = [np.zeros(1)], []

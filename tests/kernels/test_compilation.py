@@ -4,16 +4,13 @@ import importlib.util
 import subprocess
 import sys
 from pathlib import Path
-from threading import Thread
 
-import pytest
 from numba import types
 
 import modal
 from modal.compiler import compiled, folder
-from towercrane.cases.case import load_case
-from towercrane.cranes.registry import KINDS
-from towercrane.kernels.compilation import compile_kernels, missing_kernels
+from towercrane.commands.shared.terminal import USES
+from towercrane.kernels.compilation import compile_kernels
 
 TOP = Path(modal.__file__).parents[1]
 PACKAGES = [TOP / "modal", TOP / "towercrane"]
@@ -44,68 +41,20 @@ def test_a_change_of_a_source_names_another_cache(tmp_path, monkeypatch):
     assert folder.cache_folder.__wrapped__() == found[-1]
 
 
-REST = RUN = ["modal.beams.roots"]
-STEPPER = "towercrane.simulation.stepper"
-STRUCTURE = ["modal.structures.kernels.structure", "modal.structures.kernels.shapes"]
-
-
-@pytest.mark.parametrize(
-    ("name", "use", "modules"),
-    [
-        ("qtz5613/condition-3", "run", [*RUN, STEPPER]),
-        ("qtz5613/manoeuvre", "run", [*RUN, STEPPER]),
-        ("towers/stepped", "run", [*RUN, *STRUCTURE, STEPPER]),
-        ("slewing/basic/example-1", "run", [STEPPER]),
-        ("jib-crane/plan", "run", [STEPPER]),
-        ("overhead-crane/travel", "run", [STEPPER]),
-        ("qtz5613/manoeuvre", "modes", REST),
-        ("qtz5613/condition-3", "modes", [*REST, *STRUCTURE]),
-        ("qtz5613/condition-3", "map", STRUCTURE),
-        ("qtz5613/condition-3", "lattice", STRUCTURE[:1]),
-    ],
-)
-def test_a_case_names_what_a_use_of_its_crane_needs(name, use, modules):
-    case = load_case(name, [])
-    assert list(KINDS[case.kind].kernels(case.checked, use)) == modules
-
-
 def test_all_modules_of_kernels_are_there():
-    lanes = KINDS["tower"].kernels(load_case("qtz5613/condition-3").checked, "lanes")
-    others = [STEPPER]
-    assert all(importlib.util.find_spec(module) for module in (*RUN, *REST, *STRUCTURE, *lanes, *others))
+    assert all(importlib.util.find_spec(module) for modules in USES.values() for module in modules)
 
 
 def test_what_is_compiled_here_or_beside_is_missing_no_more(tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     # This process has compiled its own kernels elsewhere: a fresh one finds them missing, and makes them.
     code = (
+        "from towercrane.commands.shared.terminal import USES\n"
         "from towercrane.kernels.compilation import compile_kernels as c, missing_kernels as m\n"
-        "modules = 'modal.beams.roots', 'towercrane.simulation.stepper'\n"
-        "before = m(*modules); c(*before); print(len(before), len(m(*modules)))"
+        "modules = USES['lanes']; before = m(*modules); c(*before); print(len(before), len(m(*modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["2", "0"]
-
-
-@pytest.mark.parametrize(
-    ("modules", "here", "beside"),
-    [
-        (["modal.beams.integrals", STEPPER], ["modal.beams.integrals"], [STEPPER]),
-        ([*RUN, *STRUCTURE, STEPPER], STRUCTURE, [STEPPER]),
-        ([STEPPER], [STEPPER], None),
-    ],
-)
-def test_exact_structures_share_a_process(modules, here, beside, monkeypatch):
-    imported, started = [], []
-    monkeypatch.setattr("towercrane.kernels.compilation.is_compiled", lambda module: module == "modal.beams.roots")
-    monkeypatch.setattr("towercrane.kernels.compilation.import_module", imported.append)
-    monkeypatch.setattr(
-        "towercrane.kernels.compilation._started", lambda modules: started.append(modules) or Thread()
-    )
-    monkeypatch.setattr(Thread, "join", lambda self: None)
-    compile_kernels(*missing_kernels(*modules))
-    assert imported == here
-    assert started == ([] if beside is None else [beside])
 
 
 def _doubled(x):

@@ -14,7 +14,6 @@ from towercrane.commands.shared.terminal import (
     compile_for,
     fail,
     folder_for_results,
-    load,
     out_option,
     say,
 )
@@ -58,7 +57,7 @@ def bench(
 
 def _measured(quick: bool, subject: str, hard: bool, stability: bool) -> dict[str, Any]:
     """What the benchmark was asked for."""
-    compile_for(load("qtz5613/condition-3", None))
+    compile_for()
     if hard:
         from towercrane.bench.runs.hard import hard_cases
 

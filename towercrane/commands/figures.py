@@ -28,7 +28,7 @@ def figures(
     The source is Gao et al. (2023).
     """
     folder_for_results(out)
-    compile_for(load("qtz5613/condition-1", changes))
+    compile_for()
     from towercrane.report.plots.runs import plane
     from towercrane.runs.run import run_case
 

@@ -17,7 +17,6 @@ def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) ->
 
     if not has_lattice(task.case.crane):
         task.refuse("crane.tower.lattice: wanted the members of the tower, or of each of its segments, got none")
-    task.compile("lattice")
     from towercrane.report.tables.modes import lattice_tables
     from towercrane.studies.lattice import lattice_report
 

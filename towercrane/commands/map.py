@@ -77,7 +77,6 @@ def frequency_map(
     masses = _masses(asked, payload)
     reach = tables.crane.jib.reach
     where = None if shapes is None else _position(shapes, reach)
-    task.compile("map")
     import numpy as np
 
     from towercrane.cranes.tower.file.build import crane_frame

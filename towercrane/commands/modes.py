@@ -42,7 +42,6 @@ def modes(
 
 
 def _in_plane(task: Task, actual: bool) -> None:
-    task.compile("modes")
     from modal.structures.members import FewModes
     from towercrane.cases.models import model_of
     from towercrane.report.tables.modes import modes_tables
@@ -60,7 +59,6 @@ def _in_plane(task: Task, actual: bool) -> None:
 
 
 def _in_space(task: Task) -> None:
-    task.compile("modes")
     from towercrane.report.tables.space import space_modes_tables
     from towercrane.studies.space_modes import space_frequencies
 

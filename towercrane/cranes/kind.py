@@ -89,11 +89,6 @@ class Drives:
     wind: bool = False
 
 
-def run_kernels(_tables: Any, use: str) -> tuple[str, ...]:
-    """Modules whose import compiles for a run of any crane, or for many in lanes."""
-    return (*(("towercrane.simulation.lanes.advance",) if use == "lanes" else ()), "towercrane.simulation.stepper")
-
-
 @dataclass(frozen=True, eq=False)
 class Kind:
     """A kind of crane. Its parts that compute are loaded where they are asked for, see `later`.
@@ -111,8 +106,6 @@ class Kind:
         Model of a case's tables; keyword arguments replace what the case chose.
     poses : callable
         Of its model, its tables, a result and times, see :class:`towercrane.cranes.parts.poses.Poses`.
-    kernels : callable
-        Modules whose import compiles, of its tables and a use: "run", "lanes" or one of those that it serves.
     checks : tuple of callable
         Faults of a case as written that no single value shows.
     ranges : tuple of Range
@@ -151,7 +144,6 @@ class Kind:
     pictures: str | Pictures
     build: Callable[..., Model]
     poses: Callable[..., Poses]
-    kernels: Callable[[Any, str], tuple[str, ...]] = run_kernels
     checks: tuple[Callable[[Tree], Iterator[Fault]], ...] = ()
     ranges: tuple[Range, ...] = ()
     computed: Callable[[Any], Iterator[Assumption]] | None = None

@@ -13,9 +13,6 @@ from modal.compiler.folder import is_compiled
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess
 
-TOGETHER = ("modal.structures.kernels.structure", "modal.structures.kernels.shapes")
-"""Kernels of exact structures, which call the same functions: a process compiles these once."""
-
 
 def missing_kernels(*modules: str) -> tuple[str, ...]:
     """Those of some modules of kernels that are not compiled yet."""
@@ -23,13 +20,11 @@ def missing_kernels(*modules: str) -> tuple[str, ...]:
 
 
 def compile_kernels(*modules: str) -> None:
-    """Import modules of kernels, some here, the others in a process beside: all leave code in the cache."""
-    here = [module for module in modules if module in TOGETHER] or list(modules[:1])
-    beside = [module for module in modules if module not in here]
+    """Import modules of kernels, the first here, others in a process beside: all leave code in the cache."""
+    here, *beside = modules
     other = _started(beside) if beside else None
     try:
-        for module in here:
-            import_module(module)
+        import_module(here)
     finally:
         if other:
             other.join()

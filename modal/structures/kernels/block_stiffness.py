@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
-from modal.compiler.compiled import kernel
+if TYPE_CHECKING:
+    from modal.compiler.kinds import Table
+
 
 STIFF = 0.3
 """Largest part of a motion that the flexibility of a block may add where it counts as stiff beside those before."""
 
 
-@kernel()
-def _from_transfer(T: Any, unit: float, length: float, out: Any) -> None:
+def _from_transfer(T: Table, unit: float, length: float, out: Table) -> None:
     """Stiffness for near end and departure into ``out``, from what the near state gives at the far end, ``T``."""
     # Departure d' = E d + F p, far forces p' = G d + (R^-T + H) p with the near motion d and the near forces p; R
     # moves the far end rigidly. F is the block above right, inverted here.
@@ -44,8 +45,7 @@ def _from_transfer(T: Any, unit: float, length: float, out: Any) -> None:
             out[j, i] = value
 
 
-@kernel()
-def relative_stiffness(transfer: Any, length: float, T: Any, out: Any) -> None:
+def relative_stiffness(transfer: Table, length: float, T: Table, out: Table) -> None:
     """Dynamic stiffness (4, 4) for (v, theta) at the near end and the far end's departure from it, from a transfer.
 
     The far end departs from where it would be if the block were rigid. Bending then works on the departure alone, and
@@ -62,8 +62,7 @@ def relative_stiffness(transfer: Any, length: float, T: Any, out: Any) -> None:
     _from_transfer(T, 1.0 / length, length, out)
 
 
-@kernel()
-def make_absolute(matrix: Any, length: float) -> None:
+def make_absolute(matrix: Table, length: float) -> None:
     """Turn a relative stiffness (4, 4) into that for (v, theta) at both ends, in place."""
     a, b, c = matrix[2, 2], matrix[2, 3], matrix[3, 3]
     # R^T C, then near with far B - R^T C, then near A - B R - R^T B^T + R^T C R.
@@ -79,8 +78,7 @@ def make_absolute(matrix: Any, length: float) -> None:
             matrix[i, j] = matrix[j, i]
 
 
-@kernel()
-def _condense(near: Any, piece: Any, recovery: Any, i00: float, i01: float, i11: float) -> None:
+def _condense(near: Table, piece: Table, recovery: Table, i00: float, i01: float, i11: float) -> None:
     """Take the node between out, of whose stiffness this is the inverse."""
     for j in range(2):
         recovery[0, j] = -(i00 * near[2, j] + i01 * near[3, j])
@@ -98,14 +96,12 @@ def _condense(near: Any, piece: Any, recovery: Any, i00: float, i01: float, i11:
             near[2 + i, j] = piece[2 + i, j] + piece[2 + i, 0] * recovery[0, j] + piece[2 + i, 1] * recovery[1, j]
 
 
-@kernel()
 def negative(a: float, b: float, c: float) -> int:
     """Number of negative eigenvalues of [[a, b], [b, c]]."""
     return 1 if a * c - b * b < 0.0 else (2 if a + c < 0.0 else 0)
 
 
-@kernel()
-def join(near: Any, piece: Any, recovery: Any) -> None:
+def join(near: Table, piece: Table, recovery: Table) -> None:
     """Append a block to a run's stiffness ``near`` (4, 4), in place.
 
     ``recovery`` (2, 4) takes what gives the node's (v, theta) from those at the near and at the block's far end.
@@ -121,8 +117,7 @@ def join(near: Any, piece: Any, recovery: Any) -> None:
     _condense(near, piece, recovery, c / determinant, -b / determinant, a / determinant)
 
 
-@kernel()
-def extended(total: Any, transfer: Any, length: float, recovery: Any, scratch: Any) -> bool:
+def extended(total: Table, transfer: Table, length: float, recovery: Table, scratch: Table) -> bool:
     """Append a block that is stiff beside what is before it, in place, see `join`; False where it is not stiff.
 
     Its large stiffness would drown that of the rest in rounding; its flexibility is a small correction.

@@ -2,37 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
-from modal.compiler.compiled import kernel
+from modal.structures.kernels.cut import bounds, cell, cells, piece_of, pieces_within
 from modal.structures.kernels.nodes import BODIES, GEOMETRIC
-from modal.structures.kernels.piece import bounds, cell, cells, piece_of, pieces_within
+
+if TYPE_CHECKING:
+    from modal.compiler.kinds import Four, Row, Table
 
 BLOCK = 0.8
-"""The same as `modal.structures.kernels.piece.PIECE` for a block of several pieces."""
+"""The same as `modal.structures.kernels.cut.PIECE` for a block of several pieces."""
 
 SIZES = 7
 """Numbers that measure a block: its length; ``int dx/EI``, ``int x dx/EI`` and ``int x^2 dx/EI`` with x the distance
 from the far end; ``int dx/S``; what inertia takes under unit circular frequency; the largest force, see
-`modal.structures.kernels.piece.bounds`."""
+`modal.structures.kernels.cut.bounds`."""
 
 
-@kernel()
-def clear(sizes: Any) -> None:
+def clear(sizes: Row) -> None:
     """Begin a block."""
     for i in range(SIZES):
         sizes[i] = 0.0
 
 
-@kernel()
-def _strained(sizes: Any, omega2: float) -> float:
+def _strained(sizes: Row, omega2: float) -> float:
     """Part of a block's energy that inertia and compression take at most, see
-    `modal.structures.kernels.piece.pieces_within`."""
+    `modal.structures.kernels.cut.pieces_within`."""
     return float(omega2 * sizes[5] + sizes[6] * sizes[0] * sizes[1])
 
 
-@kernel()
-def grown(sizes: Any, segment: Any, ends: Any, omega2: float, load: float) -> bool:
+def grown(sizes: Row, segment: Row, ends: Four, omega2: float, load: float) -> bool:
     """Add a piece to the measure of a block; False where that needs a block of its own, which then begins with it."""
     bending, mass, flexibility, rotary, force, _ = bounds(segment, ends, omega2, load)
     length, turn, before = ends[2], ends[2] / bending, sizes[0]
@@ -54,8 +53,7 @@ def grown(sizes: Any, segment: Any, ends: Any, omega2: float, load: float) -> bo
     return False
 
 
-@kernel()
-def laden(sizes: Any, node: Any, omega2: float, load: float) -> bool:
+def laden(sizes: Row, node: Table, omega2: float, load: float) -> bool:
     """Add what acts on a node to the measure of the block below it; False where that must end there instead."""
     if sizes[0] == 0.0:
         return True
@@ -70,8 +68,7 @@ def laden(sizes: Any, node: Any, omega2: float, load: float) -> bool:
     return False
 
 
-@kernel()
-def blocks_of(segment: Any, omega2: float, load: float, sizes: Any) -> int:
+def blocks_of(segment: Row, omega2: float, load: float, sizes: Row) -> int:
     """Number of blocks that end before the end of a segment which follows what is measured; -1: unstable in shear."""
     ended, number = 0, cells(segment)
     for k in range(number):

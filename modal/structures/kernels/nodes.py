@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
-from modal.compiler.compiled import kernel
+if TYPE_CHECKING:
+    from modal.compiler.kinds import Table, Three
+
 
 SPRINGS, GEOMETRIC, BODIES = range(3)
 """What acts on a node: stiffness of springs, geometric stiffness of weights (to be taken away), mass."""
 
 
-@kernel()
-def node_stiffness(node: Any, omega2: float, load: float) -> Any:
+def node_stiffness(node: Table, omega2: float, load: float) -> Three:
     """Entries (v, v), (v, theta) and (theta, theta) of the dynamic stiffness of what acts on a node."""
     return (
         node[SPRINGS, 0] - load * node[GEOMETRIC, 0] - omega2 * node[BODIES, 0],
@@ -20,8 +21,7 @@ def node_stiffness(node: Any, omega2: float, load: float) -> Any:
     )
 
 
-@kernel()
-def load_node(total: Any, length: float, node: Any, omega2: float, load: float) -> None:
+def load_node(total: Table, length: float, node: Table, omega2: float, load: float) -> None:
     """Let what acts on a node act at the far end of a block's transfer (4, 4), in place."""
     k0, k1, k2 = node_stiffness(node, omega2, load)
     for j in range(4):

@@ -2,31 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-from numba import types
-
-from modal.compiler.compiled import kernel
+from modal.structures.kernels.cut import BENDING, BENDING_POWER, cell, cells, piece_of, pieces_within
 from modal.structures.kernels.nodes import node_stiffness
-from modal.structures.kernels.piece import (
-    BENDING,
-    BENDING_POWER,
-    TERMS,
-    cell,
-    cells,
-    coefficients,
-    piece_of,
-    pieces_within,
-    state_series,
-)
-from modal.structures.kernels.stiffness import ROWS, SCALED, SLOT, STATE, run_stiffness
+from modal.structures.kernels.piece import TERMS, coefficients, state_series
+from modal.structures.kernels.stiffness import KEPT, MEASURE, SCALED, SLOT, STATE, TOTAL, run_stiffness
 
-_one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+if TYPE_CHECKING:
+    from modal.compiler.kinds import Row, Stack, Table
 
 
-@kernel()
-def _begin(block: Any, near: Any, far: Any, single: bool, state: Any) -> None:
+def _begin(block: Table, near: Row, far: Row, single: bool, state: Row) -> None:
     """State (v, theta, V, M) at the near end of a block from the motions (v, theta) of its ends.
 
     That at the far end of the block before goes on where this one is so stiff that its ends hardly tell.
@@ -49,16 +36,9 @@ def _begin(block: Any, near: Any, far: Any, single: bool, state: Any) -> None:
     state[2], state[3] = force + far_force, moment + length * far_force + far_moment
 
 
-@kernel(
-    types.void(
-        _two, _three, types.int64, types.int64, types.boolean, types.float64, types.float64, types.float64,
-        _one, _three, _two,
-    ),
-    allocates=True,
-)  # fmt: skip
 def run_shape(
-    segments: Any, nodes: Any, first: int, last: int, single: bool, highest: float, omega2: float, load: float,
-    held: Any, out: Any, motions: Any,
+    segments: Table, nodes: Stack, first: int, last: int, single: bool, highest: float, omega2: float, load: float,
+    held: Row, work: Table, scratch: Table, out: Stack, motions: Table,
 ) -> None:  # fmt: skip
     """Taylor coefficients of (v, theta, V, M, v') in every piece of a run, from (v, theta) at its two ends.
 
@@ -68,13 +48,15 @@ def run_shape(
         As `modal.structures.kernels.stiffness.run_stiffness` takes them.
     held : ndarray, shape (4,)
         (v, theta) at the near and the far end; of a single block the far end's departure.
+    work : ndarray, shape (ROWS, TERMS)
+    scratch : ndarray, shape (SLOT p + p + 1, 4)
     out : ndarray, shape (p, TERMS + 1, 5)
         Coefficients in the fraction of the piece's length.
     motions : ndarray, shape (last - first + 1, 2)
         (v, theta) of the nodes from the run's near to its far end.
     """
-    work, kept = np.zeros((ROWS, TERMS)), np.zeros((SLOT * out.shape[0], 4))
-    total, ends, current = np.zeros((4, 4)), np.zeros((out.shape[0] + 1, 2)), np.zeros((1, 4))[0]
+    most = SLOT * out.shape[0]
+    kept, ends, total, current = scratch[:most], scratch[most:], work[TOTAL:], work[KEPT]
     run_stiffness(segments, nodes, first, last, single, highest, omega2, load, work, kept, total)
     blocks = 1
     while kept[SLOT * blocks - 1, 1] < out.shape[0]:
@@ -108,16 +90,19 @@ def run_shape(
                 part = piece_of(of_cell, i, parts)
                 terms, length = coefficients(segment, part, omega2, load, series), part[2]
                 bending = segment[BENDING] * part[0] ** segment[BENDING_POWER]
-                units = (length, 1.0, bending / length**2, bending / length, 1.0)
+                # What (v, theta, V, M, v') are in the piece's units.
+                work[MEASURE, 0], work[MEASURE, 1], work[MEASURE, 4] = length, 1.0, 1.0
+                work[MEASURE, 2], work[MEASURE, 3] = bending / length**2, bending / length
                 for j in range(4):
-                    state[0, j] = current[j] / units[j]
+                    state[0, j] = current[j] / work[MEASURE, j]
                 state_series(series, terms, state)
                 for j in range(5):
-                    if j < 4:
-                        current[j] = 0.0
+                    unit = work[MEASURE, j]
+                    end = 0.0
                     for t in range(TERMS + 1):
-                        out[p, t, j] = state[t, j] * units[j]
-                        if j < 4:
-                            current[j] += out[p, t, j]
+                        out[p, t, j] = state[t, j] * unit
+                        end += out[p, t, j]
+                    if j < 4:
+                        current[j] = end
                 p += 1
     motions[last - first, 0], motions[last - first, 1] = current[0], current[1]

@@ -11,23 +11,16 @@ exponentials appear anywhere.
 from __future__ import annotations
 
 from itertools import accumulate
-from typing import Any
+from typing import TYPE_CHECKING
 
-from modal.compiler.compiled import kernel
 from modal.structures.kernels.block_stiffness import extended, join, make_absolute, negative, relative_stiffness
 from modal.structures.kernels.blocks import SIZES, clear, grown, laden
+from modal.structures.kernels.cut import RATIO, WEIGHT, cell, cells, piece_of, pieces_within
 from modal.structures.kernels.nodes import load_node
-from modal.structures.kernels.piece import (
-    RATIO,
-    SERIES,
-    TERMS,
-    WEIGHT,
-    cell,
-    cells,
-    piece_of,
-    piece_transfer,
-    pieces_within,
-)
+from modal.structures.kernels.piece import SERIES, TERMS, piece_transfer
+
+if TYPE_CHECKING:
+    from modal.compiler.kinds import Stack, Table
 
 UNSTABLE = 1 << 30
 """Count where a segment has no shear stiffness left (Engesser)."""
@@ -41,8 +34,7 @@ STATE, SCALED, PIECE, TRANSFER, KEPT, MEASURE, TOTAL, ROWS = accumulate((SERIES,
 """Rows of the scratch array where its parts begin, after a piece's series; the last is their number."""
 
 
-@kernel()
-def follow(total: Any, length: float, piece: Any, step: float) -> None:
+def follow(total: Table, length: float, piece: Table, step: float) -> None:
     """Append a piece's transfer (4, 4), see `modal.structures.kernels.piece.piece_transfer`, to that of a block.
 
     In place.
@@ -59,8 +51,7 @@ def follow(total: Any, length: float, piece: Any, step: float) -> None:
         total[3, j] -= step * d2
 
 
-@kernel()
-def _end_block(work: Any, kept: Any, length: float, pieces: int, single: bool, joined: bool, total: Any) -> int:
+def _end_block(work: Table, kept: Table, length: float, pieces: int, single: bool, joined: bool, total: Table) -> int:
     """Stiffness of the block in scratch onto that of those before; negative eigenvalues of the node between.
 
     The next block's transfer begins.
@@ -87,10 +78,9 @@ def _end_block(work: Any, kept: Any, length: float, pieces: int, single: bool, j
     return count
 
 
-@kernel()
 def run_stiffness(
-    segments: Any, nodes: Any, first: int, last: int, single: bool, highest: float, omega2: float, load: float,
-    work: Any, kept: Any, total: Any,
+    segments: Table, nodes: Stack, first: int, last: int, single: bool, highest: float, omega2: float, load: float,
+    work: Table, kept: Table, total: Table,
 ) -> int:  # fmt: skip
     """Dynamic stiffness (4, 4) of segments one after the other into ``total``; their count of fixed-end modes.
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from numba import types
 
-from modal.compiler import compiled, kernel_cache
+from modal.compiler import compiled, files, kernel_cache
 from modal.compiler.folder import CacheWarning, obstacle
 
 
@@ -20,7 +20,7 @@ def doubled(x):
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path / "cache")
-    monkeypatch.setattr(kernel_cache, "_said", [])
+    monkeypatch.setattr(files, "_said", [])
     return tmp_path / "cache"
 
 

@@ -11,19 +11,16 @@ from oracles.determinants import state_matrix
 
 from modal.beams.chain import Chain
 from modal.beams.segment import Segment
-from modal.compiler.compiled import kernel
 from modal.structures.kernels.block_stiffness import make_absolute, relative_stiffness
 from modal.structures.kernels.blocks import SIZES, grown
-from modal.structures.kernels.piece import SERIES, TERMS, piece_transfer, pieces_within
+from modal.structures.kernels.cut import pieces_within
+from modal.structures.kernels.piece import SERIES, TERMS, piece_transfer
 from modal.structures.members import HELD, Member
 from modal.structures.structure import Structure, chain_frequencies, chain_structure
 
 INF = float("inf")
 WHOLE = 1.0, 1.0, 1.0, 1.0
 """Breadths at the ends of a uniform segment, its length, and what is left of it from its near end."""
-
-transfer_of = kernel(python_entry=True)(piece_transfer.py_func)
-stiffness_of = kernel(python_entry=True)(relative_stiffness.py_func)
 
 
 def exact_stiffness(segment, length, compression, omega2, theory):
@@ -63,9 +60,9 @@ def test_a_piece_is_exact_where_all_effects_meet_at_the_end_of_its_reach(
     length = 1.0 / pieces_within(row, WHOLE, omega2, 1.0)
     got, transfer, scratch = np.zeros((4, 4)), np.zeros((4, 4)), np.zeros((4, 4))
     series, state = np.zeros((SERIES, TERMS)), np.zeros((TERMS + 1, 6))
-    transfer_of(row, (1.0, 1.0, length, 1.0), omega2, 1.0, series, state, transfer)
-    stiffness_of(transfer, length, scratch, got)
-    make_absolute.py_func(got, length)
+    piece_transfer(row, (1.0, 1.0, length, 1.0), omega2, 1.0, series, state, transfer)
+    relative_stiffness(transfer, length, scratch, got)
+    make_absolute(got, length)
     with mpmath.workdps(50):
         wanted = exact_stiffness(segment, length, compression, omega2, theory)
     # Against the size of the stiffness at rest: an end may be at its resonance.

@@ -88,8 +88,8 @@ class Task:
             self.folder = self.folder.with_name(f"{self.folder.name}-interrupted")
 
     def compile(self, use: str = "run") -> None:
-        """Compile what a use of the case needs, see :class:`towercrane.cranes.kind.Kind`."""
-        compile_for(self.case, use)
+        """Compile what a use needs, "run" or "lanes"."""
+        compile_for(use)
 
     def command(self, command: str, *more: str) -> tuple[str, ...]:
         """A command on the same case with the same changes."""

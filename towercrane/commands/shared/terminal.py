@@ -53,13 +53,17 @@ def load(name: str, changes: list[str] | None) -> Case:
     return load_case(name, changes or [])
 
 
-def compile_for(case: Case, use: str = "run") -> None:
-    """Compile the kernels for a use of a case's kind of crane if they are not yet, and say so."""
+STEPPER, LANES = "towercrane.simulation.stepper", "towercrane.simulation.lanes.advance"
+USES = {"run": (STEPPER,), "lanes": (LANES, STEPPER)}
+"""Modules whose import compiles for long, by what they serve."""
+
+
+def compile_for(use: str = "run") -> None:
+    """Compile the kernels for a use if they are not yet, and say so."""
     from modal.compiler.folder import cache_folder, obstacle
-    from towercrane.cranes.registry import KINDS
     from towercrane.kernels.compilation import compile_kernels, missing_kernels
 
-    if missing := missing_kernels(*KINDS[case.kind].kernels(case.checked, use)):
+    if missing := missing_kernels(*USES[use]):
         if obstacle(cache_folder()):
             say("compiling, some seconds ...")
             return

@@ -25,7 +25,6 @@ TOWER = Kind(
     poses=later("towercrane.cranes.tower.poses", "tower_poses"),
     computed=later("towercrane.cranes.tower.file.torsion", "computed"),
     idle=later("towercrane.cranes.tower.file.idle", "idle"),
-    kernels=later("towercrane.cranes.tower.file.kernels", "kernels"),
     natural=later("towercrane.cranes.tower.file.natural", "natural"),
     lengths=later("towercrane.cranes.tower.file.natural", "lengths"),
     targets=later("towercrane.cranes.tower.file.requests", "targets_of"),

@@ -1,0 +1,185 @@
+"""Compiled functions do what they do as Python; what cannot be compiled is refused, what is damaged is made anew."""
+
+import math
+
+import numpy as np
+import pytest
+
+from modal.compiler import files, native
+from modal.compiler.expressions import Untranslatable
+from modal.compiler.folder import CacheWarning, obstacle
+from modal.compiler.kinds import Row, Stack, Table, Three, Whole
+
+LEVEL = 3
+
+
+def classified(x: float, least: int, strict: bool) -> int:
+    """Branches, conditions that are looked at in turn, whole numbers and bits."""
+    if (x < 0.0 and not strict) or x in (5.0, 7.0):
+        return -1
+    while least < 10:
+        least += 1
+        if least % 3 == 0:
+            continue
+        if least > x:
+            break
+    first = least // 2 if strict else 2 * least
+    return max(first, LEVEL, int(x)) + strict
+
+
+def shared(a: float, b: float) -> Three:
+    return a + b, a - b, a**3 / b if b != 0.0 else math.inf
+
+
+def worked(x: float, row: Row, table: Table, stack: Stack, whole: Whole) -> float:
+    """Parts of arrays, exchanges, tuples, loops up and down, functions."""
+    part, first = table[1:], stack[1, 0]
+    total, other = 0.0, row[0]
+    for i in range(part.shape[0]):
+        for j in range(part.shape[1] - 1, -1, -1):
+            total += part[i, j] * first[j]
+    row[0], row[1] = row[1], row[0]
+    p, q, r = shared(total, other)
+    row[2] = p - q * r
+    row[1:][1] += 1.0
+    size = np.sqrt(abs(total)) + np.log1p(x) + np.expm1(x) + np.tanh(x) + np.cosh(x) + x**0.7 + x**4
+    for i in range(1, whole.shape[0]):
+        size -= whole[i, 0] * (np.sin(x) if i == 1 else np.cos(x)) + np.ceil(x) - np.exp(-x) * np.log(x + 1.0)
+    if not np.isfinite(r) or 0.0 < x < 1e-9:
+        return -size
+    return size + row.size
+
+
+def slices(table: Table, out: Row) -> None:
+    inner = table[2, 1:3]
+    out[0], out[1] = inner[0], -inner[1]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(native, "cache_folder", lambda: tmp_path / "cache")
+    monkeypatch.setattr(files, "_said", [])
+    return tmp_path / "cache"
+
+
+def test_branches_and_whole_numbers_are_those_of_python(folder):
+    (compiled,) = native.native("classified", classified)
+    for x in (-3.0, -0.0, 0.5, 4.0, 5.0, 6.2, 7.0, 12.9, math.inf, math.nan):
+        for least in (0, 2, 9, 30):
+            for strict in (False, True):
+                if math.isfinite(x):
+                    assert compiled(x, least, strict) == classified(x, least, strict)
+
+
+def test_arrays_and_functions_are_those_of_python(folder):
+    del folder
+    random = np.random.default_rng(4)
+    compiled, exchanged = native.native("worked", worked, slices)
+    for x in (0.0, 1e-10, 0.3, 2.5):
+        row, table = random.normal(size=4), random.normal(size=(3, 3))
+        stack, whole = random.normal(size=(2, 2, 3)), random.integers(-5, 5, size=(3, 2))
+        again = row.copy()
+        wanted, got = worked(x, row, table, stack, whole), compiled(x, again, table, stack, whole)
+        assert got == pytest.approx(wanted, rel=1e-14)
+        assert again.tolist() == pytest.approx(row.tolist(), rel=1e-15)
+    out = np.zeros(2)
+    exchanged(table, out)
+    assert out.tolist() == [table[2, 1], -table[2, 2]]
+
+
+def test_a_function_that_an_earlier_one_calls_has_its_own_door(folder):
+    del folder
+    outer, inner = native.native("doors", _outer, _inner)
+    assert (outer(2.0), inner(2.0)) == (7.0, 6.0)
+
+
+def _outer(x: float) -> float:
+    return _inner(x) + 1.0
+
+
+def _inner(x: float) -> float:
+    return 3.0 * x
+
+
+def test_numbers_of_the_machine_do_not_fail(folder):
+    del folder
+    (quotient,) = native.native("quotient", _quotient)
+    assert quotient(1.0, 0.0) == math.inf
+    assert math.isnan(quotient(0.0, 0.0))
+
+
+def _quotient(a: float, b: float) -> float:
+    return a / b
+
+
+@pytest.mark.parametrize(
+    "table", [np.zeros((3, 3), dtype=np.float32), np.zeros(9), np.zeros((3, 3)).T[:, :2], np.zeros((4, 6))[:, ::2]]
+)
+def test_an_array_of_another_kind_is_refused(folder, table):
+    del folder
+    (compiled,) = native.native("slices", slices)
+    with pytest.raises(TypeError, match="slices: table: wanted float64 in order, 2 axes, got"):
+        compiled(table, np.zeros(2))
+
+
+def _listed(x: float) -> float:
+    return sum([x, x])
+
+
+def _changes_kind(x: float) -> float:
+    kept = 1
+    kept = x
+    return kept + x
+
+
+def _attribute(x: float) -> float:
+    return x.real
+
+
+def _strides(row: Row) -> float:
+    part = row[::2]
+    return part[0]
+
+
+@pytest.mark.parametrize("function", [_listed, _changes_kind, _attribute, _strides])
+def test_what_cannot_be_compiled_is_refused_by_name(folder, function):
+    del folder
+    (compiled,) = native.native("refused", function)
+    with pytest.raises((Untranslatable, AttributeError), match=function.__name__):
+        compiled(np.zeros(3) if function is _strides else 1.0)
+
+
+def emptied(_):
+    return b""
+
+
+def cut(code):
+    return code[:-1]
+
+
+def one_bit_flipped(code):
+    return code[:100] + bytes([code[100] ^ 1]) + code[101:]
+
+
+@pytest.mark.parametrize("damage", [emptied, cut, one_bit_flipped])
+def test_damaged_code_is_made_anew_and_said(folder, damage):
+    assert native.native("doors", _outer)[0](1.0) == 4.0
+    (path,) = folder.rglob("doors.*.o")
+    whole = path.read_bytes()
+    path.write_bytes(damage(whole))
+    with pytest.warns(CacheWarning, match="damaged machine code in .* is compiled anew"):
+        assert native.native("doors", _outer)[0](1.0) == 4.0
+    assert path.read_bytes() == whole
+
+
+def test_code_from_disk_is_used_as_it_is(folder, monkeypatch):
+    native.native("doors", _outer)[0](1.0)
+    monkeypatch.setattr(native, "_compiled", None)
+    assert native.native("doors", _outer)[0](1.0) == 4.0
+
+
+def test_a_folder_that_keeps_nothing_is_done_without_and_said(folder):
+    folder.write_text("a file", encoding="utf-8")
+    obstacle.cache_clear()
+    with pytest.warns(CacheWarning, match="compiled each time"):
+        assert native.native("doors", _outer)[0](1.0) == 4.0
