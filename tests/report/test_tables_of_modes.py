@@ -1,10 +1,10 @@
-"""What tables of modes, linear models and lattices say: every number, beside made-up reports."""
+"""What tables of modes and linear models say: every number, beside made-up reports."""
 
 import numpy as np
 import pytest
 from samples.tables import ASSUMED, said
 
-from towercrane.report.tables.modes import lattice_tables, linear_tables
+from towercrane.report.tables.modes import linear_tables
 from towercrane.report.tables.space import space_modes_tables
 
 pytestmark = pytest.mark.usefixtures("wide")
@@ -64,24 +64,3 @@ def test_a_linear_model(capsys):
     assert "small motions about a state that is no equilibrium" in lines[0]
     assert "the rope leans by 0.0625 rad there" in lines
     assert "there sway_radial changes by -3.25 m per second" in lines
-
-
-def test_a_lattice(capsys):
-    answers = {"force_deflection": 1.75e-6, "moment_deflection": 9.8e-8, "frequencies_hz": [2.5, 11.5],
-               "body_frequencies_hz": [0.47, 1.52]}  # fmt: skip
-    errors = {"force_deflection": -0.0015, "moment_deflection": 0.155, "frequencies_hz": [0.0026, 0.44],
-              "body_frequencies_hz": [-0.062, 0.13]}  # fmt: skip
-    models = [{"name": name, "answers": answers, "errors": errors, "seconds": 0.042} for name in ("truss", "euler")]
-    lattice_tables(
-        {
-            "name": "Some crane",
-            "height_m": 23.8,
-            "models": models,
-            "left_out": ["out of the plane"],
-            "assumed": ASSUMED,
-        }
-    )
-    rows, lines = said(capsys)
-    assert rows[1] == ["truss", "1750 um/kN", "98 um/(kN m)", "2.5 Hz", "11.5 Hz", "0.47 Hz", "1.52 Hz", "42.00"]
-    assert rows[2] == ["euler", "-0.15", "+15.50", "+0.26", "+44.00", "-6.20", "+13.00", "42.00"]
-    assert lines[0].startswith("Some crane: lattice of 23.8 m")

@@ -17,7 +17,7 @@ def lattice(case: CaseName, changes: Changes = None, as_json: AsJson = False) ->
 
     if not has_lattice(task.case.crane):
         task.refuse("crane.tower.lattice: wanted the members of the tower, or of each of its segments, got none")
-    from towercrane.report.tables.modes import lattice_tables
+    from towercrane.report.tables.lattice import lattice_tables
     from towercrane.studies.lattice import lattice_report
 
     try:

@@ -1,43 +1,75 @@
-"""A tower's lattice as the truss that it is, beside the beams that stand for it."""
+"""Lattices of a crane as the trusses that they are, beside the beams that stand for them."""
 
 from __future__ import annotations
 
 from dataclasses import asdict
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 from modal.lattices.lattice_comparison import compare_truss
+from modal.lattices.space_comparison import compare_in_space
 from towercrane.cases.assumptions import as_entries
 from towercrane.cranes.tower.file.build import crane_of
 from towercrane.cranes.tower.file.case_tables import TowerCase
+from towercrane.cranes.tower.file.lattices.in_space import lattices_of
 from towercrane.cranes.tower.file.members import tower_truss
 from towercrane.cranes.tower.file.requests import left_out_in_plane
 
 if TYPE_CHECKING:
     from towercrane.cases.case import Case
 
+TUBE = 10.0
+"""Diameter over wall of the round tubes that members with rigid joints are taken to be."""
+
 
 def lattice_report(case: Case) -> dict[str, Any]:
-    """Truss and beams of a case's lattice, ready for JSON.
+    """Trusses and beams of a case's lattices, ready for JSON.
 
     Returns
     -------
     dict
-        ``models``: a list with name, answers, errors relative to the truss, seconds; ``height_m`` of the truss, which
-        has whole panels and neither the tower's bodies nor its foundation; ``left_out``, ``assumed``.
+        ``models`` of the tower in one plane, bare and with the slewing part on top: a list with name, answers, errors
+        relative to the truss, seconds; empty where the tower has no lattice. ``lattices``, each with name, length,
+        whether both planes are alike, and models in space, pinned, with rigid joints and as a beam: deflections of
+        the tip per force [m/N] and its twist per torque [rad/(N m)], frequencies by kind [Hz], seconds. ``tube``, the
+        diameter over wall of members with rigid joints; ``height_m`` of the tower's truss, which has whole panels and
+        neither the tower's bodies nor its foundation; ``left_out``, ``assumed``.
 
     Raises
     ------
     ValueError
-        If the truss is a mechanism, or legs do not stand on those below.
+        If a truss is a mechanism, or legs do not stand on those below.
     """
     tables = case.tables(TowerCase)
     truss, crane = tower_truss(tables.crane), crane_of(tables)
-    assert truss is not None
-    models = compare_truss(truss, crane.end_body)
+    models = compare_truss(truss, crane.end_body) if truss is not None else ()
+    rigidity, found = TUBE / (8.0 * pi), []
+    for lattice in lattices_of(tables.crane):
+        in_space = compare_in_space(lattice.frame, lattice.beam, rigidity)
+        found.append(
+            {
+                "name": lattice.name,
+                "length_m": lattice.length,
+                "planes_alike": lattice.planes_alike,
+                "models": [
+                    {
+                        "name": model.name,
+                        "deflections": dict(
+                            zip(("vertical", "lateral", "twist"), model.answers.deflections, strict=True)
+                        ),
+                        "frequencies_hz": model.answers.frequencies_hz,
+                        "seconds": model.seconds,
+                    }
+                    for model in in_space
+                ],
+            }
+        )
     return {
         "name": crane.name,
-        "height_m": float(truss.nodes[-1, 2]),
+        "height_m": None if truss is None else float(truss.nodes[-1, 2]),
         "models": [asdict(model) for model in models],
+        "lattices": found,
+        "tube": TUBE,
         "left_out": left_out_in_plane(tables),
         "assumed": as_entries(
             a for a in case.assumed if a.key.startswith(("crane.tower.", "crane.counter_jib.", "crane.jib."))

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from math import pi
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from samples.flat_top import FLAT_TOP, LIEGE, SECTION_LENGTH
 
+import modal
 from modal import Chain, chain_frequencies
 from modal.elements.space_beam import SpaceBeam
 from modal.elements.space_frame import SpaceFrame
@@ -32,6 +35,22 @@ def per_cent(found, reference):
 @pytest.fixture(scope="module")
 def flat_top():
     return compare_in_space(JIB.frame, JIB.beam, 0.4)
+
+
+@pytest.fixture(scope="module")
+def short():
+    return compare_in_space(SHORT.frame, lambda: SHORT.beam(24), ROUND_BARS)
+
+
+def test_the_readme_says_what_these_jibs_come_to(flat_top, short):
+    text = Path(modal.__file__).with_name("README.md").read_text("utf-8")
+    for name, found, pinned in (
+        ("60 m, beam of sections", flat_top[2], flat_top[0]),
+        ("60 m, rigid joints", flat_top[1], flat_top[0]),
+        ("12 m, beam of sections", short[2], short[0]),
+    ):
+        said = [cell.split(", ") for cell in re.search(rf"\| {name} \| (.*) \|", text)[1].split(" | ")]
+        assert_allclose(np.array(said, dtype=float), per_cent(found.answers, pinned.answers), atol=0.0051)
 
 
 def test_the_frame_of_a_flat_top_jib_has_the_published_numbers(flat_top):
@@ -74,8 +93,8 @@ def test_a_lateral_force_on_the_rail_twists_the_jib(flat_top):
     assert_allclose(beam.displacements(force)[-1, 3], found, rtol=3e-3)
 
 
-def test_parallel_diagonals_keep_to_their_frame():
-    pinned, rigid, beam = compare_in_space(SHORT.frame, lambda: SHORT.beam(24), ROUND_BARS)
+def test_parallel_diagonals_keep_to_their_frame(short):
+    pinned, rigid, beam = short
     first = [model.answers.frequencies_hz[kind][0] for model in (pinned, rigid) for kind in KINDS]
     assert_allclose(first, [5.278, 5.893, 12.814, 5.299, 5.915, 13.219], rtol=3e-4)
     assert_allclose(rigid.answers.deflections[0], 1.2883e-6, rtol=1e-4)

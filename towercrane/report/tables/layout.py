@@ -12,11 +12,11 @@ WIDTH_OF_A_PIPE = 120
 """Columns where no terminal tells its width."""
 
 
-def console_of_reports() -> Console:
+def console_of_reports(width: int = WIDTH_OF_A_PIPE) -> Console:
     """Console as wide as the terminal, or as a pipe should be."""
     from towercrane.report.tables.console import ReportConsole
 
-    return ReportConsole(width=None if ReportConsole().is_terminal else WIDTH_OF_A_PIPE)
+    return ReportConsole(width=None if ReportConsole().is_terminal else width)
 
 
 def report_table(title: str, *columns: str, left: int = 1) -> Table:

@@ -1,4 +1,4 @@
-"""Natural frequencies, linear models and lattices as tables on the terminal."""
+"""Natural frequencies and linear models as tables on the terminal."""
 
 from __future__ import annotations
 
@@ -125,33 +125,6 @@ def _effects(console: Console, report: dict[str, Any]) -> None:
         console.print(f"left out: {', '.join(effects['left_out'])}; that may cost {cost:.3g} % of a frequency{asked}")
     if (factor := report["buckling_factor"]) is not None:
         console.print(f"the tower buckles under {factor:.4g} times all weights, trolley and load included")
-
-
-def lattice_tables(report: dict[str, Any]) -> None:
-    """Truss and beams as :func:`towercrane.studies.lattice.lattice_report` gives them."""
-    console = _console()
-    title = f"{report['name']}: lattice of {report['height_m']:g} m as beams; errors relative to the truss [%]"
-    columns = ("force", "moment", "f1 bare", "f2 bare", "f1 with body", "f2 with body", "time [ms]")
-    table = _table(title, "model", *columns)
-    for model in report["models"]:
-        found, errors = (
-            [m["force_deflection"], m["moment_deflection"], *m["frequencies_hz"], *m["body_frequencies_hz"]]
-            for m in (model["answers"], model["errors"])
-        )
-        if model["name"] == "truss":
-            units = ("um/kN", "um/(kN m)", "Hz", "Hz", "Hz", "Hz")
-            scaled = [1e9 * found[0], 1e9 * found[1], *found[2:]]
-            cells = [f"{value:.5g} {unit}" for value, unit in zip(scaled, units, strict=True)]
-        else:
-            cells = [f"{100.0 * error:+.2f}" for error in errors]
-        table.add_row(model["name"], *cells, f"{1e3 * model['seconds']:.2f}")
-    console.print(table)
-    console.print("deflections are those of the top under a force or a moment on it; the body is the slewing part")
-    console.print(
-        "foot clamped, without bodies between foot and top; the truss, all pins, shares nothing with the beams"
-    )
-    said(console, report["left_out"])
-    _assumed(console, report["assumed"])
 
 
 def map_tables(report: dict[str, Any]) -> None:

@@ -24,7 +24,7 @@ def crane_of(tables: TowerCase) -> TowerCrane:
     # Nobody asks a scene in the plane for torsion; sections of a lattice take a few milliseconds.
     shaft = None
     if heading_of(tables) is None or crane.tower.torsional_stiffness is not None:
-        from towercrane.cranes.tower.file.torsion import tower_shaft
+        from towercrane.cranes.tower.file.lattices.torsion import tower_shaft
 
         shaft = tower_shaft(crane, standing.length)
     return crane_on(

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from modal import Foundation
 from towercrane.cranes.tower.file.build import asked_modes
+from towercrane.cranes.tower.file.lattices.torsion import KEYS
 from towercrane.cranes.tower.file.members import beam_choice, foundation_of
 from towercrane.cranes.tower.file.plane import stays_in_plane
-from towercrane.cranes.tower.file.torsion import KEYS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

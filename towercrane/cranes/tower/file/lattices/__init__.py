@@ -1,0 +1,1 @@
+"""What members of lattices in crane files are besides beams: shafts, and frames in space."""
