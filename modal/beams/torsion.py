@@ -139,7 +139,7 @@ class TorsionModes:
     @cached_property
     def _middles(self) -> tuple[Floats, Floats]:
         """Angles at the middle of each piece and half of what it turns them, shape (n, pieces) each."""
-        half = 0.5 * np.multiply.outer(self.roots, self.shaft.paces * np.diff(self.shaft.nodes)) / self.shaft.length
+        half = _halves(self.shaft, self.roots)
         return self.phases + half, half
 
     def mass_matrix(self) -> Floats:
@@ -198,14 +198,21 @@ def torsion_modes(shaft: Shaft, count: int, end_inertia: float = 0.0) -> Torsion
     for i, root in enumerate(roots):
         phases[i], steps, _ = _pieces(shaft, root)
         amplitudes[i] = np.cumprod(steps)
-    modes = TorsionModes(shaft, end_inertia, roots, amplitudes, phases)
-    end = modes(shaft.length)
+    # Squares over pieces, int sin^2 = (1 - cos(2 middle) sinc(2 half)) / 2 per length, and the body's share.
+    half, inertias = _halves(shaft, roots), shaft.pieces[0] * np.diff(shaft.nodes)
+    squares = 0.5 * (1.0 - np.cos(2.0 * (phases + half)) * np.sinc(2.0 * half / pi)) * amplitudes**2 @ inertias
+    end = amplitudes[:, -1] * np.sin(phases[:, -1] + 2.0 * half[:, -1])
     # Signs turn the end to the positive side.
-    norms = np.sign(end) / np.sqrt(np.diag(modes.mass_matrix()) + end_inertia * end**2)
+    norms = np.sign(end) / np.sqrt(squares + end_inertia * end**2)
     amplitudes = amplitudes * norms[:, None]
     for array in (roots, amplitudes, phases):
         array.setflags(write=False)
     return TorsionModes(shaft, end_inertia, roots, amplitudes, phases)
+
+
+def _halves(shaft: Shaft, roots: Floats) -> Floats:
+    """Half of what each piece turns the angle of each mode by, shape (n, pieces)."""
+    return np.asarray(0.5 * np.multiply.outer(roots, shaft.paces * np.diff(shaft.nodes)) / shaft.length)
 
 
 def _pieces(shaft: Shaft, y: float) -> tuple[list[float], list[float], float]:

@@ -64,7 +64,7 @@ class PartShapes:
         values = np.zeros((len(powers), flat.size))
         for k in range(powers.shape[2] - 1, -1, -1):
             values = values * fraction + powers[:, piece, k]
-        return (values / width ** int(derivative)).reshape(-1, *where.shape)
+        return (values / width ** int(derivative)).reshape(len(values), *where.shape)
 
     @cached_property
     def points(self) -> Floats:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from samples.case_files import faults_of
-from samples.tower_files import FLEXIBLE, LACED, ONE_SEGMENT, SEGMENTS, UNIFORM
+from samples.tower_files import FLEXIBLE, LACED, ONE_SEGMENT, SEGMENTS, TIED, UNIFORM
 
 from towercrane.cases.case import load_case
 
@@ -55,25 +55,25 @@ MEND = [
     (SEGMENTS, ('"2 GN m/rad"', "0"), "foundation.rotation_stiffness", ["a rotary stiffness", "above 0"]),
     (SEGMENTS, ('"2 GN m/rad"', '"2 GN/m"'), "foundation.rotation_stiffness", ["which is a stiffness"]),
     (SEGMENTS, ("[foundation]", "[fundation]"), "fundation", ["unknown key", '"foundation"']),
-    (SEGMENTS, ('"-200 MN"', '"-200 MN/m"'), "foundation.coupling_stiffness", ["a force", "which is a stiffness"]),
-    (SEGMENTS, ('"-200 MN"', '"-800 MN"'), "foundation.coupling_stiffness", ["less than 7.746e+08 N", "-800 MN"]),
-    (SEGMENTS, ('translation_stiffness = "300 MN/m"\n', ""), "foundation.coupling_stiffness",
+    (TIED, ('"-200 MN"', '"-200 MN/m"'), "foundation.coupling_stiffness", ["a force", "which is a stiffness"]),
+    (TIED, ('"-200 MN"', '"-800 MN"'), "foundation.coupling_stiffness", ["less than 7.746e+08 N", "-800 MN"]),
+    (TIED, ('translation_stiffness = "300 MN/m"\n', ""), "foundation.coupling_stiffness",
      ["translation_stiffness beside it", "missing"]),
-    (SEGMENTS, ('"-200 MN"', "0"), None, []),
-    (SEGMENTS, ('mass = "40 t"\n', ""), "foundation.block.mass", ["a mass", "missing"]),
-    (SEGMENTS, ('mass = "40 t"', 'mass = "-40 t"'), "foundation.block.mass", ["from 0"]),
-    (SEGMENTS, ('"300 t m^2"', '"300 t m"'), "foundation.block.rotary_inertia", ["a moment of inertia"]),
-    (SEGMENTS, ("[foundation.block]", "[foundation.bloc]"), "foundation.bloc", ["unknown key", '"block"']),
-    (SEGMENTS, ('height = "8 m"', 'height = "31 m"'), "tower.collars.0.height", ["from 0 to 30 m", "holds"]),
-    (SEGMENTS, ('height = "8 m"', 'height = "0 m"'), "tower.collars.0.height", ["above 0"]),
-    (SEGMENTS, ('height = "8 m"', 'height = "20 m"'), "tower.collars.1.height", ["that differ", '"20 m" twice']),
-    (SEGMENTS, ('height = "8 m"\n', ""), "tower.collars.0.height", ["a length", "missing"]),
-    (SEGMENTS, ('stiffness = "10 MN/m"\n', ""), "tower.collars.0.stiffness", ["a stiffness", "missing"]),
-    (SEGMENTS, ('"10 MN/m"', '"0 MN/m"'), "tower.collars.0.stiffness", ["above 0"]),
-    (SEGMENTS, ('"30 MN m/rad"', '"-30 MN m/rad"'), "tower.collars.1.rotation_stiffness", ["from 0"]),
-    (SEGMENTS, ('"400 MN m/rad"', '"400 MN m^2"'), "tower.collars.1.torsional_stiffness",
+    (TIED, ('"-200 MN"', "0"), None, []),
+    (TIED, ('mass = "40 t"\n', ""), "foundation.block.mass", ["a mass", "missing"]),
+    (TIED, ('mass = "40 t"', 'mass = "-40 t"'), "foundation.block.mass", ["from 0"]),
+    (TIED, ('"300 t m^2"', '"300 t m"'), "foundation.block.rotary_inertia", ["a moment of inertia"]),
+    (TIED, ("[foundation.block]", "[foundation.bloc]"), "foundation.bloc", ["unknown key", '"block"']),
+    (TIED, ('height = "8 m"', 'height = "31 m"'), "tower.collars.0.height", ["from 0 to 30 m", "holds"]),
+    (TIED, ('height = "8 m"', 'height = "0 m"'), "tower.collars.0.height", ["above 0"]),
+    (TIED, ('height = "8 m"', 'height = "20 m"'), "tower.collars.1.height", ["that differ", '"20 m" twice']),
+    (TIED, ('height = "8 m"\n', ""), "tower.collars.0.height", ["a length", "missing"]),
+    (TIED, ('stiffness = "10 MN/m"\n', ""), "tower.collars.0.stiffness", ["a stiffness", "missing"]),
+    (TIED, ('"10 MN/m"', '"0 MN/m"'), "tower.collars.0.stiffness", ["above 0"]),
+    (TIED, ('"30 MN m/rad"', '"-30 MN m/rad"'), "tower.collars.1.rotation_stiffness", ["from 0"]),
+    (TIED, ('"400 MN m/rad"', '"400 MN m^2"'), "tower.collars.1.torsional_stiffness",
      ["a rotary stiffness", "which is"]),
-    (SEGMENTS, ('stiffness = "10 MN/m"', 'stifness = "10 MN/m"'), "tower.collars.0.stifness",
+    (TIED, ('stiffness = "10 MN/m"', 'stifness = "10 MN/m"'), "tower.collars.0.stifness",
      ["unknown key", '"stiffness"']),
     (UNIFORM, ("[counter_jib]", '[counter_jib]\nyoungs_modulus = "210 GPa"'), "counter_jib.second_moment_of_area",
      ["that bends", "missing", "rigid"]),
@@ -129,7 +129,7 @@ IMPLAUSIBLE = [
 
 @pytest.mark.parametrize(("key", "value", "meant"), IMPLAUSIBLE)
 def test_implausible_values_name_the_likely_unit_and_can_be_allowed(write_tower, key, value, meant):
-    uncoupled = SEGMENTS if "coupling" in key else SEGMENTS.replace('"-200 MN"', "0")
+    uncoupled = TIED if "coupling" in key else TIED.replace('"-200 MN"', "0")
     path, override = write_tower(uncoupled), f"{key}={json.dumps(value)}"
     fault = faults_of(path, override)[0]
     assert (fault.file, fault.key) == (f"--set {override}", key)

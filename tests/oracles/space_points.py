@@ -40,11 +40,15 @@ class Points:
 
 
 class CraneCloud:
-    """Points of a crane model; ``crane`` is the TowerCrane that it was made of."""
+    """Points of a crane model; ``crane`` is the TowerCrane that it was made of.
+
+    Places are absolute: that of the ground, ``ground``, is added to all.
+    """
 
     def __init__(self, model, crane, areas=None):
         self.model, self.crane, self.areas = model, crane, areas
         flexible = model.crane
+        self.ground = [Jet(0.0)] * 3
         self.height, self.tower_weights = on(flexible.tower_height)
         self.bends, self.leans = flexible.tower(self.height), flexible.tower(self.height, 1)
         self.twists = flexible.torsion(self.height)
@@ -117,17 +121,22 @@ class CraneCloud:
                 [a + length * n for a, n in zip(hung, rope, strict=True)], self.model.load.mass * one, True
             ),
         }  # fmt: skip
+        for cloud in clouds.values():
+            cloud.place = [own + base for own, base in zip(cloud.place, self.ground, strict=True)]
         return clouds, rope, axes, (ux, uy)
 
     def displace(self, q, drives):
         """How points, and the rope's direction, move with each coordinate, angle and drive: a list of dicts."""
-        n, columns = self.model.coordinates, []
+        n, columns, ground = self.model.coordinates, [], self.ground
+        # What is displaced is so at one time.
+        self.ground = [Jet(0.0)] * 3
         for i in range(len(q) + len(drives)):
             unit = [Jet(a, float(k == i)) for k, a in enumerate(q)]
             pushed = [Jet(d.c[0], float(len(q) + k == i)) for k, d in enumerate(drives)]
             moved, turned, _, _ = self.points(unit[:n], pushed, unit[n:])
             column = {name: cloud.derivative() for name, cloud in moved.items()}
             columns.append(column | {"rope": np.array([jet.c[1] for jet in turned]).ravel()})
+        self.ground = ground
         return columns
 
     def left_over(self, q, rate, acceleration, drives, columns, wind):
@@ -183,7 +192,8 @@ class CraneCloud:
             hung = self.crane.trolley_mass + model.load.mass + self.crane.slewing_mass
             above = hung + self.crane.tower.mass_per_length * (flexible.tower_height - self.height)
             lean = q[own] @ self.leans
-            terms += list(-self.crane.gravity * above * self.tower_weights * self.leans[i - first] * lean)
+            falls = self.crane.gravity + 2.0 * self.ground[2].c[2]
+            terms += list(-falls * above * self.tower_weights * self.leans[i - first] * lean)
         return np.array(terms)
 
     def accelerations(self, q, rate, drives, columns, wind, given):

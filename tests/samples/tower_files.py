@@ -69,6 +69,16 @@ offset = "-40 cm"
 height = "30 m"
 mass = "5 t"
 offset = "1 m"
+[foundation]
+rotation_stiffness = "2 GN m/rad"
+translation_stiffness = "300 MN/m"
+"""
+
+TIED = f"""{SEGMENTS}coupling_stiffness = "-200 MN"
+[foundation.block]
+mass = "40 t"
+rotary_inertia = "300 t m^2"
+offset = "-1 m"
 [[tower.collars]]
 height = "8 m"
 stiffness = "10 MN/m"
@@ -77,15 +87,8 @@ height = "20 m"
 stiffness = "20 MN/m"
 rotation_stiffness = "30 MN m/rad"
 torsional_stiffness = "400 MN m/rad"
-[foundation]
-rotation_stiffness = "2 GN m/rad"
-translation_stiffness = "300 MN/m"
-coupling_stiffness = "-200 MN"
-[foundation.block]
-mass = "40 t"
-rotary_inertia = "300 t m^2"
-offset = "-1 m"
 """
+"""The same on coupled springs with a block under its foot, and tied to a building."""
 
 FLEXIBLE = 'youngs_modulus = "210 GPa"\nsecond_moment_of_area = "0.002 m^4"\n'
 """What a counter-jib is said by that bends."""

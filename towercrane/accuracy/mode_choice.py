@@ -133,6 +133,8 @@ def measured_choice(
     exact = [name for name, part in zip(scene.outputs, allowed / peaks, strict=True) if part < FORCES]
     if forces := [name.replace("_", " ") for name in exact if name not in MOTIONS]:
         doubts += (f"small motions tell too little of {forces[0]} for less than {FORCES:g} of its peak",)
+    if scene.ground:
+        doubts += ("small motions do not tell how an earthquake rings modes that are left out",)
     left_out = tuple(_left_out(departures, kinds, free, setting, np.where(np.isfinite(allowed), peaks, np.inf)))
     spent = time.process_time() - began - (0.0 if known else result.attrs["solver_cpu_seconds"])
     return Choice(setting, estimate, peaks, bool(kept), doubts, departures.looked, spent, left_out), result

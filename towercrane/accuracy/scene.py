@@ -42,7 +42,8 @@ class Scene:
     crane : TowerCrane
     load : Load
     motions : dict of str to Motion
-        "trolley" and "rope" [m]; where it leaves the plane also "slewing" or "shaft" [rad]; the wind's [m/s].
+        "trolley" and "rope" [m]; where it leaves the plane also "slewing" or "shaft" [rad]; those of ground and
+        floors [m], the wind's [m/s].
     duration : float
         [s]
     output_step : float
@@ -57,7 +58,7 @@ class Scene:
     damping : ModalDamping
     self_weight, rope_as_rod : bool
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
-    drive, drive_inertia, areas
+    drive, drive_inertia, areas, ground, floors
         As of :func:`towercrane.cranes.tower.crane_model.tower_crane_model`.
     """
 
@@ -76,6 +77,8 @@ class Scene:
     drive: Drive | None = None
     drive_inertia: float = 0.0
     areas: WindAreas | None = None
+    ground: bool = False
+    floors: int = 0
 
     @property
     def outputs(self) -> dict[str, str]:
@@ -90,7 +93,7 @@ class Scene:
 
     def foretells(self, outputs: Iterable[str]) -> bool:
         """Whether small motions foretell the error of these outputs, so that nothing is run to choose a setting."""
-        return self.planar and self.areas is None and set(outputs) <= set(FORETOLD)
+        return self.planar and self.areas is None and not self.ground and set(outputs) <= set(FORETOLD)
 
     def model(self, setting: Setting) -> FlexibleModel:
         """The crane in the setting's coordinates."""
@@ -103,6 +106,8 @@ class Scene:
             drive=self.drive,
             drive_inertia=self.drive_inertia,
             areas=self.areas,
+            ground=self.ground,
+            floors=self.floors,
             damping=self.damping,
             weight_softening=setting.weight_softening,
             self_weight=self.self_weight,

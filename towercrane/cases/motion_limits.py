@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
+from towercrane.cases.earthquake_file import channels_of, earthquake_motions
 from towercrane.cases.plausibility import FARTHEST_TURN, FASTEST
 from towercrane.cases.profiles import plan
 from towercrane.cases.wind_file import CHANNELS, wind_motions
@@ -92,6 +93,10 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
         more, wind = wind_motions(tree, folder)
         faults = [*faults, *more]
         plans |= {name: None if motion is None else Plan((Move(motion),)) for name, motion in wind.items()}
+    if drives.earthquake:
+        more, shaking = earthquake_motions(tree, folder)
+        faults = [*faults, *more]
+        plans |= {name: Plan((Move(motion),)) for name, motion in shaking.items()}
     for joint in _joints(tree, drives):
         most, hint = FARTHEST_TURN[joint], "the header names the units: slew [deg]"
         wanted = f"angles up to {most:g} rad"
@@ -117,7 +122,8 @@ def channels(tree: dict[str, Any], kind: str) -> tuple[str, ...]:
     """Names of the motions that drive the crane of a case of this kind."""
     drives = KINDS[kind].drives
     wind = CHANNELS if drives.wind and "wind" in tree else ()
-    return (*(track.name for track in drives.tracks), *_joints(tree, drives), *wind, "rope")
+    shaking = channels_of(tree) if drives.earthquake else ()
+    return (*(track.name for track in drives.tracks), *_joints(tree, drives), *shaking, *wind, "rope")
 
 
 def _joints(tree: dict[str, Any], drives: Drives) -> tuple[str, ...]:

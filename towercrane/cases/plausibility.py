@@ -77,6 +77,7 @@ RANGES = (
     Range("wind.speed", "m/s", 1e-3, 80, ("km/h",)),
     Range("wind.upward", "m/s", 1e-3, 80, ("km/h",), signed=True),
     Range("wind.direction", "rad", 1e-9, 100, ANGLES, signed=True),
+    Range("earthquake.factor", "1", 1e-3, 100, ("%",)),
     Range("crane.counter_jib.counterweight", "kg", 50, 1e6, ("t", "g")),
     Range("crane.trolley.mass", "kg", 5, 50e3, ("t", "g")),
     Range("crane.geometry.*", "m", 0.02, 1000, LENGTHS),

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.motions.motion import Motion
+    from towercrane.schema.csv_table import CsvTable
 
     Floats = NDArray[np.float64]
 
@@ -70,15 +71,7 @@ def read_gusts(path: Path) -> tuple[Floats, Floats]:
         within the decimals that they are given with, or a wind is too strong to be one.
     """
     table = read_table(path, (TIME, *(Column(axis, "m/s", words) for axis, words in AXES.items())))
-    faults = []
-    times = table.written[:, 0]
-    steps = np.diff(times)
-    # A gap or a slip does not change the usual step, and many steps tell it more finely than one.
-    usual = float(np.mean(steps[abs(steps - np.median(steps)) <= 0.1 * np.median(steps)]))
-    due = np.arange(len(times)) * times[-1] / max(round(times[-1] / usual), 1)
-    # Both the time itself and the last one, which sets the step, are rounded; after a gap all are late.
-    for row in np.flatnonzero(abs(times - due) > _last_place(times) + ROUNDING * times[-1])[:1].tolist():
-        faults.append(table.fault(row, f"the time {due[row]:g} s, evenly spaced from 0", f"{times[row]:g}"))
+    faults = uneven(table)
     largest = np.max(abs(table.values[:, 1:]), axis=1)
     for row in np.flatnonzero(largest > STRONGEST).tolist():
         what, hint = f"components up to {STRONGEST:g} m/s", "x [km/h] meant? The header names the unit"
@@ -86,6 +79,18 @@ def read_gusts(path: Path) -> tuple[Floats, Floats]:
     if faults:
         raise CaseError(faults[:SHOWN_FAULTS])
     return table.values[:, 0], table.values[:, 1:]
+
+
+def uneven(table: CsvTable) -> list[Fault]:
+    """The first row whose time is not evenly spaced within their decimals, if there is one."""
+    times = table.written[:, 0]
+    steps = np.diff(times)
+    # A gap or a slip does not change the usual step, and many steps tell it more finely than one.
+    usual = float(np.mean(steps[abs(steps - np.median(steps)) <= 0.1 * np.median(steps)]))
+    due = np.arange(len(times)) * times[-1] / max(round(times[-1] / usual), 1)
+    # Both the time itself and the last one, which sets the step, are rounded; after a gap all are late.
+    rows = np.flatnonzero(abs(times - due) > _last_place(times) + ROUNDING * times[-1])[:1].tolist()
+    return [table.fault(row, f"the time {due[row]:g} s, evenly spaced from 0", f"{times[row]:g}") for row in rows]
 
 
 def _last_place(numbers: Floats) -> float:

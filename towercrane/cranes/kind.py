@@ -79,6 +79,8 @@ class Drives:
         Largest plausible speed of a turn that states none [rad/s].
     wind : bool
         Whether a wind may blow.
+    earthquake : bool
+        Whether the ground may move.
     """
 
     height: Callable[[Tree], float | None]
@@ -87,6 +89,7 @@ class Drives:
     joints: tuple[tuple[str, ...], ...] = ()
     fastest_turn: float = 5.0
     wind: bool = False
+    earthquake: bool = False
 
 
 @dataclass(frozen=True, eq=False)

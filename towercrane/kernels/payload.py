@@ -86,7 +86,9 @@ class Structure(NamedTuple):
     jacobian : sequence of d sequences of n
         What a rate of each coordinate moves D.
     wind : sequence of d
-        Velocity of the air at the load.
+        Velocity of the air at the load, as seen from the ground.
+    ground : sequence of d
+        Acceleration of the ground that all places, velocities and accelerations are relative to.
     """
 
     mass: Sequence[Sequence[Any]]
@@ -95,6 +97,7 @@ class Structure(NamedTuple):
     bias: Sequence[Any]
     jacobian: Sequence[Sequence[Any]]
     wind: Sequence[Any] = (0.0, 0.0, 0.0)
+    ground: Sequence[Any] = (0.0, 0.0, 0.0)
 
     def mass_matrix(self) -> NDArray[np.float64]:
         """The whole mass matrix, of numbers; shape (n, n)."""
@@ -147,14 +150,14 @@ class Hung(NamedTuple):
     tension : number
         Force of the rope [N].
     power : number
-        Of winch, drag, hinge and rope [W].
+        Of winch, drag, hinge, rope and, on the load, ground [W].
     accelerations : list of n
     stretch_acceleration : sequence
         Of an elastic rope, else nothing.
     turning : list of d
         Second derivative of the rope's direction.
     direction, hinge, suspension : list of d
-        Unit vector from D to the load, hinge force on the load, acceleration of D.
+        Unit vector from D to the load, hinge force on the load, acceleration of D with that of the ground.
     """
 
     tension: Any
@@ -206,7 +209,9 @@ def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravit
     stretch, stretching = (state.stretch[0], state.stretching[0]) if elastic else (0.0, 0.0)
     winding = rope.rate + dot(rope.paid, state.rates)
     length, rate = rope.length + stretch, winding + stretching
-    axes, bias = range(len(state.direction)), structure.bias
+    axes, ground = range(len(state.direction)), structure.ground
+    # Seen from a ground that accelerates, everything has its acceleration besides.
+    bias = [own + base for own, base in zip(structure.bias, ground, strict=False)]
     norm = np.sqrt(dot(state.direction, state.direction))
     direction = [component / norm for component in state.direction]
     along = dot(direction, state.swing)
@@ -226,7 +231,7 @@ def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravit
         for k in axes:
             s = s + direction[k] * (air[k] - load.mass * bias[k])
     for k in axes:
-        power = power + air[k] * velocity[k]
+        power = power + (air[k] - load.mass * ground[k]) * velocity[k]
 
     columns = list(zip(*structure.jacobian, strict=True))
     pulled = [dot(column, direction) for column in columns]

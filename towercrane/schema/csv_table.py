@@ -37,9 +37,15 @@ SHOWN_FAULTS = 5
 IN_BRACKETS = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))")
 """A name with its unit in brackets."""
 
-COUNTS = {2: "two", 4: "four"}
+COUNTS = {2: "two", 3: "three", 4: "four"}
 
-KINDS_IN_WORDS = {"s": "seconds", "m": "metres", "rad": "radians", "m/s": "metres per second"}
+KINDS_IN_WORDS = {
+    "s": "seconds",
+    "m": "metres",
+    "rad": "radians",
+    "m/s": "metres per second",
+    "m/s^2": "metres per second squared",
+}
 """SI units of columns in words."""
 
 

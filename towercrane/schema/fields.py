@@ -133,6 +133,8 @@ Breadth = Annotated[float, Quantity("1", above=0)]
 InertiaOrNone = Annotated[float, Quantity("kg m^2", least=0)]
 RotaryInertiaPerLength = Annotated[float, Quantity("kg m^2/m", least=0)]
 PressedLength = Annotated[float, Quantity("m", least=0)]
+Factor = Annotated[float, Quantity("1", above=0)]
+FileName = Annotated[str, Field(min_length=1)]
 Root = Annotated[float, Quantity("1", above=0)]
 ModeCount = Annotated[StrictInt, Field(ge=0, le=14)]
 

@@ -9,6 +9,7 @@ from oracles.jets import Jet
 from oracles.space_points import CraneCloud
 from samples import space_crane as space
 
+from towercrane.cranes.parts.ground import CHANNELS as GROUND
 from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.constants import SLIDE_X, SLIDE_Y
@@ -36,6 +37,35 @@ SCENES = {
     "lossy": {"tower": 2, "torsion": 1, "lateral": 2, "vertical": 2, **LOSSY},
     "weightless": {"tower": 1, "torsion": 1, "lateral": 1, "vertical": 2, "self_weight": False},
     "windy": {"tower": 2, "torsion": 1, "lateral": 1, "vertical": 2, "wind": True, "areas": AREAS, **LOSSY},
+    "shaken": {"tower": 2, "torsion": 1, "lateral": 2, "vertical": 2, "ground": True, **LOSSY},
+    "shaken in wind": {
+        "tower": 1,
+        "torsion": 1,
+        "lateral": 1,
+        "vertical": 1,
+        "ground": True,
+        "wind": True,
+        "areas": AREAS,
+        **LOSSY,
+    },
+    "shaken without weight": {
+        "tower": 2,
+        "torsion": 1,
+        "lateral": 1,
+        "vertical": 2,
+        "ground": True,
+        "self_weight": False,
+    },
+    "shaken and driven": {
+        "tower": 1,
+        "torsion": 1,
+        "lateral": 1,
+        "vertical": 1,
+        "ground": True,
+        "slewing": DRIVE,
+        "drive_inertia": 2e5,
+        **LOSSY,
+    },
     "driven": {
         "tower": 1,
         "torsion": 1,
@@ -73,6 +103,10 @@ class Instant:
             # Within the soft line and beyond the corner in turn.
             drives["shaft"] = [float(self.q[at][0]) + rng.choice([-0.05, -0.01, 0.01, 0.05]), 0.1, 0.0]
         drives |= {channel: [float(motion(0.0)), 0.0, 0.0] for channel, motion in steady(self.wind).items()}
+        if model.ground:
+            shaken = [[0.0, rng.normal(), 1.5 * rng.normal()] for _ in range(3)]
+            drives |= dict(zip(GROUND, shaken, strict=True))
+            self.cloud.ground = [Jet(*own) for own in shaken]
         self.inputs = np.array([drives[channel] for channel in model.channels])
         self.drives = [Jet(*drives[name]) for name in ("slewing", "trolley", "rope")]
         (theta, phi), (theta_rate, phi_rate) = self.angles, self.angle_rates

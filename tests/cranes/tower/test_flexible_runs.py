@@ -12,6 +12,7 @@ from samples.qtz5613 import in_plane
 from samples.space_crane import manoeuvre, standing
 
 from modal.beams.beam import Beam
+from towercrane.cranes.parts.ground import earthquake
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.constants import SLEWING
@@ -121,6 +122,20 @@ def test_power_balance_with_every_drive_loss_and_wind():
     _, seen = course(scene, motions, space.start(scene, motions, swing_angle=0.3), 46.0)
     assert imbalance(seen) < 1e-10
     assert abs(seen["input_work"][-1]) > 1e4
+
+
+def test_power_balance_on_a_ground_that_moves_every_way():
+    lossy = Load(1500.0, rope_damping=800.0, drag_area=8.0)
+    damping = ModalDamping(0.005, 0.005, 0.01, 0.01)
+    scene = space.model(2, 1, 2, 2, lossy, damping=damping, ground=True, weight_softening=True)
+    rng = np.random.default_rng(2)
+    times = np.linspace(0.0, 20.0, 101)
+    motions = manoeuvre() | earthquake(times, 0.8 * rng.normal(size=(101, 3)), 60.0)
+    _, seen = course(scene, motions, space.start(scene, motions, swing_angle=0.1), 30.0)
+    assert imbalance(seen) < 1e-10
+    held = {name: rest(motion.end) if name.startswith("ground") else motion for name, motion in motions.items()}
+    _, still = course(scene, held, space.start(scene, held, swing_angle=0.1), 30.0)
+    assert abs(seen["input_work"] - still["input_work"]).max() > 1e4
 
 
 def test_power_balance_with_a_drive_that_turns_the_head():

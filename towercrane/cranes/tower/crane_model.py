@@ -60,6 +60,8 @@ def tower_crane_model(
     drive: Drive | None = None,
     drive_inertia: float = 0.0,
     areas: WindAreas | None = None,
+    ground: bool = False,
+    floors: int = 0,
     damping: ModalDamping | None = None,
     weight_softening: bool = False,
     self_weight: bool = True,
@@ -85,7 +87,7 @@ def tower_crane_model(
         [kg m^2]
     areas : WindAreas, optional
         What the wind meets; without it there is none.
-    damping, weight_softening, self_weight, rope_as_rod, cap
+    ground, floors, damping, weight_softening, self_weight, rope_as_rod, cap
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
     """
     if planar:
@@ -101,6 +103,8 @@ def tower_crane_model(
         self_weight=self_weight,
         rope_as_rod=rope_as_rod,
         wind=areas is not None,
+        ground=ground,
+        floors=floors,
         axes=2 if planar else 3,
         cap=cap,
     )

@@ -18,7 +18,7 @@ TOWER = Kind(
     tables=TowerCase,
     drives=Drives(
         tower_height, "the height of the tower", TRACKS,
-        joints=(("shaft", "slewing"),), fastest_turn=FASTEST_SLEWING, wind=True,
+        joints=(("shaft", "slewing"),), fastest_turn=FASTEST_SLEWING, wind=True, earthquake=True,
     ),
     checks=(check_tower, check_jibs, check_scene),
     build=later("towercrane.cranes.tower.file.build", "tower_model"),

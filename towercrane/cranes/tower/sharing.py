@@ -13,7 +13,7 @@ def made_of(model: FlexibleModel) -> str:
     """Text that is equal for models which differ in their load alone."""
     # Written out, floats to the last digit: equal text is equal data.
     coordinates = model.crane.written, model.counts, model.axes, model.heading, model.slewing, model.drive_inertia
-    losses = model.damping, model.cap, model.wind
+    losses = model.damping, model.cap, model.wind, model.ground, model.floors
     return repr((*coordinates, *losses, model.weight_softening, model.self_weight, model.rope_as_rod))
 
 

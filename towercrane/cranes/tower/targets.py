@@ -1,5 +1,7 @@
 """Outputs of a tower crane's run whose error can be asked for, with their units, and those that a plane has not."""
 
+from towercrane.cranes.tower.modes.collars import MOST_COLLARS
+
 FORETOLD = {"tower_tip_displacement": "m", "jib_tip_deflection": "m", "sway_radial": "rad", "rope_tension": "N"}
 """Those whose error small motions in the jib's plane foretell, without a run."""
 
@@ -37,10 +39,19 @@ OUT_OF_PLANE = (
     "jib_tip_deflection_sideways",
     "jib_root_moment_sideways",
     "base_torque",
+    *(f"collar_{k}_torque" for k in range(1, MOST_COLLARS + 1)),
 )
 """Outputs that stay zero in a scene in the jib's plane."""
 
-OUT_OF_X = ("slewing_angle", "base_moment_x", "payload_in_crane_axes", "tower_y_coordinate")
+OUT_OF_X = (
+    "slewing_angle",
+    "base_moment_x",
+    "base_force_y",
+    "ground_acceleration_y",
+    "payload_in_crane_axes",
+    "tower_y_coordinate",
+    *(f"collar_{k}_{what}" for k in range(1, MOST_COLLARS + 1) for what in ("force_y", "moment_x")),
+)
 """Outputs that tell nothing where that plane is the one of the fixed x axis: they stay zero or say what others do."""
 
 

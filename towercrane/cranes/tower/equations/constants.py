@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.parts.ground import CHANNELS as GROUND
 from towercrane.cranes.tower.modes.mass_sums import Straight
 from towercrane.cranes.tower.modes.shape_table import shape_table
 from towercrane.kernels.algebra import Row
@@ -56,6 +57,9 @@ class Constants:
         Coordinates of each kind.
     slewing : {"fixed", "prescribed", "driven"}
     wind : bool
+    ground : int
+        Place of the ground's displacement along x among the channels, which those along y and z, then those of floors
+        follow; zero where the ground rests.
     load : Load
     drive : Drive or None
         Of a head that is driven.
@@ -75,6 +79,12 @@ class Constants:
         int m phi, int m x phi and int rho I theta of the modes of jib and counter-jib, zero elsewhere.
     damping, exposure, cap : ndarray, shape (n,)
         Viscous damping; int c phi with the drag c per squared speed; mass added where a frequency is capped.
+    tower_mass : ndarray, shape (n,)
+        int m phi of the tower's modes with what stands on it and under it, zero elsewhere.
+    floor_pull : ndarray, shape (floors, n)
+        Force on the tower's modes, along x or y, per displacement of each floor of a building it is tied to.
+    softening : ndarray, shape (n, n)
+        Stiffness that a unit acceleration of the ground, upward, takes from the tower; zero where weight takes none.
     own_mass, stiffness : ndarray, shape (n, n)
         Mass of the tower alone, of the drive, and int m phi_i phi_j of all jib modes, lateral with vertical too.
     rotary_mass : ndarray, shape (n, n)
@@ -92,6 +102,7 @@ class Constants:
     counts: tuple[int, ...]
     slewing: str
     wind: bool
+    ground: int
     load: Load
     drive: Drive | None
     trolley_mass: float
@@ -115,6 +126,9 @@ class Constants:
     damping: Floats
     exposure: Floats
     cap: Floats
+    tower_mass: Floats
+    floor_pull: Floats
+    softening: Floats
     own_mass: Floats
     stiffness: Floats
     rotary_mass: Floats
@@ -181,11 +195,15 @@ def geometric_stiffness(model: Coordinates) -> Floats:
 
     N(s) is the weight of all that is above the height s.
     """
+    return model.crane.gravity * _taken(model, 1.0 if model.self_weight else 0.0)
+
+
+def _taken(model: Coordinates, own: float) -> Floats:
+    """What unit gravity takes from the stiffness of the tower modes, by so much of the structure's own mass."""
     crane = model.crane
-    own = 1.0 if model.self_weight else 0.0
     above = own * crane.slewing.mass + crane.trolley_mass + model.load.mass
     slopes, weights = crane.tower_softening
-    return np.asarray(crane.gravity * (above * slopes + own * weights))
+    return np.asarray(above * slopes + own * weights)
 
 
 def constants_of(model: Coordinates) -> Constants:
@@ -197,6 +215,7 @@ def constants_of(model: Coordinates) -> Constants:
         counts=tuple(model.counts.get(kind, 0) for kind in KINDS),
         slewing="driven" if drive is not None else str(model.slewing),
         wind=model.wind,
+        ground=model.channels.index(GROUND[0]) if model.ground else 0,
         load=model.load,
         drive=drive,
         trolley_mass=crane.trolley_mass,
@@ -217,6 +236,8 @@ def constants_of(model: Coordinates) -> Constants:
         sections=np.array([0.0, *crane.joints, crane.jib_length]),
         shapes=shape_table((crane.lateral, crane.vertical), (0.0, *crane.joints, crane.jib_length)),
         **_of_coordinates(model),
+        softening=softening(model),
+        **_of_ground(model),
         own_mass=own_mass(model),
         rotary_mass=rotary_mass(model),
         stiffness=stiffness(model),
@@ -253,6 +274,29 @@ def _of_coordinates(model: Coordinates) -> dict[str, Floats]:
         "motions": motions, "exposure": exposure, "damping": damping,
         "jib_mass": jib_mass, "jib_moment": jib_moment, "jib_turning": jib_turning,
     }  # fmt: skip
+
+
+def _of_ground(model: Coordinates) -> dict[str, Floats]:
+    """What the ground and floors do to the tower; zeros where they rest."""
+    crane, parts, n = model.crane, model.parts, model.coordinates
+    tower_mass, floor_pull = np.zeros(n), np.zeros((model.floors, n))
+    for plane in ("tower_x", "tower_y"):
+        at = parts[plane]
+        if not (model.ground and model.counts[plane]):
+            continue
+        tower_mass[at] = crane.tower_moments[0]
+        for row, collar in zip(floor_pull, crane.collars, strict=False):
+            row[at] = collar.stiffness * crane.tower(collar.height)
+    return {"tower_mass": tower_mass, "floor_pull": floor_pull}
+
+
+def softening(model: Coordinates) -> Floats:
+    """Stiffness that a unit acceleration of the ground, upward, takes from the tower; shape (n, n)."""
+    found = np.zeros((model.coordinates, model.coordinates))
+    for plane in ("tower_x", "tower_y"):
+        if model.ground and model.weight_softening and model.counts[plane]:
+            found[model.parts[plane], model.parts[plane]] = _taken(model, 1.0)
+    return found
 
 
 def own_mass(model: Coordinates) -> Floats:

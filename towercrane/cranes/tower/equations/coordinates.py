@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from modal.checks import check_fields
+from towercrane.cranes.parts.ground import CHANNELS as GROUND
+from towercrane.cranes.parts.ground import floor_channels
 from towercrane.cranes.parts.wind import CHANNELS
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.frequency_cap import added_mass
@@ -53,6 +55,11 @@ class Coordinates:
         Let the rope push, as most published models do. Without it a slack rope ends the run.
     wind : bool
         Whether a wind blows, prescribed by motions of its three components.
+    ground : bool
+        Whether the ground moves, prescribed by motions of its three displacements.
+    floors : int
+        Number of floors, the lowest first, whose own motion against the ground moves the collars that tie the tower
+        to them; all of them, or none: then collars move with the ground.
     axes : {2, 3}
         2 for a load that swings in the plane of a jib at rest, 3 in space.
     cap : float
@@ -64,8 +71,9 @@ class Coordinates:
     ------
     ValueError
         If the cap is not positive, a crane that leaves the plane is asked to stay in it, a load in space is given a
-        heading, the slewing is of no known kind, the drive's friction is set-valued, or there is inertia of a drive
-        without a drive.
+        heading, there are floors without a collar or a ground that moves, the ground moves under a jib that pivots,
+        the slewing is of no known kind, the drive's friction is set-valued, or there is inertia of a drive without a
+        drive.
     """
 
     crane: FlexibleCrane
@@ -78,6 +86,8 @@ class Coordinates:
     self_weight: bool = True
     rope_as_rod: bool = False
     wind: bool = False
+    ground: bool = False
+    floors: int = 0
     axes: Literal[2, 3] = 3
     cap: float = np.inf
 
@@ -93,6 +103,11 @@ class Coordinates:
             raise ValueError(f"FlexibleModel.heading: wanted 0 for a load in space, got {self.heading!r}")
         if isinstance(self.slewing, str) and self.slewing not in ("prescribed", "fixed"):
             raise ValueError(f"FlexibleModel.slewing: wanted 'prescribed', 'fixed' or a Drive, got {self.slewing!r}")
+        if self.ground and crane.luffing is not None:
+            raise ValueError("FlexibleModel.ground: wanted False for a jib that pivots, got True")
+        if self.floors not in (0, len(crane.collars)) or (self.floors and not self.ground):
+            wanted = f"0, or {len(crane.collars)} for a ground that moves, one for each collar"
+            raise ValueError(f"FlexibleModel.floors: wanted {wanted}, got {self.floors!r}")
         if self.drive is None and self.drive_inertia:
             raise ValueError(f"FlexibleModel.drive_inertia: wanted 0 without a drive, got {self.drive_inertia!r}")
         if self.drive is not None and self.drive.friction == "stick-slip":
@@ -105,13 +120,14 @@ class Coordinates:
 
     @cached_property
     def channels(self) -> tuple[str, ...]:
-        """Motions, as there are: trolley [m] or luffing [rad], rope [m], slewing or shaft of its drive [rad], wind
-        [m/s]."""
+        """Motions, as there are: trolley [m] or luffing [rad], rope [m], slewing or shaft of its drive [rad], ground
+        and floors [m], wind [m/s]."""
         turning: tuple[str, ...] = ("shaft",) if self.drive is not None else ("slewing",)
         if self.slewing == "fixed":
             turning = ()
         placing = "trolley" if self.crane.luffing is None else "luffing"
-        return (placing, "rope", *turning, *self.value_channels)
+        shaken = (*GROUND, *floor_channels(self.floors)) if self.ground else ()
+        return (placing, "rope", *turning, *shaken, *self.value_channels)
 
     @property
     def value_channels(self) -> tuple[str, ...]:
@@ -121,8 +137,8 @@ class Coordinates:
     @property
     def channel_units(self) -> tuple[str, ...]:
         """Units of the channels."""
-        units = {"trolley": "m", "luffing": "rad", "rope": "m", "slewing": "rad", "shaft": "rad"}
-        return tuple(units.get(channel, "m/s") for channel in self.channels)
+        units = dict.fromkeys(("luffing", "slewing", "shaft"), "rad") | dict.fromkeys(self.value_channels, "m/s")
+        return tuple(units.get(channel, "m") for channel in self.channels)
 
     @cached_property
     def counts(self) -> dict[str, int]:

@@ -17,6 +17,7 @@ from towercrane.cranes.tower.equations.constants import (
     constants_of,
     geometric_stiffness,
     scale,
+    softening,
     stiffness,
 )
 from towercrane.cranes.tower.equations.coordinates import Coordinates
@@ -100,7 +101,8 @@ class Equations(Coordinates):
         constants, fastest = replace(self.constants, load=load), self.system.fastest
         if self.weight_softening:
             # The load's weight takes stiffness, and with it speed, from the tower.
-            constants, fastest = replace(constants, stiffness=stiffness(other)), lambda: other.fastest
+            constants = replace(constants, stiffness=stiffness(other), softening=softening(other))
+            fastest = lambda: other.fastest  # noqa: E731
         # Cached properties that are filled beforehand.
         vars(other)["constants"] = constants
         crossings = None if self.system.crossings is None else Joints(constants)

@@ -158,11 +158,11 @@ def bend_jib(
     return found._replace(sums=sums)
 
 
-def bend(crane: Constants, head: Head, state: State) -> tuple[Bending, Bending]:
-    """Bending to the left and up."""
-    (wx, wy, wz), (roll, pitch, turn), weight = head.spin, head.spin_bias, crane.self_gravity
-    lateral, vertical, (_, left, up) = crane.lateral, crane.vertical, head.rows[2]
+def bend(crane: Constants, head: Head, felt: Vector, state: State) -> tuple[Bending, Bending]:
+    """Bending to the left and up; felt is the acceleration against gravity of the tower's top."""
+    (wx, wy, wz), (roll, pitch, turn), (_, left, up) = head.spin, head.spin_bias, felt
+    lateral, vertical = crane.lateral, crane.vertical
     return (
-        bend_jib(crane, lateral, vertical, -1.0, (wx, wy, wz), (roll, turn), weight * left, state),
-        bend_jib(crane, vertical, lateral, 1.0, (wx, wz, wy), (roll, -pitch), weight * up, state),
+        bend_jib(crane, lateral, vertical, -1.0, (wx, wy, wz), (roll, turn), left, state),
+        bend_jib(crane, vertical, lateral, 1.0, (wx, wz, wy), (roll, -pitch), up, state),
     )

@@ -21,6 +21,7 @@ import numpy as np
 
 from towercrane.cranes.tower.equations.body import body_of, carried
 from towercrane.cranes.tower.equations.drive import Driven, drive
+from towercrane.cranes.tower.equations.ground import ground_of, shake
 from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.jib import bend, path_of, trolley_of
 from towercrane.cranes.tower.equations.projection import Share, mass_matrix, project_bending, project_mover, share_of
@@ -43,7 +44,7 @@ class CraneStructure(NamedTuple):
     tilt : number
         Of the head [rad].
     power : number
-        Of damping, wind and drive [W].
+        Of damping, wind, ground and drive [W].
     path : tuple of 3
         Direction of the trolley's path, per way along the jib, in fixed axes.
     share : Share
@@ -66,13 +67,19 @@ class CraneStructure(NamedTuple):
 def structure(crane: Constants, state: State, drives: Drives, section: Section | None = None) -> CraneStructure:
     """The crane in a state, driven so, its trolley on a section of the jib, see `trolley_of`."""
     (head, tilt), trolley = head_of(crane, state, drives), trolley_of(crane, drives, section)
-    left, up = bend(crane, head, state)
+    ground = ground_of(crane, drives)
+    shaken = head.to_head(ground.acceleration)
+    # Acceleration against gravity, of the structure and of the trolley; with the ground's own.
+    felt, falls = (
+        tuple(gravity * down + own for down, own in zip(head.rows[2], shaken, strict=True))
+        for gravity in (crane.self_gravity, crane.gravity)
+    )
+    left, up = bend(crane, head, felt, state)
     across, rise = (path_of(crane, modes, trolley, state) for modes in (crane.lateral, crane.vertical))
     end = carried(head, trolley, across, rise)
-    falls = zip(end.bias, head.rotation[6:], strict=True)
-    pull = tuple(-crane.trolley_mass * (own + crane.gravity * down) for own, down in falls)
-    felt = tuple(crane.self_gravity * down for down in head.rotation[6:])
-    body = body_of(crane.straight, head, felt, left.sums, up.sums).with_trolley(crane.trolley_mass, end.place, pull)
+    pull = tuple(-crane.trolley_mass * (own + fall) for own, fall in zip(end.bias, falls, strict=True))
+    turning = body_of(crane.straight, head, felt, left.sums, up.sums)
+    body = turning.with_trolley(crane.trolley_mass, end.place, pull)
 
     power: Any = 0.0
     forces = []
@@ -90,6 +97,11 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         wind, power = blown.wind, power + blown.power
         forces = [force + own for force, own in zip(forces, blown.forces, strict=True)]
         body = body.pushed((0.0, blown.side, 0.0), (blown.rolling, 0.0, blown.turning))
+
+    if crane.ground:
+        moved = shake(crane, state, head, turning, left.sums, up.sums, end, ground, drives)
+        power = power + moved.power
+        forces = [force + own for force, own in zip(forces, moved.forces, strict=True)]
 
     share = share_of(head, body, end.place)
     projected = [project_mover(crane, i, share) for i in range(crane.movers)]
@@ -112,7 +124,8 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         velocity=[velocity[k] for k in axes],
         bias=[bias[k] for k in axes],
         jacobian=[[own.end[k] for own in projected] for k in axes],
-        wind=[wind[k] for k in axes],
+        wind=[wind[k] - ground.velocity[k] for k in axes],
+        ground=[ground.acceleration[k] for k in axes],
     )
     path = tuple(row[0] + row[1] * across.slope + row[2] * rise.slope for row in head.rows)
     return CraneStructure(hanging, trolley, tilt, power, path, share, shapes, driven)

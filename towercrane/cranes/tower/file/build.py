@@ -133,5 +133,7 @@ def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[
         ),
         "drive": drive,
         "drive_inertia": crane.drive.inertia if drive is not None and crane.drive is not None else 0.0,
+        "ground": tables.earthquake is not None,
+        "floors": 0 if tables.earthquake is None else len(tables.earthquake.floors),
         "areas": WindAreas(**dict(crane.wind_areas)) if tables.wind is not None else None,
     }

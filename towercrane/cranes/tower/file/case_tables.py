@@ -13,6 +13,8 @@ from towercrane.cranes.tower.targets import ALL, FORETOLD, MOTIONS
 from towercrane.schema.fields import (
     Angle,
     EitherSpeed,
+    Factor,
+    FileName,
     Length,
     Mass,
     ModeCount,
@@ -78,6 +80,19 @@ class Wind(Table):
     series: str = ""
 
 
+class Earthquake(Table):
+    """Motion of the ground, from a CSV file of its acceleration along x, y and z, linear between the file's lines.
+
+    Of the file only the named axes act, times a factor. Collars move with the ground, unless for each of them, from
+    the lowest up, a file of its floor's displacement against the ground along x and y is named.
+    """
+
+    file: FileName
+    factor: Factor = 1.0
+    axes: Annotated[tuple[Literal["x", "y", "z"], ...], Field(min_length=1)] = ("x", "y", "z")
+    floors: tuple[FileName, ...] = ()
+
+
 class Start(StartTable):
     """Initial state of a tower crane; its equilibrium is that in the wind's mean, the angle counts from there."""
 
@@ -122,6 +137,7 @@ class TowerCase(CaseTable):
     crane: Crane
     motion: Motions
     wind: Wind | None = None
+    earthquake: Earthquake | None = None
     model: Model = Field(default_factory=Model)
     start: Start = Field(default_factory=Start)
     modes: ModesRequest = Field(default_factory=ModesRequest)

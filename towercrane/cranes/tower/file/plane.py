@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, sin
+from math import inf, pi, sin
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
@@ -11,11 +11,16 @@ from towercrane.schema.motions import JointMotion, Points, Rest, Sequence, Smoot
 from towercrane.schema.ranges import at, si_at
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.schema.motions import TurnStep
 
 ACROSS = 1e-12
 """Sine of the angle between wind and jib that is none but for rounding."""
+
+HORIZONTAL = {"x": 0.0, "y": 0.5 * pi}
+"""Angles of the axes of an earthquake that may leave a plane."""
 
 
 def stays_in_plane(tables: TowerCase) -> bool:
@@ -26,13 +31,15 @@ def stays_in_plane(tables: TowerCase) -> bool:
 def heading_of(tables: TowerCase) -> float | None:
     """Angle from the fixed x axis at which the jib stands all through a run [rad].
 
-    None where crane and load leave the jib's plane: where the head turns within the run, or a wind blows across the
-    jib. What a CSV file holds is not known here: its turn or its gusts leave the plane.
+    None where crane and load leave the jib's plane: where the head turns within the run, a wind blows across the jib,
+    or the ground moves across it. What a CSV file holds is not known here: its turn or its gusts leave the plane, and
+    so does each axis of an earthquake that acts.
     """
     turn, wind = tables.motion.slewing or tables.motion.shaft, tables.wind
     blows = wind is not None and bool(wind.series or wind.speed)
-    direction = None if wind is None or wind.series else wind.direction
-    return _heading(turn, tables.run.duration, blows, direction)
+    pushed = [None if wind is None or wind.series else wind.direction] if blows else []
+    shaken = tables.earthquake.axes if tables.earthquake is not None else ()
+    return _heading(turn, tables.run.duration, [*pushed, *_directions(shaken)])
 
 
 def heading_written(tree: dict[str, Any]) -> float | None:
@@ -44,16 +51,23 @@ def heading_written(tree: dict[str, Any]) -> float | None:
         return None
     series = at(tree, "wind.series")
     blows = bool(series) or si_at(tree, "wind.speed", "m/s", 0.0) != 0.0
-    direction = None if series else si_at(tree, "wind.direction", "rad", 0.0)
-    return _heading(turn, si_at(tree, "run.duration", "s") or inf, blows, direction)
+    pushed = [None if series else si_at(tree, "wind.direction", "rad", 0.0)] if blows else []
+    axes = at(tree, "earthquake.axes")
+    shaken = (axes if isinstance(axes, list) else "xyz") if isinstance(at(tree, "earthquake"), dict) else ()
+    return _heading(turn, si_at(tree, "run.duration", "s") or inf, [*pushed, *_directions(shaken)])
 
 
-def _heading(turn: JointMotion | None, duration: float, blows: bool, direction: float | None) -> float | None:
-    """Of a turn and a wind, whose direction is not known where it varies."""
+def _directions(axes: Iterable[str]) -> list[float]:
+    """Angles of those axes of an earthquake that are horizontal."""
+    return [HORIZONTAL[axis] for axis in axes if axis in HORIZONTAL]
+
+
+def _heading(turn: JointMotion | None, duration: float, pushed: list[float | None]) -> float | None:
+    """Of a turn and the directions in which something pushes or shakes, not known where they vary."""
     heading = float(getattr(turn, "start", 0.0))
     if turn is not None and _departure(turn, heading) < duration:
         return None
-    if blows and (direction is None or abs(sin(direction - heading)) > ACROSS):
+    if any(direction is None or abs(sin(direction - heading)) > ACROSS for direction in pushed):
         return None
     return heading
 

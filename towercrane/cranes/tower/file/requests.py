@@ -55,7 +55,8 @@ def left_out(tables: TowerCase) -> list[str]:
     if not stays_in_plane(tables):
         return []
     answer = ", and what a linear model's wind across the jib would do" if tables.wind is not None else ""
-    return [f"nothing turns the head or blows across the jib: {SIDEWAYS}{answer}"]
+    shakes = "turns the head, blows or shakes" if tables.earthquake is not None else "turns the head or blows"
+    return [f"nothing {shakes} across the jib: {SIDEWAYS}{answer}"]
 
 
 def left_out_in_plane(tables: TowerCase) -> list[str]:

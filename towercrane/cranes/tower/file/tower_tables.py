@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from math import inf
-from typing import Literal
+from typing import Annotated, Literal
+
+from pydantic import Field
 
 from modal.beams.chain import ShearTheory  # noqa: TC001 - pydantic reads annotations when the class is made
 from modal.lattices.walls import Lacing  # noqa: TC001
+from towercrane.cranes.tower.modes.collars import MOST_COLLARS
 from towercrane.schema.fields import (
     Area,
     AreaOrNone,
@@ -101,7 +104,7 @@ class Tower(Section):
     beam: BeamChoice | None = None
     segments: tuple[TowerSegment, ...] = ()
     bodies: tuple[TowerBody, ...] = ()
-    collars: tuple[Collar, ...] = ()
+    collars: Annotated[tuple[Collar, ...], Field(max_length=MOST_COLLARS)] = ()
     shear_theory: ShearTheory = "haringx"
     torsional_stiffness: TorsionalStiffnessIfAny = None
     torsional_inertia_per_length: TorsionalInertiaIfAny = None

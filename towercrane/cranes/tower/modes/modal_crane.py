@@ -10,6 +10,7 @@ import numpy as np
 
 from modal.beams.torsion import torsion_modes
 from towercrane.cranes.parts import wind
+from towercrane.cranes.tower.modes.collars import TowerCollar, collars_of
 from towercrane.cranes.tower.modes.jib_shapes import shapes_of
 
 if TYPE_CHECKING:
@@ -73,6 +74,10 @@ class FlexibleCrane:
         [kg]
     planes : {1, 2}
         Directions in which the tower bends: x, or x and y.
+    tower_moment : float
+        First moment of the tower's mass and of its own bodies about its foot [kg m].
+    collars : tuple of TowerCollar
+        What ties the tower to a building, the lowest first; the shapes know their stiffness.
     jib_exposure, counter_exposure : MassSums, optional
         Sums over the drag per squared speed [kg/m] of jib and counter-jib, in place of their mass.
     tower_drag : float
@@ -106,6 +111,8 @@ class FlexibleCrane:
     tower_mass: float
     trolley_mass: float
     planes: int = 2
+    tower_moment: float = 0.0
+    collars: tuple[TowerCollar, ...] = ()
     jib_exposure: MassSums | None = None
     counter_exposure: MassSums | None = None
     tower_drag: float = 0.0
@@ -226,6 +233,8 @@ def flexible_crane(
         jib_exposure=jib_exposure,
         counter_exposure=counter_exposure,
         tower_drag=wind.drag(areas.tower) if areas is not None else 0.0,
+        tower_moment=crane.tower_moment,
+        collars=collars_of(crane),
         gravity=crane.gravity,
         counter_lateral=shapes.counter_lateral,
         counter_vertical=shapes.counter_vertical,

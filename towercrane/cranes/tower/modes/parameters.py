@@ -173,6 +173,11 @@ class TowerCrane:
         return self.tower.mass + sum(body.mass for body in bodies)
 
     @property
+    def tower_moment(self) -> float:
+        """First moment of the tower and its own bodies about its foot [kg m]."""
+        return as_chain(self.tower).inertia[1]
+
+    @property
     def end_body(self) -> EndBody:
         """The slewing part as the tower's end body: what Gao et al. (2023), Eq. 26, calls m_r and J_r."""
         if self.luffing is not None:

@@ -13,6 +13,7 @@ import numpy as np
 
 from towercrane.cranes.tower.equations.body import Carried, carried
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TURN
+from towercrane.cranes.tower.equations.ground import Ground, ground_of
 from towercrane.cranes.tower.equations.head import Head, head_of
 from towercrane.cranes.tower.equations.jib import Path, Section, Trolley, path_of, trolley_of
 from towercrane.cranes.tower.equations.motion import GUARDS
@@ -166,6 +167,11 @@ class Kinematics:
         x, y, z = (own + length * n for own, n in zip(place, self.rope, strict=True))
         u, v, w = (own + hauling * n + length * p for own, n, p in zip(velocity, self.rope, self.swing, strict=True))
         return (x, y, z), (u, v, w)
+
+    @cached_property
+    def ground(self) -> Ground:
+        """Motion of the ground."""
+        return ground_of(self.seen.crane, self.instant.drives)
 
     @cached_property
     def wind(self) -> tuple[Any, ...]:

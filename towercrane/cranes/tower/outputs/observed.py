@@ -10,9 +10,11 @@ import numpy as np
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
 from towercrane.cranes.tower.equations.coordinates import ANGLES
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
+from towercrane.cranes.tower.modes.collars import MOST_COLLARS
 from towercrane.cranes.tower.outputs.energy import total_energy
 from towercrane.cranes.tower.outputs.kinematics import Kinematics
 from towercrane.cranes.tower.outputs.sections import Sections
+from towercrane.cranes.tower.outputs.support import Support
 from towercrane.cranes.tower.targets import absent
 from towercrane.simulation.observed import About
 
@@ -31,6 +33,15 @@ class Sight(Kinematics):
     def sections(self) -> Sections:
         """What sections carry."""
         return Sections(self)
+
+    @cached_property
+    def support(self) -> Support:
+        """What holds the crane."""
+        return Support(self, self.sections)
+
+    def shaken(self, axis: int) -> Any:
+        """Acceleration of the ground along a fixed axis."""
+        return self.instant.drives[self.seen.crane.ground + axis][2]
 
     @cached_property
     def sways(self) -> tuple[Any, Any, Any]:
@@ -66,6 +77,26 @@ class Sight(Kinematics):
         return [q[i] for i in crane.part(kind)]
 
 
+def collar_outputs() -> dict[str, tuple[Callable[[Sight], Any], About]]:
+    """Those of collars, the lowest the first."""
+    parts = {
+        "force_x": ("force", 0, "N", "force of the tower on collar {} along x"),
+        "force_y": ("force", 1, "N", "force of the tower on collar {} along y"),
+        "moment_x": ("moment", 0, "N m", "moment of the tower on collar {} about x"),
+        "moment_y": ("moment", 1, "N m", "moment of the tower on collar {} about y"),
+        "torque": ("moment", 2, "N m", "moment of the tower on collar {} about the vertical"),
+    }
+
+    def read(number: int, load: str, axis: int) -> Callable[[Sight], Any]:
+        return lambda at: getattr(at.support.collar(number), load)[axis]
+
+    return {
+        f"collar_{k + 1}_{name}": (read(k, load, axis), About(units, said.format(k + 1)))
+        for k in range(MOST_COLLARS)
+        for name, (load, axis, units, said) in parts.items()
+    }
+
+
 ORIGIN, TURNING_AXES = "the undeformed tower top", "outward along its jib, sideways, up"
 
 OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
@@ -90,6 +121,15 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
     "wind_x": (lambda at: at.instant.drives[-3][0], About("m/s", "wind along x")),
     "wind_y": (lambda at: at.instant.drives[-2][0], About("m/s", "wind along y")),
     "wind_z": (lambda at: at.instant.drives[-1][0], About("m/s", "wind along z")),
+    "ground_acceleration_x": (
+        lambda at: at.shaken(0), About("m/s^2", "acceleration of the ground along x"),
+    ),
+    "ground_acceleration_y": (
+        lambda at: at.shaken(1), About("m/s^2", "acceleration of the ground along y"),
+    ),
+    "ground_acceleration_z": (
+        lambda at: at.shaken(2), About("m/s^2", "acceleration of the ground upward"),
+    ),
     "sway_tangential": (
         lambda at: np.arctan2(at.sways[1], at.sways[2]),
         About("rad", "sway across the jib's root, atan2(across, down), positive in the turning sense"),
@@ -131,20 +171,31 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
         About("N m", "bending moment at the jib's root, positive where it speeds the jib up in the turning sense"),
     ),
     "base_moment_x": (
-        lambda at: at.sections.base[0],
+        lambda at: at.support.base.moment[0],
         About("N m", "moment of the crane on its base about x, positive: tips towards -y"),
     ),
     "base_moment_y": (
-        lambda at: at.sections.base[1],
+        lambda at: at.support.base.moment[1],
         About("N m", "moment of the crane on its base about y, positive: tips towards +x"),
     ),
     "base_torque": (
-        lambda at: at.sections.base[2], About("N m", "moment of the crane on its base about the vertical"),
+        lambda at: at.support.base.moment[2], About("N m", "moment of the crane on its base about the vertical"),
     ),
+    "base_force_x": (
+        lambda at: at.support.base.force[0], About("N", "force of the crane on its base along x"),
+    ),
+    "base_force_y": (
+        lambda at: at.support.base.force[1], About("N", "force of the crane on its base along y"),
+    ),
+    "base_force_z": (
+        lambda at: at.support.base.force[2],
+        About("N", "force of the crane on its base, upward: its weight is negative"),
+    ),
+    **collar_outputs(),
     "total_energy": (total_energy, About("J", "kinetic and potential energy")),
     "input_work": (
         lambda at: at.instant.state[-1],
-        About("J", "work of drives and wind less what damping, friction and drag took, since the start"),
+        About("J", "work of drives, wind and ground less what damping, friction and drag took, since the start"),
     ),
     "payload_position": (
         lambda at: (*at.from_plane(*at.load_in_space[0][:2]), at.load_in_space[0][2]),
@@ -183,8 +234,14 @@ def about(
     crane, counts = model.constants, dict(model.counts)
     if model.axes == 2:
         counts["tower_y"] = counts["tower_x"]
-    there = {"shaft": crane.drive is not None, "wind": crane.wind}
+    there = {"shaft": crane.drive is not None, "wind": crane.wind, "ground": bool(crane.ground)}
     found = {name: shown for name, (_, shown) in read.items() if there.get(name.partition("_")[0], True)}
+    springs = [(1.0, own.rotation_stiffness, own.torsional_stiffness) for own in model.crane.collars]
+    for name in [name for name in found if name.startswith("collar_")]:
+        _, number, what, *_ = name.split("_")
+        held = springs[int(number) - 1] if int(number) <= len(springs) else (0.0, 0.0, 0.0)
+        if not held[("force", "moment", "torque").index(what)]:
+            del found[name]
     for kind, count in counts.items():
         if count and kind not in ANGLES:
             name = f"amplitude of the mass-normalised modes: {kind.replace('_', ' ')}"

@@ -1,4 +1,4 @@
-"""Forces and moments in sections of a flexible crane: root of the jib, top and base of the tower.
+"""Forces and moments in sections of a flexible crane: root of the jib, top of the tower.
 
 They follow from the acceleration of every mass beyond the section (d'Alembert), not from curvatures, which need many
 more modes for the same accuracy. Weights act where the deflected crane carries them.
@@ -10,8 +10,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
-
-import numpy as np
 
 from towercrane.cranes.tower.equations.body import Body, body_of
 from towercrane.cranes.tower.equations.jib import Sums
@@ -72,9 +70,9 @@ class Sections:
         return head._replace(spin_bias=(x, y, z))
 
     def felt(self, gravity: Any) -> Vector:
-        """Acceleration of the tower's top against gravity."""
-        along_x, along_y, *_ = self.top
-        own = self.head.to_head((along_x, along_y, 0.0))
+        """Acceleration of the tower's top against gravity, with that of the ground."""
+        (along_x, along_y, *_), (x, y, z) = self.top, self.at.ground.acceleration
+        own = self.head.to_head((along_x + x, along_y + y, z))
         x, y, z = (a + gravity * down for a, down in zip(own, self.head.rows[2], strict=True))
         return x, y, z
 
@@ -138,27 +136,3 @@ class Sections:
         """What is beyond the top of the tower."""
         jib, counter = self.jib_root, self.turning(self.at.seen.counter, self.at.seen.counter_exposure)
         return counter.pushed(jib.force, jib.moment)
-
-    @cached_property
-    def base(self) -> Vector:
-        """Moment of the crane about its foot, along the fixed axes."""
-        at, seen, crane = self.at, self.at.seen, self.at.seen.crane
-        force, moment = (self.head.to_fixed(own) for own in (self.tower_top.force, self.tower_top.moment))
-        u_x, u_y, *_ = at.placed
-        x, y, turn = (own + arm for own, arm in zip(moment, cross((u_x, u_y, seen.tower_height), force), strict=True))
-        qdd = self.accelerations
-        count, bent = len(crane.part("tower_x")), crane.part("torsion").start
-        (q_x, q_y), (a_x, a_y) = ((values[:count], values[count:bent]) for values in (at.state.coordinates, qdd))
-        own = crane.own_mass[:count, :count]
-
-        # Along an axis that the tower does not bend to there are no coordinates.
-        x = x + (dot(a_y, seen.first) - crane.self_gravity * dot(q_y, seen.zeroth))
-        y = y - (dot(a_x, seen.first) - crane.self_gravity * dot(q_x, seen.zeroth))
-        turn = turn - dot(qdd[bent : bent + len(seen.torsion)], seen.torsion)
-        if len(q_y):
-            turn = turn - form(q_x, own, a_y) + form(q_y, own, a_x)
-        speed = np.sqrt(dot(at.wind, at.wind))
-        press = tuple(seen.tower_drag * speed * own for own in at.wind)
-        half = 0.5 * seen.tower_height * seen.tower_height
-        blown = cross((dot(q_x, seen.swept), dot(q_y, seen.swept), half), press)
-        return (*at.from_plane(x + blown[0], y + blown[1]), turn + blown[2])

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     from towercrane.cranes.tower.equations.constants import Constants
@@ -32,12 +33,20 @@ class Seen:
         Their drag per squared speed, where a wind blows.
     tip : ndarray, shape (jib modes,)
         Shapes of the jib at its tip.
-    tower_height, tower_drag : float
-        [m, kg/m^2]
+    tower_height, tower_drag, tower_mass, tower_moment : float
+        [m, kg/m^2]; mass of the tower and its own bodies, and its first moment about the foot [kg, kg m].
     zeroth, first, swept : ndarray, shape (tower modes,)
         Sums over the tower's mass of its shapes, and of what tips it; integrals of the shapes.
     torsion : ndarray, shape (torsion modes,)
         Sums over the tower's inertia of its shapes of torsion.
+    collar_heights : ndarray, shape (c,)
+        Of what ties the tower to a building, the lowest first [m].
+    collar_springs : ndarray, shape (c, 3)
+        Stiffness against deflection, rotation and twist [N/m, N m/rad, N m/rad].
+    collar_bends, collar_turns : ndarray, shape (c, tower modes)
+        Deflection and rotation of the tower there.
+    collar_twists : ndarray, shape (c, torsion modes)
+        Its twist there.
     """
 
     crane: Constants
@@ -49,16 +58,25 @@ class Seen:
     tip: Floats
     tower_height: float
     tower_drag: float
+    tower_mass: float
+    tower_moment: float
     zeroth: Floats
     first: Floats
     swept: Floats
     torsion: Floats
+    collar_heights: Floats
+    collar_springs: Floats
+    collar_bends: Floats
+    collar_turns: Floats
+    collar_twists: Floats
 
 
 def seen_of(model: Equations) -> Seen:
     """Constants of a crane's outputs in its chosen coordinates."""
     crane = model.crane
     zeroth, first = crane.tower_moments
+    heights = np.array([collar.height for collar in crane.collars])
+    springs = [(own.stiffness, own.rotation_stiffness, own.torsional_stiffness) for own in crane.collars]
     return Seen(
         crane=model.constants,
         heading=model.heading,
@@ -69,8 +87,15 @@ def seen_of(model: Equations) -> Seen:
         tip=crane.tip_shapes[:, 0],
         tower_height=crane.tower_height,
         tower_drag=crane.tower_drag,
+        tower_mass=crane.tower_mass,
+        tower_moment=crane.tower_moment,
         zeroth=zeroth,
         first=first + crane.tower.rotary_moments(),
         swept=crane.tower.deflection_integrals(),
         torsion=crane.torsion.mass_moment(),
+        collar_heights=heights,
+        collar_springs=np.array(springs).reshape(-1, 3),
+        collar_bends=crane.tower(heights).T,
+        collar_turns=crane.tower.rotation(heights).T,
+        collar_twists=crane.torsion(heights).T,
     )

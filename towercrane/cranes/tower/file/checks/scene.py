@@ -46,6 +46,7 @@ def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
         yield from _check_bending(tree, "vertical")
     yield from _check_drive(tree)
     yield from _check_wind(tree)
+    yield from _check_floors(tree)
 
 
 def _check_outputs(tree: dict[str, Any], missing: Collection[str]) -> Iterator[Fault]:
@@ -56,7 +57,7 @@ def _check_outputs(tree: dict[str, Any], missing: Collection[str]) -> Iterator[F
     for key, name in asked:
         if name in missing and name in ALL:
             what = f"one of {', '.join(output for output in ALL if output not in missing)}"
-            hint = "nothing turns the head or blows across the jib: the scene stays in the jib's plane"
+            hint = "nothing turns the head, blows or shakes across the jib: the scene stays in the jib's plane"
             yield Fault("", f"accuracy.{key}", what, shown(name), hint)
 
 
@@ -140,3 +141,11 @@ def _check_wind(tree: dict[str, Any]) -> Iterator[Fault]:
     if all(si_at(tree, key, unit, 0.0) == 0.0 for key, unit in PRESSED.items()):
         what = "something that the wind presses on: crane.wind_areas or payload.drag_area above 0"
         yield Fault("", "wind", what, "no area at all")
+
+
+def _check_floors(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Floors that are not one for each collar."""
+    floors, collars = at(tree, "earthquake.floors"), at(tree, "crane.tower.collars") or []
+    if isinstance(floors, list) and floors and isinstance(collars, list) and len(floors) != len(collars):
+        what = f"a file for each of {len(collars)} collars of the tower, the lowest first, or none"
+        yield Fault("", "earthquake.floors", what, f"{len(floors)}", "without files collars move with the ground")

@@ -1,0 +1,124 @@
+"""What holds a flexible crane: the ground under its tower's foot, and collars that tie the tower to a building.
+
+The ground takes what the acceleration of every mass, the weights and the wind leave over, less what the collars take.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from towercrane.cranes.tower.equations.ground import floors_of
+from towercrane.kernels.algebra import Vector, cross, dot, form
+
+if TYPE_CHECKING:
+    from towercrane.cranes.tower.outputs.kinematics import Kinematics
+    from towercrane.cranes.tower.outputs.sections import Sections
+
+
+class Load(NamedTuple):
+    """Force and moment by the crane, along the fixed axes."""
+
+    force: Vector
+    moment: Vector
+
+
+class Tied(NamedTuple):
+    """What a collar takes, along the axes of the coordinates: where it is, force, moment."""
+
+    place: Vector
+    force: Vector
+    moment: Vector
+
+
+@dataclass(frozen=True, eq=False)
+class Support:
+    """What the crane does to what holds it.
+
+    Parameters
+    ----------
+    at : Kinematics
+        With the slopes and guards of its instant.
+    sections : Sections
+        Of the same instant.
+    """
+
+    at: Kinematics
+    sections: Sections
+
+    @cached_property
+    def tied(self) -> list[Tied]:
+        """What each collar takes, the lowest first."""
+        crane, seen, q = self.at.seen.crane, self.at.seen, self.at.state.coordinates
+        q_x, q_y, q_c = ([q[i] for i in crane.part(kind)] for kind in ("tower_x", "tower_y", "torsion"))
+        floors: list[Any] = floors_of(crane, self.at.instant.drives) or [(0.0, 0.0)] * len(seen.collar_heights)
+        found = []
+        for k, (height, floor) in enumerate(zip(seen.collar_heights, floors, strict=True)):
+            stiffness, rotating, twisting = seen.collar_springs[k]
+            x, y = (dot(seen.collar_bends[k], own) for own in (q_x, q_y))
+            force = stiffness * (x - floor[0]), stiffness * (y - floor[1]), 0.0
+            turned_x, turned_y = -dot(seen.collar_turns[k], q_y), dot(seen.collar_turns[k], q_x)
+            moment = rotating * turned_x, rotating * turned_y, twisting * dot(seen.collar_twists[k], q_c)
+            found.append(Tied((x, y, height), force, moment))
+        return found
+
+    def collar(self, number: int) -> Load:
+        """What the crane does to a collar, counted from 0 and the lowest."""
+        _, force, moment = self.tied[number]
+        return self._fixed(force, moment)
+
+    @cached_property
+    def base(self) -> Load:
+        """What the crane does to the ground, the moment about the place of its undeformed foot."""
+        at, seen, crane, top = self.at, self.at.seen, self.at.seen.crane, self.sections.tower_top
+        head, qdd = self.sections.head, self.sections.accelerations
+        force, moment = head.to_fixed(top.force), head.to_fixed(top.moment)
+        u_x, u_y, *_ = at.placed
+        moment = added(moment, cross((u_x, u_y, seen.tower_height), force))
+        count, bent = len(crane.part("tower_x")), crane.part("torsion").start
+        (q_x, q_y), (a_x, a_y) = ((values[:count], values[count:bent]) for values in (at.state.coordinates, qdd))
+        shaken_x, shaken_y, shaken_z = at.ground.acceleration
+        own, falls = crane.own_mass[:count, :count], crane.self_gravity + shaken_z
+
+        # Along an axis that the tower does not bend to there are no coordinates. Its mass moves sideways alone.
+        s_x, s_y = dot(q_x, seen.zeroth), dot(q_y, seen.zeroth)
+        inertia = (
+            -dot(a_x, seen.zeroth) - seen.tower_mass * shaken_x,
+            -dot(a_y, seen.zeroth) - seen.tower_mass * shaken_y,
+            -seen.tower_mass * falls,
+        )
+        turn = s_y * shaken_x - s_x * shaken_y - dot(qdd[bent : bent + len(seen.torsion)], seen.torsion)
+        if len(q_y):
+            turn = turn - form(q_x, own, a_y) + form(q_y, own, a_x)
+        tipping = (
+            dot(a_y, seen.first) + seen.tower_moment * shaken_y - falls * s_y,
+            falls * s_x - dot(a_x, seen.first) - seen.tower_moment * shaken_x,
+            turn,
+        )
+        speed, height = np.sqrt(dot(at.wind, at.wind)), seen.tower_height
+        press = tuple(seen.tower_drag * speed * wind for wind in at.wind)
+        blown = cross((dot(q_x, seen.swept), dot(q_y, seen.swept), 0.5 * height * height), press)
+        force = added(force, inertia, tuple(height * own for own in press))
+        moment = added(moment, tipping, blown)
+        for place, held, couple in self.tied:
+            # The collars take their part.
+            force, moment = less(force, held), less(less(moment, couple), cross(place, held))
+        return self._fixed(force, moment)
+
+    def _fixed(self, force: Vector, moment: Vector) -> Load:
+        """Along the fixed axes, of what is along the axes of the coordinates."""
+        along, about = (self.at.from_plane(*vector[:2]) for vector in (force, moment))
+        return Load((*along, force[2]), (*about, moment[2]))
+
+
+def added(first: Any, *others: Any) -> Any:
+    """Sum of vectors."""
+    return tuple(sum(own, start) for start, *own in zip(first, *others, strict=True))
+
+
+def less(one: Vector, other: Vector) -> Vector:
+    """Difference of two vectors."""
+    return one[0] - other[0], one[1] - other[1], one[2] - other[2]
