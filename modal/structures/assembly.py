@@ -1,18 +1,21 @@
-"""A structure made ready for the compiled search: cut and joined to runs as its waves ask for, in its own units."""
+"""A structure made ready for the compiled search: joined to runs as its waves ask for, in its own units."""
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
-from math import ceil, isinf, log, sqrt
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.structures.kernels import block_counts, dynamic_stiffness, find_roots, find_runs
+from modal.structures.kernels import count_below, dynamic_stiffness, find_roots, find_runs, scaled_stiffness
 from modal.structures.kernels.blocks import SIZES
 from modal.structures.kernels.piece import TERMS
 from modal.structures.kernels.stiffness import ROWS
 from modal.structures.members import HELD, POINTS, Members
+from modal.structures.refinement import LONGEST, MOST_RUNS, STRONGEST
+from modal.structures.rows import rows_of, units_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,16 +24,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
     Runs = NDArray[np.int64]
-
-LONGEST = 5
-"""Blocks, see `modal.structures.kernels.stiffness`, that a run may have without a node of its own; each is 1.7 rad of
-wave at most."""
-
-MOST_RUNS = 128
-"""Number of runs from which on they get longer instead: matrices are full."""
-
-STRONGEST = 30.0
-"""Change of bending or shear stiffness along a run, as a factor, that needs no node of its own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +57,11 @@ class Assembly:
         """What kernels take, the scratch array last."""
         return self.segments, self.nodes, self.runs, self.motions, self.points, np.zeros((ROWS, TERMS))
 
+    @property
+    def _scratch(self) -> Floats:
+        n = self.points.shape[1]
+        return np.zeros((n + 2, n))
+
     def matrix(self, angular_frequency: float, load: float = 1.0) -> tuple[Floats, int]:
         """Dynamic stiffness in the arrays' units, and the count of fixed-end modes of the runs."""
         matrix = np.zeros(self.points.shape[1:])
@@ -72,24 +70,19 @@ class Assembly:
 
     def scaled(self, angular_frequency: float, load: float = 1.0) -> tuple[Floats, Floats, int]:
         """Dynamic stiffness with every unknown brought to size, by what it was multiplied, and the count."""
-        matrix, inside = self.matrix(angular_frequency, load)
-        _, geometric, bodies = (np.abs(np.diag(points)) for points in self.points)
-        squared = (angular_frequency / self.units[2]) ** 2
-        size = np.diag(self.matrix(0.0, 0.0)[0]) + load * geometric + squared * bodies + np.abs(np.diag(matrix))
-        scale = 1.0 / np.sqrt(np.where(size > 0.0, size, 1.0))
-        return matrix * np.outer(scale, scale), scale, inside
+        scratch, n = self._scratch, self.points.shape[1]
+        inside = scaled_stiffness((angular_frequency / self.units[2]) ** 2, load, *self.arrays, scratch)
+        return scratch[:n], scratch[n], int(inside)
 
     def count(self, angular_frequency: float, load: float = 1.0) -> int:
         """Number of natural frequencies below one [rad/s], each with its multiplicity."""
-        matrix, _, inside = self.scaled(angular_frequency, load)
-        return inside + int((np.linalg.eigvalsh(matrix) < 0.0).sum())
+        return int(count_below((angular_frequency / self.units[2]) ** 2, load, *self.arrays, self._scratch))
 
     def roots(self, above: float, below: float, known: int, count: int, *, by_load: bool = False) -> Floats:
         """The next natural angular frequencies [rad/s], or load factors, between two; so many are known below."""
         roots, unit = np.zeros(count), 1.0 if by_load else self.units[2]
-        unknowns = self.points.shape[1]
-        scratch, bounds = np.zeros((unknowns + 2, unknowns)), np.zeros((2, count))
-        find_roots(*self.arrays, scratch, bounds, by_load, above / unit, below / unit, known, roots)
+        bounds = np.zeros((2, count))
+        find_roots(*self.arrays, self._scratch, bounds, by_load, above / unit, below / unit, known, roots)
         return roots * unit
 
     def stiffness(self, unknowns: int) -> Floats:
@@ -123,30 +116,6 @@ class Assembly:
         return np.array(vectors)
 
 
-def refined(structure: Members, angular_frequency: float, load: float = 1.0, most_runs: int = MOST_RUNS) -> Members:
-    """The structure with nodes inside long members, up to a frequency [rad/s] and a load factor.
-
-    Between its ends a member that is long for the waves has fixed-end frequencies exponentially close to natural ones
-    of the structure, which its condensed stiffness no longer tells apart: e^x digits are lost, x the length in waves.
-    In a strong taper the slender end hides the stout one. Both get nodes.
-    """
-    units = units_of(structure)
-    squared = (angular_frequency / units[2]) ** 2
-    fine = Members(structure.unknowns, shear_theory=structure.shear_theory)
-    parts = [part for member in structure.members for part in _even(member, fine)]
-    blocks = np.zeros(len(parts))
-    block_counts(np.array([row_of(part, structure, units) for part in parts]), squared, load, np.zeros(SIZES), blocks)
-    longest = max(LONGEST, int(blocks.sum()) // most_runs)
-    for part, count in zip(parts, blocks, strict=True):
-        # Equal ones would all have the same fixed-end frequencies.
-        cut = part.cut(-(-int(count) // longest), len(fine.unknowns), spread=0.1)
-        fine.members += cut
-        fine.unknowns += ("m", "rad") * (len(cut) - 1)
-    for name in POINTS:
-        getattr(fine, name).update(getattr(structure, name))
-    return fine
-
-
 def assembly(
     fine: Members, angular_frequency: float, load: float = 1.0, most_runs: int = MOST_RUNS, *, whole: bool = False
 ) -> Assembly:
@@ -166,17 +135,17 @@ def assembly(
     """
     units = units_of(fine)
     length, force, frequency = units
-    segments = np.array([row_of(member, fine, units) for member in fine.members])
+    segments = rows_of(fine.members, fine, units)
     size = np.array([length if unit == "m" else 1.0 for unit in fine.unknowns])
     free = np.zeros(len(segments)) if whole else _free(fine)
     scale = {"springs": 1.0, "geometric": 1.0, "bodies": frequency**2}
     nodes = np.zeros((len(segments), len(POINTS), 3))
-    for s in np.flatnonzero(free):
-        v, theta = fine.members[s].unknowns[:2]
-        for row, name in enumerate(POINTS):
-            found = getattr(fine, name)
-            for column, (i, j) in enumerate(((v, v), (v, theta), (theta, theta))):
-                nodes[s, row, column] = found.get((i, j), 0.0) * scale[name] * size[i] * size[j] / (force * length)
+    before = {u: (s, k) for s in np.flatnonzero(free) for k, u in enumerate(fine.members[s].unknowns[:2])}
+    for row, name in enumerate(POINTS):
+        for (i, j), value in getattr(fine, name).items():
+            if i in before and j in before:
+                (s, k), (_, other) = before[i], before[j]
+                nodes[s, row, k + other] = value * scale[name] * size[i] * size[j] / (force * length)
     squared, runs = (angular_frequency / frequency) ** 2, np.zeros((len(segments), 3), dtype=np.int64)
     scratch, longest, number = np.zeros((4, SIZES)), LONGEST, most_runs + 1
     while number > most_runs and longest <= LONGEST * len(segments):
@@ -189,71 +158,31 @@ def assembly(
     outer = [u for u in range(size.size) if u not in inside]
     composition, motions = _motions(fine, runs, size, outer, angular_frequency**2)
     motions[:, [0, 2]] /= length
-    points = np.zeros((len(POINTS), len(outer), len(outer)))
-    place = {u: k for k, u in enumerate(outer)}
-    for row, name in enumerate(POINTS):
-        for (i, j), value in getattr(fine, name).items():
-            if i in place:
-                points[row, place[i], place[j]] = value * scale[name]
-    kept = composition[outer]
-    points = np.ascontiguousarray(kept.T @ points @ kept / (force * length))
+    entries = [
+        (row, i, j, value * scale[name] / (force * length))
+        for row, name in enumerate(POINTS)
+        for (i, j), value in getattr(fine, name).items()
+        if i not in inside
+    ]
+    # Most unknowns have nothing on them.
+    held = sorted({i for _, i, _, _ in entries})
+    place, kept = {u: k for k, u in enumerate(held)}, composition[held]
+    points = np.zeros((len(POINTS), len(held), len(held)))
+    for row, i, j, value in entries:
+        points[row, place[i], place[j]] = value
+    points = np.ascontiguousarray(kept.T @ points @ kept)
     return Assembly(fine, units, segments, nodes, runs, motions, points, composition)
-
-
-def units_of(structure: Members) -> tuple[float, float, float]:
-    """Length [m], force [N] and circular frequency [rad/s] of the size of the structure's own, however it is cut."""
-    parts: dict[str, float] = {}
-    for member in structure.members:
-        parts[member.part] = parts.get(member.part, 0.0) + member.segment.length
-    length = max(parts.values())
-    bending = max(member.segment.bending_stiffness for member in structure.members)
-    mass = max(member.segment.mass_per_length for member in structure.members)
-    return length, bending / length**2, sqrt(bending / mass) / length**2
-
-
-def row_of(member: Member, structure: Members, units: tuple[float, float, float]) -> Floats:
-    """Row of `modal.structures.kernels.piece` for a member, shape (14,)."""
-    s, (length, force, frequency) = member.segment, units
-    mass = force / (length * frequency**2)
-    flexibility = 0.0 if isinf(s.shear_stiffness) else force / s.shear_stiffness
-    return np.array([
-        s.length / length, s.mass_per_length * length / mass, s.bending_stiffness / (force * length**2),
-        flexibility, s.rotary_inertia / (mass * length), s.end_ratio,
-        s.mass_power, s.bending_power, s.shear_power, member.compression / force, member.gravity * mass / force,
-        float(structure.shear_theory == "engesser"), float(s.inclined_chords),
-        s.mass_flexibility * force / length**2,
-    ])  # fmt: skip
-
-
-def _even(member: Member, structure: Members) -> list[Member]:
-    """A tapered member as several with equal changes of breadth, on new unknowns of the structure."""
-    s = member.segment
-    power = max(s.bending_power, 0.0 if isinf(s.shear_stiffness) else abs(s.shear_power))
-    parts = max(1, ceil(power * abs(log(s.end_ratio)) / log(STRONGEST)))
-    found, rest = [], member
-    for left in range(parts, 1, -1):
-        # Of the breadth that is left, its parts-th root.
-        step = rest.segment.end_ratio ** (1.0 / left)
-        at = rest.segment.length * (1.0 - step) / (1.0 - rest.segment.end_ratio)
-        near, rest = rest.split(at, len(structure.unknowns))
-        structure.unknowns += ("m", "rad")
-        found.append(near)
-    return [*found, rest]
 
 
 def _free(structure: Members) -> Floats:
     """Where the node before a member may lie inside a run: nothing else hangs on its unknowns; shape (members,)."""
-    uses = np.zeros(len(structure.unknowns), dtype=int)
-    for member in structure.members:
-        for unknown in member.unknowns:
-            if unknown != HELD:
-                uses[unknown] += 1
-    members = structure.members
+    uses = Counter(unknown for member in structure.members for unknown in member.unknowns)
+    members, plain = structure.members, (1.0, 1.0)
     free, own = np.zeros(len(members)), {}
-    for s in range(1, len(members)):
-        near, far = members[s].unknowns[:2], members[s - 1].unknowns[2:]
-        plain = members[s].factors[:2] == members[s - 1].factors[2:] == (1.0, 1.0)
-        if plain and near == far and HELD not in near and near[0] != near[1] and (uses[[*near]] == 2).all():
+    for s, (before, member) in enumerate(pairwise(members), 1):
+        near = member.unknowns[:2]
+        lone = near == before.unknowns[2:] and HELD not in near and near[0] != near[1]
+        if lone and uses[near[0]] == uses[near[1]] == 2 and member.factors[:2] == before.factors[2:] == plain:
             free[s] = 1.0
             own.update(dict.fromkeys(near, s))
     for name in POINTS:

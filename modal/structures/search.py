@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.structures.assembly import Assembly, assembly, refined, units_of
+from modal.structures.assembly import Assembly, assembly
 from modal.structures.members import FewModes, Members, Unstable
+from modal.structures.refinement import refined
+from modal.structures.rows import units_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -27,7 +27,8 @@ class Structure(Members):
 
     def count_below(self, angular_frequency: float) -> int:
         """Number of natural frequencies below one [rad/s], each with its multiplicity."""
-        from modal.structures.assembly import assembly, refined
+        from modal.structures.assembly import assembly
+        from modal.structures.refinement import refined
 
         check_not_negative("angular_frequency", angular_frequency)
         if angular_frequency >= self.mass_frequency:
@@ -71,7 +72,8 @@ class Structure(Members):
 
     def stiffness(self) -> Floats:
         """Static stiffness on the unknowns under all weights and loads [N/m, N, N m], shape (n, n)."""
-        from modal.structures.assembly import assembly, refined
+        from modal.structures.assembly import assembly
+        from modal.structures.refinement import refined
 
         return assembly(refined(self, 0.0), 0.0, whole=True).stiffness(len(self.unknowns))
 
@@ -90,7 +92,8 @@ class Structure(Members):
         Unstable
             If the structure buckles under its weights and loads.
         """
-        from modal.structures.assembly import assembly, refined
+        from modal.structures.assembly import assembly
+        from modal.structures.refinement import refined
         from modal.structures.search import require_stable
 
         require_stable(self)

@@ -79,14 +79,12 @@ def structure_modes(structure: Structure, count: int) -> StructureModes:
     Unstable
         If the structure buckles under its weights and loads.
     """
-    from modal.structures.assembly import refined
+    from modal.structures.refinement import refined
 
     omega = structure.angular_frequencies(whole_number("count", count, 1))
     fine = refined(structure, float(omega[-1]))
-    shapes, motions = _shapes(fine, omega)
-    parts = {
-        name: _part(fine, name, shapes, float(omega[-1])) for name in dict.fromkeys(m.part for m in fine.members)
-    }
+    shapes, ends, motions = _shapes(fine, omega)
+    parts = {name: _part(fine, name, shapes, ends) for name in dict.fromkeys(m.part for m in fine.members)}
     modes = StructureModes(structure, omega, motions[:, : len(structure.unknowns)], parts)
     mix = _orthonormal(modes)
     first = structure.members[0].part
@@ -119,64 +117,54 @@ def _orthonormal(modes: StructureModes) -> Floats:
     return mix
 
 
-def _shapes(fine: Members, omega: Floats) -> tuple[list[Floats], Floats]:
-    """Shape along every member (n, p, terms, 5), in SI, and motions of all unknowns (n, u), not yet of unit mass."""
+def _shapes(fine: Members, omega: Floats) -> tuple[Floats, list[Floats], Floats]:
+    """Shapes along all pieces (n, p, terms, 5), where those of each member end, motions of unknowns (n, u), in SI.
+
+    Not yet of unit mass. Pieces are those of the highest frequency, from the first member to the last.
+    """
     from modal.structures.assembly import assembly
     from modal.structures.kernels import piece_ends, run_shape
     from modal.structures.kernels.piece import TERMS
     from modal.structures.kernels.stiffness import ROWS, SLOT
+    from modal.structures.rows import rows_of, units_of
 
-    none = np.empty(1)
-    motions, counts = np.zeros((omega.size, len(fine.unknowns))), np.empty(0, dtype=int)
-    shapes: list[Floats] = []
+    units = units_of(fine)
+    length, force, frequency = units
+    highest = float((omega[-1] / frequency) ** 2)
+    rows, counts = rows_of(fine.members, fine, units), np.zeros(len(fine.members))
+    ends = np.zeros(piece_ends(rows, highest, 1.0, counts, np.zeros(0)))
+    piece_ends(rows, highest, 1.0, counts, ends)
+    bounds = np.concatenate([[0], np.cumsum(counts.astype(int))])
+    shapes, motions = np.zeros((omega.size, ends.size, TERMS + 1, 5)), np.zeros((omega.size, len(fine.unknowns)))
     for of in _clusters(omega):
         # Arrays made for this frequency alone: those for higher ones would cost digits.
         ready = assembly(fine, float(omega[of][-1]))
-        length, force, frequency = ready.units
-        highest = float((omega[-1] / frequency) ** 2)
-        if not shapes:
-            counts = np.array([piece_ends(row, highest, 1.0, none) for row in ready.segments])
-            shapes = [np.zeros((omega.size, count, TERMS + 1, 5)) for count in counts]
         for k, vector in zip(range(omega.size)[of], ready.null_vectors(omega[of]), strict=True):
             motions[k] = ready.composition @ vector
-            for (first, last, single), motion in zip(ready.runs, ready.motions, strict=True):
-                pieces = counts[first:last].sum()
-                out, along = np.zeros((pieces, TERMS + 1, 5)), np.zeros((last - first + 1, 2))
-                work, scratch = np.zeros((ROWS, TERMS)), np.zeros((SLOT * pieces + pieces + 1, 4))
+            for (first, last, single), motion in zip(ready.runs.tolist(), ready.motions, strict=True):
+                out, along = shapes[k, bounds[first] : bounds[last]], np.zeros((last - first + 1, 2))
+                work, scratch = np.zeros((ROWS, TERMS)), np.zeros((SLOT * len(out) + len(out) + 1, 4))
                 run_shape(
                     ready.segments, ready.nodes, first, last, single == 1, highest,
-                    float((omega[k] / frequency) ** 2), 1.0, motion @ vector, work, scratch,
-                    out, along,
+                    (omega[k] / frequency) ** 2, 1.0, motion @ vector, work, scratch, out, along,
                 )  # fmt: skip
-                # Deflections come in the unit of length, forces in that of force.
-                out *= np.array([length, 1.0, force, force * length, 1.0])
-                for member, part in zip(
-                    range(first, last), np.split(out, np.cumsum(counts[first:last])[:-1]), strict=True
-                ):
-                    shapes[member][k] = part
-                    if member > first:
-                        motions[k, fine.members[member].unknowns[:2]] = along[member - first] * (length, 1.0)
-    return shapes, motions
+                for member in range(first + 1, last):
+                    motions[k, fine.members[member].unknowns[:2]] = along[member - first] * (length, 1.0)
+    # Deflections come in the unit of length, forces in that of force.
+    shapes *= np.array([length, 1.0, force, force * length, 1.0])
+    return shapes, np.split(ends * length, bounds[1:-1]), motions
 
 
-def _part(fine: Members, part: str, shapes: list[Floats], highest: float) -> PartShapes:
-    """Shapes along one part from those along its members, whose pieces are those of the highest frequency."""
-    from modal.structures.assembly import row_of, units_of
-    from modal.structures.kernels import piece_ends
-
-    units = units_of(fine)
-    along, found = [np.zeros(1)], []
-    properties: list[list[Floats]] = [[], [], [], [], []]
-    for member, shape in zip(fine.members, shapes, strict=True):
-        if member.part != part:
-            continue
-        ends = np.zeros(1 + shape.shape[1])
-        piece_ends(row_of(member, fine, units), (highest / units[2]) ** 2, 1.0, ends)
-        found.append(shape)
-        along.append(member.position + ends[1:] * units[0])
-        for values, one in zip(properties, _properties(member, ends * units[0]), strict=True):
-            values.append(one)
-    return PartShapes(np.concatenate(along), np.concatenate(found, axis=1), *map(np.concatenate, properties))
+def _part(fine: Members, part: str, shapes: Floats, ends: list[Floats]) -> PartShapes:
+    """Shapes along one part from those along all members."""
+    along, properties, chosen = [np.zeros(1)], [], []
+    for member, own in zip(fine.members, ends, strict=True):
+        chosen.append(np.full(own.size, member.part == part))
+        if member.part == part:
+            along.append(member.position + own)
+            properties.append(_properties(member, np.concatenate([[0.0], own])))
+    found = shapes[:, np.concatenate(chosen)]
+    return PartShapes(np.concatenate(along), found, *map(np.concatenate, zip(*properties, strict=True)))
 
 
 def _properties(member: Member, ends: Floats) -> tuple[Floats, ...]:

@@ -10,10 +10,20 @@ bodies. A circular frequency and a load factor say which dynamic stiffness is me
 from modal.compiler.native import native
 from modal.structures.kernels import roots, runs, shapes, structure
 
-(dynamic_stiffness, scaled_stiffness, find_roots, find_runs, block_counts, piece_ends, run_shape) = native(
+(
+    dynamic_stiffness,
+    scaled_stiffness,
+    count_below,
+    find_roots,
+    find_runs,
+    block_counts,
+    piece_ends,
+    run_shape,
+) = native(
     "structures",
     structure.dynamic_stiffness,
-    roots.scaled,
+    structure.scaled_stiffness,
+    roots.count_below,
     roots.find_roots,
     runs.find_runs,
     runs.block_counts,

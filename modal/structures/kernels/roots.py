@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.structures.kernels.inertia import inertia
-from modal.structures.kernels.nodes import BODIES, GEOMETRIC
 from modal.structures.kernels.stiffness import UNSTABLE
-from modal.structures.kernels.structure import dynamic_stiffness
+from modal.structures.kernels.structure import at_rest, scale_to, scaled_stiffness
 
 if TYPE_CHECKING:
     from modal.compiler.kinds import Row, Stack, Table, Whole
@@ -35,37 +34,13 @@ def _between(near: float, f_near: float, far: float, f_far: float, third: float,
     return min(max(x, near + margin), far - margin)
 
 
-def scaled(
-    omega2: float, load: float, segments: Table, nodes: Stack, runs: Whole, motions: Stack, points: Stack,
-    work: Table, static: Row, scale: Row, out: Table,
-) -> int:  # fmt: skip
-    """Dynamic stiffness with every unknown brought to the size of what springs, segments and bodies put on it.
-
-    So that neither a heavy body nor a stiff member drowns the rest in rounding. ``static`` (n,) is the diagonal
-    without motion or load; ``scale`` (n,) takes the factors, ``out`` (n, n) the matrix; count of fixed-end modes.
-    """
-    inside = dynamic_stiffness(omega2, load, segments, nodes, runs, motions, points, work, out)
-    for i in range(static.size):
-        size = static[i] + load * abs(points[GEOMETRIC, i, i]) + omega2 * points[BODIES, i, i] + abs(out[i, i])
-        scale[i] = 1.0 / np.sqrt(size) if size > 0.0 else 1.0
-    for i in range(static.size):
-        for j in range(static.size):
-            out[i, j] *= scale[i] * scale[j]
-    return inside
-
-
 def count_below(
     omega2: float, load: float, segments: Table, nodes: Stack, runs: Whole, motions: Stack, points: Stack,
     work: Table, scratch: Table,
 ) -> int:  # fmt: skip
     """Number of natural frequencies below one, with their multiplicity; ``scratch`` is (n + 2, n)."""
-    n = points.shape[1]
-    matrix, static = scratch[:n], scratch[n]
-    dynamic_stiffness(0.0, 0.0, segments, nodes, runs, motions, points, work, matrix)
-    for i in range(n):
-        static[i] = matrix[i, i]
-    inside = scaled(omega2, load, segments, nodes, runs, motions, points, work, static, scratch[n + 1], matrix)
-    negative, _ = inertia(matrix)
+    inside = scaled_stiffness(omega2, load, segments, nodes, runs, motions, points, work, scratch)
+    negative, _ = inertia(scratch[: points.shape[1]])
     return inside + negative
 
 
@@ -81,11 +56,9 @@ def find_roots(
     Each is bracketed by counts and then followed as a zero of the determinant, with the sign that the count gives
     it; where a fixed-end mode of a run lies in the bracket, by halving alone.
     """
-    n = points.shape[1]
-    matrix, static, scale, low, high = scratch[:n], scratch[n], scratch[n + 1], bounds[0], bounds[1]
-    dynamic_stiffness(0.0, 0.0, segments, nodes, runs, motions, points, work, matrix)
-    for i in range(n):
-        static[i] = matrix[i, i]
+    n, low, high = points.shape[1], bounds[0], bounds[1]
+    matrix, static, scale = scratch[:n], scratch[n + 1], scratch[n]
+    at_rest(segments, nodes, runs, motions, points, work, matrix, static)
     for i in range(roots.size):
         low[i], high[i] = above, below
 
@@ -103,7 +76,7 @@ def find_roots(
             if not near < x < far:
                 break
             omega2, load = 0.0 if by_load else x * x, x if by_load else 1.0
-            inside = scaled(omega2, load, segments, nodes, runs, motions, points, work, static, scale, matrix)
+            inside = scale_to(omega2, load, segments, nodes, runs, motions, points, work, static, scale, matrix)
             count, f = inside, -np.inf
             if inside != UNSTABLE:
                 negative, size = inertia(matrix)

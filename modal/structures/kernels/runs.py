@@ -76,17 +76,23 @@ def block_counts(segments: Table, omega2: float, load: float, sizes: Row, counts
         counts[s] = 1 + max(0, blocks_of(segments[s], omega2, load, sizes))
 
 
-def piece_ends(segment: Row, omega2: float, load: float, out: Row) -> int:
-    """Ends of a segment's pieces into ``out`` as far as it reaches; number of pieces."""
-    total, number, count = 0, cells(segment), 0
-    out[0] = 0.0
-    for k in range(number):
-        ends = cell(segment, k, number)
-        count = max(1, pieces_within(segment, ends, omega2, load))
-        for i in range(1, count + 1):
-            total += 1
-            if total < out.size:
-                part = piece_of(ends, i - 1, count)
-                left = 0.0 if i == count and k + 1 == number else part[3] - part[2]
-                out[total] = segment[LENGTH] - left
+def piece_ends(segments: Table, omega2: float, load: float, counts: Row, out: Row) -> int:
+    """Number of pieces of all segments; that of each into ``counts`` (s,).
+
+    Distances of the pieces' far ends from their segment's near end go one after the other into ``out`` as far as it
+    reaches.
+    """
+    total = 0
+    for s in range(segments.shape[0]):
+        segment, before, number = segments[s], total, cells(segments[s])
+        for k in range(number):
+            ends = cell(segment, k, number)
+            count = max(1, pieces_within(segment, ends, omega2, load))
+            for i in range(count):
+                if total < out.size:
+                    part = piece_of(ends, i, count)
+                    left = 0.0 if i + 1 == count and k + 1 == number else part[3] - part[2]
+                    out[total] = segment[LENGTH] - left
+                total += 1
+        counts[s] = total - before
     return total
