@@ -3,7 +3,7 @@
 from functools import partial
 
 import pytest
-from samples import case_files, tower_files
+from samples import case_files, jib_files, tower_files
 
 
 @pytest.fixture
@@ -16,3 +16,9 @@ def write(tmp_path):
 def write_tower(tmp_path):
     """Write a case and its crane with this tower."""
     return partial(tower_files.write_case, tmp_path)
+
+
+@pytest.fixture
+def write_jib(tmp_path):
+    """Write a case and its crane with these jibs."""
+    return partial(jib_files.write_case, tmp_path)

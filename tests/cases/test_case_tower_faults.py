@@ -29,6 +29,7 @@ MEND = [
     (ONE_SEGMENT, ('youngs_modulus = "210 GPa"', ""), "tower.segments.0.youngs_modulus", ["modulus", "missing"]),
     (ONE_SEGMENT, ('length = "30 m"\n', ""), "tower.segments.0.length", ["a length", "missing"]),
     (ONE_SEGMENT, ("[[tower.segments]]", "[tower.segments]"), "tower.segments", ["[[tower.segments]]", "a table"]),
+    (ONE_SEGMENT, ("[[tower.segments]]", "[[tower.segment]]"), "tower.segment", ["unknown key", '"segments"']),
     (ONE_SEGMENT, ("m^4", "m^3"), "tower.segments.0.second_moment_of_area", ["a second moment of area", "m^3"]),
     (ONE_SEGMENT, ('second_moment_of_area = "0.01 m^4"', ""), "tower.segments.0.second_moment_of_area",
      ["a lattice of the segment", "missing"]),

@@ -119,8 +119,7 @@ def _wanted(key: str, field: FieldInfo | None) -> str:
     if inner:
         required = [n for n, f in inner[0].model_fields.items() if f.is_required()]
         return f"a table [{key}]" + (f" with {', '.join(required)}" if required else "")
-    if annotation is int:
-        bounds = {k: getattr(m, k) for m in field.metadata for k in ("ge", "le") if hasattr(m, k)}
+    if bounds := {k: getattr(m, k) for m in field.metadata for k in ("ge", "le") if hasattr(m, k)}:
         return f"a whole number from {bounds['ge']} to {bounds['le']}"
     return {bool: "true or false", str: "a text in quotes"}.get(annotation, "")  # type: ignore[arg-type]
 

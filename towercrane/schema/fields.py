@@ -137,6 +137,7 @@ Factor = Annotated[float, Quantity("1", above=0)]
 FileName = Annotated[str, Field(min_length=1)]
 Root = Annotated[float, Quantity("1", above=0)]
 ModeCount = Annotated[StrictInt, Field(ge=0, le=14)]
+ModeCountIfAny = Annotated[StrictInt | None, Field(ge=0, le=14)]
 
 MassIfAny = Annotated[float | None, Quantity("kg", above=0)]
 AreaIfAny = Annotated[float | None, Quantity("m^2", least=0)]

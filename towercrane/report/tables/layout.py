@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -39,11 +41,24 @@ def said(console: Console, sentences: list[str]) -> None:
         console.print(sentence)
 
 
+MOST_NAMED = 40
+"""Assumed values that are named one by one; of more it is told how many are in each table."""
+
+
 def assumed_values(console: Console, assumed: list[dict[str, str]]) -> None:
     """Name the values that no source gives, with reasons where they are few."""
-    if len(assumed) > MOST_ASSUMED:
-        values = ", ".join(f"{entry['key']} = {entry['value']}" for entry in assumed)
-        console.print(f"assumed  {len(assumed)} values that no source gives (reasons: --json): {values}")
+    if len(assumed) <= MOST_ASSUMED:
+        for entry in assumed:
+            console.print(f"assumed  {entry['key']} = {entry['value']}: {entry['why']}")
         return
-    for entry in assumed:
-        console.print(f"assumed  {entry['key']} = {entry['value']}: {entry['why']}")
+    named = [f"{entry['key']} = {entry['value']}" for entry in assumed]
+    if len(assumed) > MOST_NAMED:
+        tables = Counter(_table_of(entry["key"]) for entry in assumed)
+        named = [f"{count} in [{table}]" for table, count in tables.items()]
+    listed = ", ".join(named)
+    console.print(f"assumed  {len(assumed)} values that no source gives (reasons: --json): {listed}", markup=False)
+
+
+def _table_of(key: str) -> str:
+    """Table of a case that a key is in; those of a list are one."""
+    return re.sub(r"\.\d+", "", key).rpartition(".")[0]

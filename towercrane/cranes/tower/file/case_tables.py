@@ -18,6 +18,7 @@ from towercrane.schema.fields import (
     Length,
     Mass,
     ModeCount,
+    ModeCountIfAny,
     Position,
     Ratio,
     SpeedIfAny,
@@ -56,8 +57,8 @@ class Model(Table):
     torsion_modes: ModeCount = 1
     jib_lateral_modes: ModeCount = 2
     jib_vertical_modes: ModeCount = 3
-    counter_jib_lateral_modes: ModeCount | None = None
-    counter_jib_vertical_modes: ModeCount | None = None
+    counter_jib_lateral_modes: ModeCountIfAny = None
+    counter_jib_vertical_modes: ModeCountIfAny = None
     weight_softening: StrictBool = False
     tower_damping_ratio: Ratio = 0.0
     torsion_damping_ratio: Ratio = 0.0

@@ -33,9 +33,6 @@ def idle(tables: TowerCase, *, exact_crane: bool = False, all_modes: bool = Fals
     crane, model = tables.crane, tables.model
     planar = exact_crane or stays_in_plane(tables)
     rigid = planar or not (model.torsion_modes or all_modes)
-    counter_jib = 0 if exact_crane else asked_modes(tables)["counter_jib_vertical_modes"]
-    if not (exact_crane or all_modes or counter_jib):
-        yield from ("crane.counter_jib.youngs_modulus", "crane.counter_jib.second_moment_of_area")
     if not crane.tower.segments:
         if beam_choice(crane.tower, crane.tower) != "stated":
             yield "crane.tower.second_moment_of_area"
@@ -46,12 +43,29 @@ def idle(tables: TowerCase, *, exact_crane: bool = False, all_modes: bool = Fals
     if rigid:
         yield from (f"crane.tower.{key}" for key in KEYS)
         yield from (f"crane.tower.collars.{k}.torsional_stiffness" for k in range(len(crane.tower.collars)))
-    if planar or not (model.jib_lateral_modes or all_modes):
-        pieces = [f"segments.{number}." for number, _ in enumerate(crane.jib.segments)] or [""]
-        yield from (f"crane.jib.{piece}lateral_{name}" for piece in pieces for name in SIDEWAYS)
+    yield from _idle_of_jibs(tables, planar, bending=exact_crane or all_modes)
     if planar:
         yield "crane.roll_inertia"
     if planar or tables.motion.shaft is None:
         yield from ("crane.drive.", "crane.friction.")
     if exact_crane or tables.wind is None:
         yield "crane.wind_areas."
+
+
+def _idle_of_jibs(tables: TowerCase, planar: bool, *, bending: bool) -> Iterator[str]:
+    """The same of jib and counter-jib, which bend as the case has it, or wherever their file says how."""
+    counts = asked_modes(tables)
+    for name, jib in (("jib", tables.crane.jib), ("counter_jib", tables.crane.counter_jib)):
+        upright, sideways = (bending or bool(counts[f"{name}_{way}_modes"]) for way in ("vertical", "lateral"))
+        sideways = sideways and not planar
+        pieces = [f"crane.{name}.segments.{number}." for number, _ in enumerate(jib.segments)]
+        if jib.lattice is not None and jib.laced is None:
+            yield f"crane.{name}.lattice."
+        for piece in (f"crane.{name}.", *pieces):
+            if not sideways:
+                # A jib that is rigid to its sides turns with the inertia of its sections all the same.
+                yield from (f"{piece}lateral_{key}" for key in (SIDEWAYS if planar else SIDEWAYS[:2]))
+            if name == "counter_jib" and not upright:
+                yield from (f"{piece}{key}" for key in ("second_moment_of_area", "shear_stiffness"))
+                if not sideways:
+                    yield f"{piece}youngs_modulus"

@@ -66,6 +66,11 @@ class JibSection(Table):
     rotary_inertia_per_length: RotaryInertiaPerLength = 0.0
     lateral_rotary_inertia_per_length: RotaryInertiaPerLength = 0.0
 
+    @property
+    def laced(self) -> JibLattice | None:
+        """The lattice that gives the beam: beside a stated second moment of area it is a check alone."""
+        return self.lattice if self.second_moment_of_area is None else None
+
 
 class JibSegment(JibSection):
     """Uniform piece of a jib; its mass is given per length or as a whole, its modulus may be the jib's."""

@@ -157,7 +157,7 @@ def jib_of(crane: Crane, plane: Plane = "vertical") -> Beam | Chain | None:
     (first, *more), prefix = jib.pieces, "lateral_" if plane == "lateral" else ""
     inertia: float | None = getattr(first, f"{prefix}second_moment_of_area")
     plain = getattr(first, f"{prefix}shear_stiffness") == inf and first.rotary_inertia_per_length == 0.0
-    if not more and not jib.bodies and first.lattice is None and plain and first.lateral_shear_stiffness == inf:
+    if not more and not jib.bodies and first.laced is None and plain and first.lateral_shear_stiffness == inf:
         modulus, mass = first.youngs_modulus or jib.youngs_modulus, first.mass_per_length
         assert modulus is not None, "the file is checked to give one"
         return None if inertia is None else Beam(first.length, _spread(first) or mass or 0.0, modulus, inertia)
@@ -180,8 +180,8 @@ def _jib_chain(jib: Jib, plane: Plane) -> Chain | None:
     for piece in jib.pieces:
         modulus = piece.youngs_modulus or jib.youngs_modulus
         assert modulus is not None, "the file is checked to give one"
-        if piece.lattice is not None:
-            lattice = JibLattice(**dict(piece.lattice), youngs_modulus=modulus)
+        if piece.laced is not None:
+            lattice = JibLattice(**dict(piece.laced), youngs_modulus=modulus)
             segments += lattice.segments(piece.length, plane, _spread(piece))
             continue
         prefix = "lateral_" if plane == "lateral" else ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.tower.file.checks.tower import MISSING, ROUNDING, meant, missing, sum_of_segments, tables_in
-from towercrane.cranes.tower.file.jib_tables import CounterJib, Jib, JibSection, JibSegment
+from towercrane.cranes.tower.file.jib_tables import CounterJib, Jib, JibLattice, JibSection, JibSegment
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.ranges import at, si_at
 from towercrane.schema.units import wanted
@@ -34,6 +34,8 @@ def check_jibs(tree: dict[str, Any]) -> Iterator[Fault]:
             hint = "the segments have keys of their own; youngs_modulus may stay with the jib"
             got = f"{', '.join(both)} beside {len(segments)} segment{'s' if len(segments) > 1 else ''}"
             yield Fault("", f"{key}.segments", "segments, or the keys of a uniform jib, not both", got, hint)
+        elif "segments" in meant(jib, CounterJib.model_fields):
+            continue
         elif segments:
             for number, segment in enumerate(segments):
                 yield from _check_section(f"{key}.segments.{number}", segment, jib)
@@ -54,23 +56,34 @@ def jib_length(tree: dict[str, Any], key: str = JIB) -> float | None:
 
 def _check_section(key: str, section: dict[str, Any], jib: dict[str, Any]) -> Iterator[Fault]:
     """A section without mass, modulus or stiffness, or with two of one kind."""
-    known, laced = JibSegment.model_fields if section is not jib else Jib.model_fields, "lattice" in section
+    known = JibSegment.model_fields if section is not jib else Jib.model_fields
     if "youngs_modulus" not in jib:
         yield from missing(key, section, {"youngs_modulus": "Pa"}, known)
     if "mass" in section and "mass_per_length" in section:
         what = "one of mass and mass_per_length"
         yield Fault("", f"{key}.mass", what, f"{shown(section['mass'])} beside a mass per length", "leave one out")
-    elif "mass" not in section and not laced:
+    elif "mass" not in section and not laced(section, jib) and "lattice" not in meant(section, known):
         yield from missing(key, section, {"mass_per_length": "kg/m"}, known)
-    name = f"{key}.second_moment_of_area"
-    if laced:
-        both = [other for other in known if other in section and other.endswith(BESIDE)]
+    yield from _check_beam(key, section, jib)
+    if not {*STIFF} & {*section} and not meant(section, known) & {*STIFF}:
+        yield Fault("", f"{key}.second_moment_of_area", f"{wanted('m^4')}, or a lattice", MISSING)
+
+
+def _check_beam(key: str, section: dict[str, Any], jib: dict[str, Any]) -> Iterator[Fault]:
+    """A beam that is stated beside the lattice that gives it, and lacing that lacks its posts."""
+    if laced(section, jib):
+        both = [other for other in JibSection.model_fields if other in section and other.endswith(BESIDE)]
         if both:
             hint = "the members give the beam: leave it out, or the lattice"
+            if section is jib:
+                hint = "the members give the beam: leave it out, or state second_moment_of_area with it"
             yield Fault("", f"{key}.{both[0]}", "no stated beam beside a lattice", shown(section[both[0]]), hint)
-        yield from _check_lattice(f"{key}.lattice", section["lattice"])
-    elif "second_moment_of_area" not in section and not meant(section, known) & {*STIFF}:
-        yield Fault("", name, f"{wanted('m^4')}, or a lattice", MISSING)
+    yield from _check_lattice(f"{key}.lattice", section.get("lattice"))
+
+
+def laced(section: dict[str, Any], jib: dict[str, Any]) -> bool:
+    """Whether a section as written has its beam from a lattice: in a uniform jib what is stated holds."""
+    return "lattice" in section and not (section is jib and "second_moment_of_area" in section)
 
 
 BESIDE = "second_moment_of_area", "shear_stiffness", "rotary_inertia_per_length"
@@ -78,13 +91,22 @@ BESIDE = "second_moment_of_area", "shear_stiffness", "rotary_inertia_per_length"
 
 
 def _check_lattice(key: str, lattice: object) -> Iterator[Fault]:
-    """Walls whose lacing lacks its posts."""
+    """Walls whose lacing lacks its posts or has no place for them, and a wall that is not there."""
     if not isinstance(lattice, dict):
         return
+    triangle = lattice.get("shape", "triangle") == "triangle"
     for wall in ("side", "base", "opposite"):
         if lattice.get(f"{wall}_lacing") == "N" and not si_at(lattice, f"{wall}_post_area", "m^2", 0.0):
             what = 'an area above 0, such as "6 cm^2": the lacing "N" needs posts'
             yield Fault("", f"{key}.{wall}_post_area", what, shown(lattice.get(f"{wall}_post_area", "nothing")))
+    if triangle and lattice.get("side_lacing", "zigzag") == "zigzag" and si_at(lattice, "side_post_area", "m^2"):
+        what = "no posts in zigzag sides of a triangle, whose nodes face no other"
+        yield Fault("", f"{key}.side_post_area", what, shown(lattice["side_post_area"]), "leave it out")
+    for name in JibLattice.model_fields:
+        if triangle and name.startswith("opposite_") and name != "opposite_chord_area" and name in lattice:
+            what = 'shape = "rectangle" with it: a triangle has one opposite chord and no wall between two'
+            yield Fault("", f"{key}.{name}", what, shown(lattice[name]))
+            return
 
 
 def _check_sum(tree: dict[str, Any], key: str, jib: dict[str, Any]) -> Iterator[Fault]:
@@ -98,9 +120,10 @@ def _check_sum(tree: dict[str, Any], key: str, jib: dict[str, Any]) -> Iterator[
 def _check_counter_jib(key: str, jib: dict[str, Any]) -> Iterator[Fault]:
     """A uniform counter-jib that lacks something, or is half flexible."""
     needed = {"length": "m", "mass_per_length": "kg/m"}
-    if "lattice" in jib:
+    if laced(jib, jib):
         del needed["mass_per_length"]
     yield from missing(key, jib, needed, CounterJib.model_fields)
+    yield from _check_beam(key, jib, jib)
     bends = [name for name in ("youngs_modulus", *STIFF) if name in jib]
     if not bends and not jib.get("bodies"):
         return

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.tower.file.case_tables import Model
+from towercrane.cranes.tower.file.checks.jib import laced
 from towercrane.cranes.tower.file.checks.tower import tables_in
 from towercrane.cranes.tower.file.plane import heading_written
 from towercrane.cranes.tower.targets import ALL, absent
@@ -95,7 +96,7 @@ def _check_bending(tree: dict[str, Any], plane: str) -> Iterator[Fault]:
             continue
         pieces = [(f"crane.{member}.segments.{k}", own) for k, own in enumerate(tables_in(jib.get("segments")))]
         for place, piece in pieces or [(f"crane.{member}", jib)]:
-            if name not in piece and "lattice" not in piece:
+            if name not in piece and not laced(piece, jib):
                 yield _undescribed(f"{place}.{name}", "m^4", key, count)
 
 

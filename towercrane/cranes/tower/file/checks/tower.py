@@ -42,7 +42,7 @@ def check_tower(tree: dict[str, Any]) -> Iterator[Fault]:
             yield Fault("", f"{TOWER}.segments", "segments, or the keys of a uniform tower, not both", got, hint)
         elif segments:
             yield from _check_segments(tree, tower, segments)
-        elif "segments" not in tower or tower["segments"] == []:
+        elif not tower.get("segments") and "segments" not in meant(tower, Tower.model_fields):
             yield from _check_uniform(tower)
         for key, section in ((TOWER, tower), *_numbered("segments", segments)):
             yield from _check_lattice(f"{key}.lattice", section.get("lattice"))
