@@ -5,7 +5,7 @@ As :mod:`oracles.space_points`: nothing but positions, and energies that follow 
 
 import numpy as np
 from oracles.jets import Jet, rotation, total
-from oracles.space_points import CraneCloud, Points, on
+from oracles.space_points import CraneCloud, Points, on, shaped
 
 
 def power(jet, exponent):
@@ -20,16 +20,13 @@ def apart(a, b):
     return power(total((x - y) * (x - y) for x, y in zip(a, b, strict=True)), 0.5)
 
 
-def shaped(shapes, amplitudes):
-    return total(s * a for s, a in zip(shapes, amplitudes, strict=True))
-
-
 class LuffingCloud(CraneCloud):
     """Points of a model whose ``crane`` is the TowerCrane that it was made of; drives: slewing, luffing, rope."""
 
     def __init__(self, model, crane):
         super().__init__(model, crane)
         self.own = crane.luffing
+        self.jib, self.jib_weights = on(crane.jib.length)
 
     def on_jib(self, angle, x, y, z):
         """A point of the jib in the head's plane: forward, left, up from the tower's top."""

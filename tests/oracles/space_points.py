@@ -6,18 +6,95 @@ The load is written in two angles, the tilt as the exponential of a matrix.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 from oracles.jets import Jet, rotation, total
 
-GAUSS = leggauss(40)
+from modal.beams.beam import Beam
+
+GAUSS, FEW = leggauss(40), leggauss(16)
 DRIVES = ("slewing", "trolley", "rope")
+ARM = 2.0
+"""Distance of a rotor's points from its middle [m]."""
 
 
 def on(length, begin=0.0):
     """Gauss points and weights on [begin, begin + length]."""
     return begin + 0.5 * length * (GAUSS[0] + 1), 0.5 * length * GAUSS[1]
+
+
+def shaped(shapes, amplitudes):
+    return total(s * a for s, a in zip(shapes, amplitudes, strict=True))
+
+
+class Member:
+    """Jib or counter-jib as points: masses [kg], lengths that the wind sees [m], inertia about e2 and e3 [kg m^2].
+
+    It is uniform, or of segments with bodies on it; it lies along e1, or with ``side`` -1 to the other side. Its
+    bases are of bending to the left and up; None does not bend.
+    """
+
+    def __init__(self, name, upright, sideways, bases, side=1.0):
+        self.kinds, self.side = [f"{name}_lateral", f"{name}_vertical"], side
+        if isinstance(upright, Beam):
+            self.at, self.length = on(upright.length)
+            self.mass, (self.pitch, self.yaw) = upright.mass_per_length * self.length, np.zeros((2, len(self.at)))
+        else:
+            self._of_segments(upright, sideways)
+        self.shapes = [np.zeros((0, 1)) if basis is None else basis(self.at) for basis in bases]
+        self.turns = [np.zeros((0, 1)) if basis is None else basis.rotation(self.at) for basis in bases]
+        self.reach = upright.length
+        self.end = [np.zeros((0, 1)) if basis is None else basis([self.reach]) for basis in bases]
+
+    def _of_segments(self, upright, sideways):
+        points, weights = 0.5 * (FEW[0] + 1.0), 0.5 * FEW[1]
+        own = [own.length for own in upright.segments]
+        at = (np.array(upright.nodes[:-1])[:, None] + np.outer(own, points)).ravel()
+        length, none = np.outer(own, weights).ravel(), np.zeros(len(upright.bodies))
+        self.at = np.append(at, [upright.nodes[node] for node in upright.bodies])
+        self.length = np.append(length, none)
+
+        def along(chain, of_segment, of_body):
+            spread = np.repeat([getattr(segment, of_segment) for segment in chain.segments], len(points))
+            return np.append(spread * length, [getattr(body, of_body) for body in chain.bodies.values()])
+
+        self.mass = along(upright, "mass_per_length", "mass")
+        self.pitch, self.yaw = (along(chain, "rotary_inertia", "rotary_inertia") for chain in (upright, sideways))
+
+    def places(self, part):
+        """Along e1, e2 and e3."""
+        return [Jet(self.side * self.at), *map(shaped, self.shapes, [part.get(kind, []) for kind in self.kinds])]
+
+    def tip(self, part):
+        """Place of its end."""
+        return [Jet(self.side * self.reach), *map(shaped, self.end, [part.get(kind, []) for kind in self.kinds])]
+
+    def rotors(self, part):
+        """Sections and bodies spin with the member; about its axis they only roll with the head."""
+        left, up = map(shaped, self.turns, [part.get(kind, []) for kind in self.kinds])
+        spins = (0, self.pitch + self.yaw, 0.0), (1, self.pitch, -self.side * up), (2, self.yaw, self.side * left)
+        return [rotor(*spin) for spin in spins]
+
+
+def rotor(axis, inertia, turn=0.0):
+    """Points that spin about an axis of the head and have inertia about this axis alone: places, 3 Jets, and masses.
+
+    ``turn`` is the angle that each of the rotors has turned by, a Jet. Their masses add up to nothing, so it does not
+    matter where on the head they are.
+    """
+    inertia, turn = np.atleast_1d(inertia), Jet.of(turn)
+    one, (c, s) = Jet(np.ones(inertia.shape)), (turn.cos(), turn.sin())
+    rim = [[c, s], [-s, c], [-c, -s], [s, -c]]
+    places = [[one * 0.0, *(ARM * part for part in spoke)] for spoke in rim]
+    places += [[one * (sign * ARM), one * 0.0, one * 0.0] for sign in (1.0, -1.0)] + [[one * 0.0] * 3]
+    shares = (1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -2.0)
+    along = [
+        Jet(*(np.concatenate([(one * place[k]).c[order] for place in places]) for order in range(3)))
+        for k in range(3)
+    ]
+    return along[-axis:] + along[:-axis], np.concatenate([inertia * share for share in shares]) / (4.0 * ARM**2)
 
 
 @dataclass
@@ -52,20 +129,26 @@ class CraneCloud:
         self.height, self.tower_weights = on(flexible.tower_height)
         self.bends, self.leans = flexible.tower(self.height), flexible.tower(self.height, 1)
         self.twists = flexible.torsion(self.height)
-        self.jib, self.jib_weights = on(flexible.jib_length)
-        self.counter, self.counter_weights = on(crane.counter_jib_length, -crane.counter_jib_length)
+
+    @cached_property
+    def members(self):
+        """Jib and counter-jib by name."""
+        crane, flexible = self.crane, self.model.crane
+        standing = crane.counter_jib or Beam(crane.counter_jib_length, crane.counter_jib_mass_per_length, 1.0, 1.0)
+        ways = flexible.counter_lateral, flexible.counter_vertical
+        return {
+            "jib": Member("jib", crane.jib, crane.jib_lateral, (flexible.lateral, flexible.vertical)),
+            "counter-jib": Member("counter_jib", standing, crane.counter_jib_lateral, ways, -1.0),
+        }
 
     def split(self, q):
         return {kind: q[part] for kind, part in self.model.parts.items()}
 
     def points(self, q, drives, angles):
-        """Tower, jib, counter-jib, counterweight, roll body, trolley, load: Points by name; rope direction; head."""
+        """Tower, jib, counter-jib, counterweight, head, trolley, load: Points by name; rope direction; head."""
         crane, flexible = self.crane, self.model.crane
         part = self.split(q)
         own = self.model.self_weight
-
-        def shaped(shapes, amplitudes):
-            return total(s * a for s, a in zip(shapes, amplitudes, strict=True))
 
         tip, slope = flexible.tower(flexible.tower_height), flexible.tower(flexible.tower_height, 1)
         ux, uy = shaped(tip, part["tower_x"]), shaped(tip[: len(part["tower_y"])], part["tower_y"])
@@ -94,33 +177,24 @@ class CraneCloud:
         )
         theta, phi = angles
         rope = [theta.sin() * phi.cos(), phi.sin(), -(theta.cos() * phi.cos())]
-        sides, rises = flexible.lateral(self.jib), flexible.vertical(self.jib)
-        bent = head(Jet(self.jib), shaped(sides, part["jib_lateral"]), shaped(rises, part["jib_vertical"]))
-        nothing, arm = Jet(0.0), 2.0
-        # Six masses about the tower's top, those along the jib negative, have an inertia about the jib alone.
-        roll = crane.roll_inertia / (4 * arm**2) * np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -2.0])
-        spokes = np.array([[0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1], [1, 0, 0], [-1, 0, 0], [0, 0, 0]])
-        one = np.ones(1)
+        nothing, one = Jet(0.0), np.ones(1)
         clouds = {
             "tower": Points(
                 [shaped(self.bends, part["tower_x"]), shaped(self.bends[: len(part["tower_y"])], part["tower_y"]),
                  nothing],
                 crane.tower.mass_per_length * self.tower_weights, own,
             ),
-            "jib": Points(bent, crane.jib.mass_per_length * self.jib_weights, own),
-            "counter-jib": Points(
-                head(Jet(self.counter), nothing, nothing),
-                crane.counter_jib_mass_per_length * self.counter_weights, own,
-            ),
-            "counterweight": Points(
-                head(Jet(-crane.counter_jib_length), nothing, nothing), crane.counterweight * one, own
-            ),
-            "head": Points(head(*(Jet(arm * column) for column in spokes.T)), roll, False),
+            "counterweight": Points(head(*self.members["counter-jib"].tip(part)), crane.counterweight * one, own),
             "trolley": Points(hung, crane.trolley_mass * one, True),
             "load": Points(
                 [a + length * n for a, n in zip(hung, rope, strict=True)], self.model.load.mass * one, True
             ),
         }  # fmt: skip
+        spins = [("head", rotor(0, crane.roll_inertia))]
+        for name, member in self.members.items():
+            clouds[name] = Points(head(*member.places(part)), member.mass, own)
+            spins += [(f"{name}, rotor {k}", own) for k, own in enumerate(member.rotors(part))]
+        clouds |= {name: Points(head(*places), mass, False) for name, (places, mass) in spins}
         for cloud in clouds.values():
             cloud.place = [own + base for own, base in zip(cloud.place, self.ground, strict=True)]
         return clouds, rope, axes, (ux, uy)
@@ -155,8 +229,8 @@ class CraneCloud:
         if self.areas is not None:
             across = np.array([row[1].c[0] for row in self.axes]).ravel()
             press = 0.5 * 1.225 * abs(wind @ across) * (wind @ across) * across
-            felt["jib"] = felt["jib"] - self.areas.jib * self.jib_weights[:, None] * press
-            felt["counter-jib"] = felt["counter-jib"] - self.areas.counter_jib * self.counter_weights[:, None] * press
+            for name, area in (("jib", self.areas.jib), ("counter-jib", self.areas.counter_jib)):
+                felt[name] = felt[name] - area * self.members[name].length[:, None] * press
             felt["counterweight"] = felt["counterweight"] - self.areas.counterweight * press
             along = 0.5 * 1.225 * self.areas.tower * np.linalg.norm(wind) * wind
             felt["tower"] = felt["tower"] - self.tower_weights[:, None] * along
@@ -179,9 +253,12 @@ class CraneCloud:
         first = model.parts[kind].start
         if kind == "slewing":
             return np.array([model.drive_inertia * acceleration[i]])
-        basis = {"tower_x": flexible.tower, "tower_y": flexible.tower, "torsion": flexible.torsion,
-                 "jib_lateral": flexible.lateral, "jib_vertical": flexible.vertical}[kind]  # fmt: skip
-        ratio = getattr(model.damping, kind.removeprefix("jib_").removesuffix("_x").removesuffix("_y"))
+        basis = {
+            "tower_x": flexible.tower, "tower_y": flexible.tower, "torsion": flexible.torsion,
+            "jib_lateral": flexible.lateral, "counter_jib_lateral": flexible.counter_lateral,
+            "jib_vertical": flexible.vertical, "counter_jib_vertical": flexible.counter_vertical,
+        }[kind]  # fmt: skip
+        ratio = getattr(model.damping, kind.replace("jib_", "").removesuffix("_x").removesuffix("_y"))
         omega = basis.angular_frequencies[i - first]
         terms = [omega**2 * q[i], 2.0 * ratio * omega * rate[i]]
         own = model.parts[kind]

@@ -23,8 +23,19 @@ CRANE = dataclasses.replace(
 )
 
 
-def model(tower=2, torsion=1, lateral=3, vertical=3, load=1500.0, areas=None, planes=2, crane=CRANE, **options):
-    modes = ModeCounts(tower, torsion, lateral, vertical)
+def model(
+    tower=2,
+    torsion=1,
+    lateral=3,
+    vertical=3,
+    counter=(0, 0),
+    load=1500.0,
+    areas=None,
+    planes=2,
+    crane=CRANE,
+    **options,
+):
+    modes = ModeCounts(tower, torsion, lateral, vertical, *counter)
     hung = load if isinstance(load, Load) else Load(load)
     return FlexibleModel(flexible_crane(crane, modes, areas, planes), hung, **options)
 
