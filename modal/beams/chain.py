@@ -262,10 +262,12 @@ class Chain:
         return self._each(positions, lambda one, distance: one.section(name, distance))
 
     def incline(self, positions: Floats) -> Floats:
-        """Change of the breadth over the breadth where chords are inclined, else 0, at positions [1/m]."""
+        """What couples bending and shear, of inclined chords and of parallel diagonals, at positions [1/m]."""
         return self._each(
             positions,
-            lambda one, distance: one.inclined_chords * (one.end_ratio - 1.0) / (one.length * one.breadth(distance)),
+            lambda one, distance: (
+                one.coupling + one.inclined_chords * (one.end_ratio - 1.0) / (one.length * one.breadth(distance))
+            ),
         )
 
     def _segment_at(self, positions: Floats) -> NDArray[np.intp]:

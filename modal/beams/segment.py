@@ -46,6 +46,9 @@ class Segment:
     mass_flexibility : float
         How far the mass is moved from the axis per inertia force per length on it, c at the near end [m^2/N]; it goes
         with the breadth. With the frequency w the mass m moves as the deflection does, times ``1 / (1 - c m w^2)``.
+    coupling : float
+        Of bending and shear, g, the same all along [1/m]: ``M = EI (th' - g gam)``, ``S gam = V + g M``, with the
+        section's rotation th and the shear strain gam. That of parallel diagonals; inclined chords add b'/b.
 
     Raises
     ------
@@ -64,6 +67,7 @@ class Segment:
     shear_power: float = 0.0
     inclined_chords: bool = False
     mass_flexibility: float = 0.0
+    coupling: float = 0.0
 
     def __post_init__(self) -> None:
         check_fields(
@@ -72,7 +76,8 @@ class Segment:
             not_negative=("rotary_inertia", "mass_power", "bending_power", "mass_flexibility"),
         )
         number_in("Segment.shear_stiffness", self.shear_stiffness, "a positive number", least=SMALLEST, most=inf)
-        number_in("Segment.shear_power", self.shear_power, "a finite number")
+        for name in ("shear_power", "coupling"):
+            number_in(f"Segment.{name}", getattr(self, name), "a finite number")
 
     @property
     def mass(self) -> float:
@@ -120,7 +125,7 @@ class Segment:
         powers = self.mass_power, self.bending_power, self.shear_power, self.inclined_chords
         near = Segment(
             distance, self.mass_per_length, self.bending_stiffness, self.shear_stiffness, self.rotary_inertia,
-            breadth, *powers, self.mass_flexibility,
+            breadth, *powers, self.mass_flexibility, self.coupling,
         )  # fmt: skip
         far = Segment(
             self.length - distance,
@@ -131,5 +136,6 @@ class Segment:
             self.end_ratio / breadth,
             *powers,
             self.mass_flexibility * breadth,
+            self.coupling,
         )
         return near, far

@@ -140,9 +140,9 @@ class Elements:
 
     @cached_property
     def _incline(self) -> Floats:
-        """Change of breadth over breadth where chords are inclined, shape (n, q) [1/m]."""
+        """What couples bending and shear, of inclined chords and of parallel diagonals, shape (n, q) [1/m]."""
         change = self._column(lambda m: (m.segment.end_ratio - 1.0) * m.segment.inclined_chords)
-        return change / (self._length + change * self._depth)
+        return change / (self._length + change * self._depth) + self._column(lambda m: m.segment.coupling)
 
     @cached_property
     def _compression(self) -> Floats:

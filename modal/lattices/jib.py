@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import ceil, log
+from math import ceil, log, sqrt
 from typing import Literal, get_args
 
 from modal.beams.segment import Segment
 from modal.checks import check_fields, check_positive, number_in
 from modal.lattices.lattice_taper import STEP, tapered
-from modal.lattices.section import LatticeSection, Plane
+from modal.lattices.section import LEFT_OVER, LatticeSection, Plane
 from modal.lattices.walls import Chord, Lacing, Wall
 
 Shape = Literal["triangle", "rectangle"]
@@ -259,9 +259,22 @@ class JibLattice:
         """
         slope, found = self._slope(length), []
         for (near, far), part in self._parts(length):
-            first, last = (_segment(self.section(height, slope), plane, mass_per_length) for height in (near, far))
+            first, last = (self._segment(height, slope, plane, mass_per_length) for height in (near, far))
             found.append(tapered(first, last, part, far / near, inclined=plane == "vertical"))
         return tuple(found)
+
+    def _segment(self, height: float, slope: float, plane: Plane, mass_per_length: float | None) -> Segment:
+        """Segment of unit length with the section where the lattice has a height [m]."""
+        section = self.section(height, slope)
+        bending, shear, coupling = section.bending(plane)
+        if plane == "vertical":
+            # What inclined chords couple, the segment has of its taper.
+            coupling -= slope / height
+        if abs(coupling) * sqrt(bending / shear) < LEFT_OVER:
+            coupling = 0.0
+        mass = section.mass_per_length if mass_per_length is None else mass_per_length
+        rotary = section.rotary_inertias[plane == "lateral"] * mass / section.mass_per_length
+        return Segment(1.0, mass, bending, shear, rotary, coupling=coupling)
 
     def _slope(self, length: float) -> float:
         return (self.far_height - self.height) / check_positive("length", length)
@@ -275,11 +288,3 @@ class JibLattice:
             (ends, length / count if near == far else length * (ends[1] - ends[0]) / (far - near))
             for ends in pairwise(heights)
         ]
-
-
-def _segment(section: LatticeSection, plane: Plane, mass_per_length: float | None) -> Segment:
-    """Segment of unit length with a section."""
-    bending, shear, _ = section.bending(plane)
-    mass = section.mass_per_length if mass_per_length is None else mass_per_length
-    rotary = section.rotary_inertias[plane == "lateral"] * mass / section.mass_per_length
-    return Segment(1.0, mass, bending, shear, rotary)

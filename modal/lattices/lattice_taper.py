@@ -98,6 +98,7 @@ def tapered(near: Segment, far: Segment, length: float, ratio: float, *, incline
         bending_power=max(0.0, power("bending_stiffness")),
         shear_power=power("shear_stiffness"),
         inclined_chords=inclined,
+        coupling=0.5 * (near.coupling + far.coupling),
     )
 
 

@@ -31,7 +31,7 @@ def units_of(structure: Members) -> Units:
 
 
 def rows_of(members: Sequence[Member], structure: Members, units: Units) -> Floats:
-    """Rows of `modal.structures.kernels.cut` for members, shape (members, 14)."""
+    """Rows of `modal.structures.kernels.cut` for members, shape (members, 15)."""
     length, force, frequency = units
     mass = force / (length * frequency**2)
     engesser = float(structure.shear_theory == "engesser")
@@ -43,6 +43,6 @@ def rows_of(members: Sequence[Member], structure: Members, units: Units) -> Floa
             s.length / length, s.mass_per_length * length / mass, s.bending_stiffness / (force * length**2),
             0.0 if shear == inf else force / shear, s.rotary_inertia / (mass * length), s.end_ratio,
             s.mass_power, s.bending_power, s.shear_power, member.compression / force, member.gravity * mass / force,
-            engesser, float(s.inclined_chords), s.mass_flexibility * force / length**2,
+            engesser, float(s.inclined_chords), s.mass_flexibility * force / length**2, s.coupling * length,
         ))  # fmt: skip
     return np.array(found)

@@ -64,7 +64,7 @@ class Collocation:
             zero = np.zeros_like(d)
             # v' = a theta + b (V + g M), theta' = M / EI + g (v' - theta), V' = -lambda m v,
             # M' + V + P v' = -lambda rho I theta
-            g = segment.inclined_chords * (segment.end_ratio - 1.0) / (segment.length * breadth)
+            g = segment.inclined_chords * (segment.end_ratio - 1.0) / (segment.length * breadth) + segment.coupling
             left = [
                 [d, -a[:, None] * value, -b[:, None] * value, -(b * g)[:, None] * value],
                 [-g[:, None] * d, d + g[:, None] * value, zero, -value / bending[:, None]],

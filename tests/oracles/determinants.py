@@ -21,12 +21,14 @@ def state_matrix(segment, compression, omega2, theory="haringx"):
     else:
         a = 1 / (1 - p * flexibility)
         b = a * flexibility
+    g = mpmath.mpf(segment.coupling)
+    slope = [0, a, b, b * g]
     return mpmath.matrix(
         [
-            [0, a, b, 0],
-            [0, 0, 0, 1 / bending],
+            slope,
+            [0, g * (a - 1), g * b, 1 / bending + g * b * g],
             [-mass * omega2, 0, 0, 0],
-            [0, -p * a - rotary * omega2, -1 - p * b, 0],
+            [0, -p * a - rotary * omega2, -1 - p * b, -p * b * g],
         ]
     )
 

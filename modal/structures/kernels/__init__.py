@@ -1,6 +1,6 @@
 """Kernels of exact structures: plain functions of numbers and arrays, compiled together.
 
-They take a structure as five arrays: ``segments`` (s, 14) and ``nodes`` (s, 3, 3), see
+They take a structure as five arrays: ``segments`` (s, 15) and ``nodes`` (s, 3, 3), see
 `modal.structures.kernels.stiffness`; ``runs`` (r, 3), the first segment of each run, the first after it, and whether
 it is a single block; ``motions`` (r, 4, n), how (v, theta) of a run's near and far end follow the n unknowns;
 ``points`` (3, n, n), stiffness of springs, geometric stiffness of bodies under unit load (to be taken away), mass of

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from modal.compiler.kinds import Four, Row
 
 (LENGTH, MASS, BENDING, SHEAR_FLEXIBILITY, ROTARY, RATIO, MASS_POWER, BENDING_POWER, SHEAR_POWER,
- COMPRESSION, WEIGHT, ENGESSER, INCLINED, MASS_FLEXIBILITY) = range(14)  # fmt: skip
+ COMPRESSION, WEIGHT, ENGESSER, INCLINED, MASS_FLEXIBILITY, COUPLING) = range(15)  # fmt: skip
 """Properties of a segment, those of the section at its near end. COMPRESSION is that at the far end, to which WEIGHT
 times the mass beyond is added along the segment; both are multiplied by the load factor."""
 
@@ -84,8 +84,8 @@ def bounds(segment: Row, ends: Four, omega2: float, load: float) -> tuple[float,
     Engesser it takes ``P (theta + g)^2``: at most ``2 P / (1 - P/S) theta^2`` and all of that energy but half of the
     part that the force leaves, ``1 - P/S``, which counts as a softer shear stiffness.
 
-    Inclined chords couple bending and shear; their energy is no less than that of a section without the coupling
-    whose two stiffnesses are less by ``1 + r + r^2``, r^2 = EI g^2 / S.
+    Inclined chords and parallel diagonals couple bending and shear; their energy is no less than that of a section
+    without the coupling whose two stiffnesses are less by ``1 + r + r^2``, r^2 = EI g^2 / S.
     """
     near, far, length, left = ends
     wide, thin = max(near, far), min(near, far)
@@ -101,8 +101,8 @@ def bounds(segment: Row, ends: Four, omega2: float, load: float) -> tuple[float,
         force, tension = max(force, compression), max(tension, -compression)
         there = segment[SHEAR_FLEXIBILITY] * (near + passed * (far - near)) ** -power
         least = min(least, 1.0 - compression * there)
-    if segment[INCLINED] != 0.0 and flexibility != 0.0:
-        incline = (far - near) / (thin * length)
+    if (segment[INCLINED] != 0.0 or segment[COUPLING] != 0.0) and flexibility != 0.0:
+        incline = abs(segment[INCLINED] * (far - near) / (thin * length)) + abs(segment[COUPLING])
         stout = segment[BENDING] * wide ** segment[BENDING_POWER]
         coupling = np.sqrt(stout * incline * incline * flexibility)
         weaker = 1.0 + coupling + coupling * coupling

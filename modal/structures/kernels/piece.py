@@ -5,8 +5,8 @@ The state (v, theta, V, M), deflection, section rotation, transverse force and m
     v' = a theta + b (V + g M),  theta' = M / EI + g (v' - theta),  V' = -m w^2 v,  M' = -V - P v' - rho I w^2 theta
 
 with a = 1 + P/S, b = 1/S (Haringx) or a = 1/(1 - P/S), b = a/S (Engesser). Inclined chords at the breadth B, which
-carry a part of the shear, have g = B'/B; all else has g = 0. Mass m on a flexibility c of its own counts for
-m = m / (1 - c m w^2). A segment is cut into pieces so short that none with its
+carry a part of the shear, have g = B'/B, parallel diagonals a g of their own; all else has g = 0. Mass m on a
+flexibility c of its own counts for m = m / (1 - c m w^2). A segment is cut into pieces so short that none with its
 ends held can vibrate or buckle at the frequency asked for, and each is solved by the Taylor series of its state,
 whatever the change of section and compression along it.
 """
@@ -19,6 +19,7 @@ from modal.structures.kernels.cut import (
     BENDING,
     BENDING_POWER,
     COMPRESSION,
+    COUPLING,
     ENGESSER,
     INCLINED,
     MASS,
@@ -75,6 +76,7 @@ def coefficients(segment: Row, ends: Four, omega2: float, load: float, out: Tabl
         _power_series(rotary, change, segment[BENDING_POWER], out[5], terms)
         if segment[INCLINED] != 0.0:
             _power_series(change, change, -1.0, out[SERIES - 1], terms)
+    out[SERIES - 1, 0] += segment[COUPLING] * length
     out[4, 0] = force
     for i in range(1, terms):
         out[4, i] = -weight * out[0, i - 1] / (mass * i)
@@ -125,7 +127,8 @@ def state_series(series: Table, terms: int, state: Table) -> None:
     state : ndarray, shape (TERMS + 1, 6)
         Row k is the coefficient of s^k; after the four, v' and V + g M.
     """
-    inclined = series[SERIES - 1, 0] != 0.0
+    # At the start two parts of it may cancel.
+    inclined = series[SERIES - 1, 0] != 0.0 or series[SERIES - 1, 1] != 0.0
     for k in range(TERMS):
         last = min(k, terms - 1)
         state[k, 5] = state[k, 2]

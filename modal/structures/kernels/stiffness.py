@@ -86,7 +86,7 @@ def run_stiffness(
 
     Parameters
     ----------
-    segments : ndarray, shape (s, 14)
+    segments : ndarray, shape (s, 15)
     nodes : ndarray, shape (s, 3, 3)
         What acts on the node before each segment but the first of a run: rows `SPRINGS`, `GEOMETRIC` and `BODIES`,
         each of entries (v, v), (v, theta) and (theta, theta).

@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 from samples.flat_top import FLAT_TOP, LIEGE, SECTION_LENGTH
 
 import modal
-from modal import Chain, chain_frequencies
+from modal import Chain, chain_frequencies, chain_structure
 from modal.elements.space_beam import SpaceBeam
 from modal.elements.space_frame import SpaceFrame
 from modal.lattices.jib_truss import LatticeJib
@@ -180,3 +180,19 @@ def test_a_jib_says_what_does_not_fit():
     with pytest.raises(ValueError, match="wanted at least one, got none"):
         LatticeJib(())
     assert isinstance(FLAT_TOP[0].at(0.5, 10.0), LatticeSection)
+
+
+def test_segments_of_parallel_diagonals_bend_as_their_frame():
+    """Sides that lean alike over a crossed base, which leaves the planes apart."""
+    lattice = replace(LIEGE, base_lacing="X", end_height=0.7)
+    frame, segments = LatticeJib(((24.0, lattice),)).frame(), lattice.segments(24.0, "vertical")
+    loads = tip_loads(frame)
+    up = np.sum(loads[0] * frame.displacements(loads[0]))
+
+    def error(chain):
+        force = np.zeros(2 * len(chain.segments))
+        force[-2] = 1.0
+        return chain_structure(chain).displacements(force)[-2] / up - 1.0
+
+    assert abs(error(Chain(segments))) < 3.5e-3
+    assert error(Chain(tuple(replace(one, coupling=0.0) for one in segments))) < -0.02

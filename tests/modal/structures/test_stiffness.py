@@ -55,7 +55,9 @@ def test_a_piece_is_exact_where_all_effects_meet_at_the_end_of_its_reach(
     # Mass that vibrates beyond the axis counts for more.
     segment = Segment(1.0, 1.0 / (1.0 - moved), 1.0, shear, rotary)
     engesser = float(theory == "engesser")
-    row = np.array([1.0, 1.0, 1.0, 1.0 / shear, rotary, 1.0, 0.0, 0.0, 0.0, compression, 0.0, engesser, 0.0, 0.0])
+    row = np.array(
+        [1.0, 1.0, 1.0, 1.0 / shear, rotary, 1.0, 0.0, 0.0, 0.0, compression, 0.0, engesser, 0.0, 0.0, 0.0]
+    )
     row[13] = moved / max(omega2, 1.0)
     length = 1.0 / pieces_within(row, WHOLE, omega2, 1.0)
     got, transfer, scratch = np.zeros((4, 4)), np.zeros((4, 4)), np.zeros((4, 4))
@@ -126,7 +128,7 @@ def test_no_piece_has_a_fixed_end_mode():
     rng = np.random.default_rng(4)
     for _ in range(300):
         theory = float(rng.random() < 0.5)
-        row = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, theory, 0.0, 0.0])
+        row = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, theory, 0.0, 0.0, 0.0])
         row[3], row[4] = rng.choice([0.0, 10 ** rng.uniform(-3, 1)]), rng.choice([0.0, 10 ** rng.uniform(-4, 0)])
         row[9] = rng.choice([-1, 1]) * 10 ** rng.uniform(-2, 2)
         omega2 = 10 ** rng.uniform(-1, 5)
@@ -149,7 +151,7 @@ def test_no_piece_has_a_fixed_end_mode():
 
 def test_the_measure_of_a_block_is_the_same_however_it_grows():
     EI, mass, flexibility, rotary, L = 2.5, 1.5, 0.3, 0.02, 0.9
-    row = np.array([L, mass, EI, flexibility, rotary, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    row = np.array([L, mass, EI, flexibility, rotary, 1.0, *[0.0] * 9])
     sizes, passed = np.zeros(SIZES), 0.0
     for piece in (0.2, 0.6, 0.1):
         assert grown(sizes, row, (1.0, 1.0, piece, L - passed), 1e-3, 1.0)

@@ -72,6 +72,15 @@ VARIABLE = {
         gravity=0.1,
         shear_theory="engesser",
     ),
+    "parallel diagonals on inclined chords": Chain(
+        (
+            Segment(0.6, 1.0, 1.0, 9.0, 0.02, 0.4, 0.5, 2.0, -0.7, inclined_chords=True, coupling=1.3),
+            Segment(0.4, 0.8, 0.2, 5.0, 0.0, coupling=-2.0),
+        ),
+        {2: EndBody(0.5, 0.1, 0.1)},
+        axial_load=0.05,
+        gravity=0.1,
+    ),
     "thin end under weight": Chain(
         (Segment(1.0, 1.0, 1.0, 2.0, end_ratio=0.3, mass_power=2, bending_power=3, shear_power=1),),
         gravity=1.5,
