@@ -115,13 +115,21 @@ def _wanted(key: str, field: FieldInfo | None) -> str:
     if get_origin(annotation) is tuple:
         if any("shape" in table.model_fields for table in inner):
             return "a list of tables, one per step"
-        return f"tables [[{key}]]" if inner else "a list in brackets"
+        return f"tables [[{key}]]" if inner else _listed(get_args(annotation))
     if inner:
         required = [n for n, f in inner[0].model_fields.items() if f.is_required()]
         return f"a table [{key}]" + (f" with {', '.join(required)}" if required else "")
     if bounds := {k: getattr(m, k) for m in field.metadata for k in ("ge", "le") if hasattr(m, k)}:
         return f"a whole number from {bounds['ge']} to {bounds['le']}"
     return {bool: "true or false", str: "a text in quotes"}.get(annotation, "")  # type: ignore[arg-type]
+
+
+def _listed(items: tuple[Any, ...]) -> str:
+    """A list of numbers, of so many of one quantity or of any number."""
+    kinds = [item for each in items for item in getattr(each, "__metadata__", ()) if isinstance(item, Quantity)]
+    if Ellipsis in items or not kinds:
+        return "a list in brackets"
+    return f"a list of {len(items)} in brackets, each {kinds[0].wanted}"
 
 
 def _words(annotation: Any) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import degrees
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
@@ -43,6 +44,8 @@ class Way:
         Key of the motion.
     high : float or None
         Largest value [m], of a turn in either sense [rad]; None where it is not known.
+    low : float or None
+        Smallest value of a turn that has one [rad].
     open_low : bool
         Whether zero itself is too low.
     wanted, hint : str
@@ -60,6 +63,7 @@ class Way:
     hint: str = ""
     turns: bool = False
     fastest: float = FASTEST
+    low: float | None = None
 
     @property
     def unit(self) -> str:
@@ -69,6 +73,8 @@ class Way:
     def keeps(self, value: float) -> bool:
         """Whether a value lies within the limits."""
         high = float("inf") if self.high is None else self.high * (1 + ROUNDING)
+        if self.low is not None:
+            return self.low - ROUNDING <= value <= high
         if self.turns:
             return abs(value) <= high
         return (value > 0.0 if self.open_low else value >= -ROUNDING) and value <= high
@@ -85,7 +91,7 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
     """
     faults: list[Fault] = []
     plans: dict[str, Plan | None] = {}
-    drives = KINDS[kind].drives
+    drives = KINDS[kind].drives_of(tree)
     for track in drives.tracks:
         more, plans[track.name] = _track(tree, track, folder)
         faults += more
@@ -98,9 +104,13 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
         faults = [*faults, *more]
         plans |= {name: Plan((Move(motion),)) for name, motion in shaking.items()}
     for joint in _joints(tree, drives):
-        most, hint = FARTHEST_TURN[joint], "the header names the units: slew [deg]"
+        low, most, hint = None, FARTHEST_TURN[joint], "the header names the units: slew [deg]"
         wanted = f"angles up to {most:g} rad"
-        way = Way(f"motion.{joint}", most, False, wanted, hint, turns=True, fastest=drives.fastest_turn)
+        lowest, highest = drives.limits[joint](tree) if joint in drives.limits else (None, None)
+        if lowest is not None and highest is not None and lowest < highest:
+            low, most, hint = lowest, highest, "beyond its lowest or its highest angle"
+            wanted = f"angles from {degrees(low):g} to {degrees(most):g} deg, at which the jib can stand"
+        way = Way(f"motion.{joint}", most, False, wanted, hint, turns=True, fastest=drives.fastest_turn, low=low)
         plans[joint], more = _motion(tree, way, reader(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
     more, plans["rope"] = _rope(tree, folder, drives)
@@ -120,7 +130,7 @@ def _without_model(channel: str, kind: str) -> Fault:
 
 def channels(tree: dict[str, Any], kind: str) -> tuple[str, ...]:
     """Names of the motions that drive the crane of a case of this kind."""
-    drives = KINDS[kind].drives
+    drives = KINDS[kind].drives_of(tree)
     wind = CHANNELS if drives.wind and "wind" in tree else ()
     shaking = channels_of(tree) if drives.earthquake else ()
     return (*(track.name for track in drives.tracks), *_joints(tree, drives), *shaking, *wind, "rope")
@@ -215,6 +225,8 @@ def _motion(
         return None, [Fault("", key, f"speeds up to {limit:g} {way.unit}/s", got, hint)]
     low, high = motion.range()
     # Other turns state their angles, which have ranges of their own.
-    if not (way.keeps(low) and way.keeps(high)) and (described.shape == "table" or not way.turns):
-        return None, [way.fault(key, f"a motion from {low:g} to {high:g} {way.unit}")]
+    judged = described.shape == "table" or not way.turns or way.low is not None
+    if judged and not (way.keeps(low) and way.keeps(high)):
+        ends = f"{low:g} to {high:g} {way.unit}" if way.low is None else f"{degrees(low):g} to {degrees(high):g} deg"
+        return None, [way.fault(key, f"a motion from {ends}")]
     return found, []

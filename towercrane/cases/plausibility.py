@@ -34,7 +34,7 @@ FASTEST = 10.0
 FASTEST_TURN = 5.0
 """Largest plausible speed of shaft and joints [rad/s]."""
 
-FARTHEST_TURN = {"shaft": 100.0, "slewing": 100.0, "slew": 100.0, "luff": 3.2, "fold": 6.4}
+FARTHEST_TURN = {"shaft": 100.0, "slewing": 100.0, "slew": 100.0, "luff": 3.2, "fold": 6.4, "luffing": 3.2}
 """Largest plausible angle of each joint in either sense [rad]."""
 
 
@@ -92,6 +92,16 @@ RANGES = (
     Range("wind.direction", "rad", 1e-9, 100, ANGLES, signed=True),
     Range("earthquake.factor", "1", 1e-3, 100, ("%",)),
     Range("crane.counter_jib.counterweight", "kg", 50, 1e6, ("t", "g")),
+    Range("crane.jib.luffing.*pivot*", "m", 1e-3, 50, LENGTHS, signed=True),
+    Range("crane.jib.luffing.frame_head*", "m", 1e-3, 100, LENGTHS, signed=True),
+    Range("crane.jib.luffing.hoist_winch*", "m", 1e-3, 100, LENGTHS, signed=True),
+    Range("crane.jib.luffing.rope_attachment", "m", 1e-3, 10, LENGTHS, signed=True),
+    Range("crane.jib.luffing.*_stiffness", "N", 1e5, 1e12, ("MN", "kN", "GN")),
+    Range("crane.jib.luffing.tip_mass", "kg", 1, 1e5, ("t", "g")),
+    Range("crane.jib.luffing.*_angle", "rad", 1e-9, 1.6, ANGLES, signed=True),
+    Range("crane.head.bodies*.mass", "kg", 1, 1e6, ("t", "g")),
+    Range("crane.head.bodies*.place*", "m", 1e-3, 100, LENGTHS, signed=True),
+    Range("modes.luffing_angles*", "rad", 1e-9, 1.6, ANGLES, signed=True),
     Range("crane.trolley.mass", "kg", 5, 50e3, ("t", "g")),
     Range("crane.geometry.*", "m", 0.02, 1000, LENGTHS),
     Range("crane.mass.*", "kg", 0.05, 1e6, ("t", "g")),

@@ -35,6 +35,7 @@ def compare(
     task.into(out, "compare")
     if target is not None and not 0.0 < target < 1.0:
         fail(f"--target {target:g}: wanted a fraction between 0 and 1")
+    task.allow("compare")
     if not task.serves("compare"):
         task.refuse(f"wanted a case of kind {either('compare')}, whose modes count, got {task.case.kind!r}")
     task.compile()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -35,7 +36,8 @@ def modes(
     from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.cranes.tower.file.plane import stays_in_plane
 
-    if stays_in_plane(task.case.tables(TowerCase)):
+    tables = task.case.tables(TowerCase)
+    if stays_in_plane(tables) and tables.crane.jib.luffing is None:
         _in_plane(task, actual)
     else:
         _in_space(task)
@@ -72,17 +74,18 @@ def _in_space(task: Task) -> None:
 def _pictures(case: Case) -> dict[str, Any]:
     """Modes where the drives stand at the start, none for a tower that buckles, and frequencies over the drives."""
     from towercrane.cases.assumptions import as_notes
-    from towercrane.cranes.tower.file.build import tower_model
     from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.report.plots.studies import space_modes as pictured
     from towercrane.simulation.system import NoEquilibrium
-    from towercrane.studies.space_modes import drawn_sweeps, modes_at, modes_rest_on, place_at
+    from towercrane.studies.space_modes import drawn_sweeps, modes_at, modes_rest_on, place_at, space_model
 
     tables = case.tables(TowerCase)
-    model, place = tower_model(tables), place_at(case)
+    model, place = space_model(tables), place_at(case)
     notes = as_notes(modes_rest_on(case))
     title = f"{case.crane.name}, load {case.payload.mass:g} kg: "
-    where = f"trolley {place.trolley_position:g} m, rope {place.rope_length:g} m"
+    pivots = tables.crane.jib.luffing is not None
+    position = f"jib at {degrees(place.position):g} deg" if pivots else f"trolley {place.position:g} m"
+    where = f"{position}, rope {place.rope_length:g} m"
     swept = pictured.frequencies(drawn_sweeps(case), f"{title}natural frequencies about {where}", notes)
     files: dict[str, Any] = {"frequencies.png": swept}
     try:

@@ -40,6 +40,8 @@ def run(
 ) -> None:
     """Simulate a case; write result.nc, summary.json and pictures."""
     task = begin(case, changes, as_json=as_json)
+    if verify:
+        task.allow("verify")
     if verify and not task.serves("verify"):
         fail(f"--verify: wanted a case of kind {either('verify')}, got {task.case.kind!r}")
     from towercrane.report.folder import RUN_FILES

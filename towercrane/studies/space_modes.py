@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from towercrane.cases.assumptions import as_entries, rests_on
 from towercrane.cases.models import motions_of
-from towercrane.cranes.tower.crane_model import described
+from towercrane.cranes.tower.crane_model import MODE_KINDS, described
 from towercrane.cranes.tower.equations.small_motions import natural_modes
 from towercrane.cranes.tower.file.build import asked_modes, crane_of, tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
@@ -35,26 +35,40 @@ class Place:
 
     Parameters
     ----------
-    trolley_position, rope_length : float
+    position : float
+        Of the trolley [m], or the angle of a jib that pivots [rad], as its winch has it.
+    rope_length : float
         [m]
     slewing_angle : float
         Of the head, or of its drive's shaft [rad].
     """
 
-    trolley_position: float
+    position: float
     rope_length: float
     slewing_angle: float = 0.0
 
 
-SWEPT = {"trolley_position": "m", "rope_length": "m", "slewing_angle": "rad"}
-"""What is varied, each by itself, and its unit."""
+def swept(tables: TowerCase) -> dict[str, str]:
+    """What is varied, each by itself, and its unit; in the order of a `Place`."""
+    position = {"trolley_position": "m"} if tables.crane.jib.luffing is None else {"luffing_angle": "rad"}
+    return {**position, "rope_length": "m", "slewing_angle": "rad"}
+
+
+def space_model(tables: TowerCase) -> FlexibleModel:
+    """The case's crane with a load that may swing to all sides, in the modes for which the crane has data."""
+    if tables.crane.jib.luffing is None:
+        return tower_model(tables)
+    known = described(crane_of(tables))
+    absent = {kind: 0 for kind in MODE_KINDS if kind not in known}
+    return tower_model(tables, planar=False, heading=0.0, **absent)
 
 
 def place_at(case: Case, time: float = 0.0) -> Place:
     """Where the drives of a case in space stand at a time [s]."""
     motions = motions_of(case)
     turning = "shaft" if "shaft" in motions else "slewing"
-    return Place(*(float(motions[channel](time)) for channel in ("trolley", "rope", turning)))
+    position = "luffing" if "luffing" in motions else "trolley"
+    return Place(*(float(motions[channel](time)) for channel in (position, "rope", turning)))
 
 
 def modes_at(model: FlexibleModel, place: Place, count: int) -> list[NaturalMode]:
@@ -65,17 +79,18 @@ def modes_at(model: FlexibleModel, place: Place, count: int) -> list[NaturalMode
     NoEquilibrium
         If the tower buckles.
     """
-    return natural_modes(model, place.trolley_position, place.rope_length, place.slewing_angle)[:count]
+    return natural_modes(model, place.position, place.rope_length, place.slewing_angle)[:count]
 
 
 def asked_places(case: Case) -> dict[str, tuple[float, ...]]:
     """Values of each drive at which the case wants its modes; without any, those at both ends of its way."""
-    asked, motions = case.tables(TowerCase).modes, motions_of(case)
-    turning = motions["shaft" if "shaft" in motions else "slewing"]
+    tables, motions = case.tables(TowerCase), motions_of(case)
+    asked, turning = tables.modes, motions["shaft" if "shaft" in motions else "slewing"]
+    position = motions["luffing" if "luffing" in motions else "trolley"]
     ways = zip(
-        SWEPT,
-        (asked.trolley_positions, asked.rope_lengths, asked.slewing_angles),
-        (motions["trolley"], motions["rope"], turning),
+        swept(tables),
+        (asked.trolley_positions or asked.luffing_angles, asked.rope_lengths, asked.slewing_angles),
+        (position, motions["rope"], turning),
         strict=True,
     )
     return {name: wanted or tuple(dict.fromkeys(motion.range())) for name, wanted, motion in ways}
@@ -91,18 +106,19 @@ def space_frequencies(case: Case) -> dict[str, Any]:
         with frequency_hz, kind, energy_shares, and relative_difference from the mode of the same shape of a model
         with more modes of every kind that the crane has, None where there is none), ``missing_from_the_model`` (a
         list with frequency_hz and kind: modes of the richer model up to the highest of these that the case's cannot
-        have), ``sweeps``: for each of `SWEPT` a list with value, frequencies_hz and kinds, the other two as in
+        have), ``sweeps``: for each of `swept` a list with value, frequencies_hz and kinds, the other two as in
         ``at``; outcome and message
         where the tower buckles; ``assumed``.
     """
     tables = case.tables(TowerCase)
-    model, count, start = tower_model(tables), tables.modes.crane_count, place_at(case)
+    model, count, start = space_model(tables), tables.modes.crane_count, place_at(case)
+    at = astuple(start)
     report: dict[str, Any] = {
         "case": case.name,
         "name": case.crane.name,
         "payload_mass_kg": case.payload.mass,
         "modes_of_the_model": model.counts,
-        "at": {f"{name}_{unit}": getattr(start, name) for name, unit in SWEPT.items()},
+        "at": {f"{name}_{unit}": value for (name, unit), value in zip(swept(tables).items(), at, strict=True)},
         "pendulum_hz": float(np.sqrt(model.crane.gravity / start.rope_length) / (2.0 * np.pi)),
         "modes": [],
         "missing_from_the_model": [],
@@ -113,8 +129,8 @@ def space_frequencies(case: Case) -> dict[str, Any]:
     except NoEquilibrium as failure:
         report |= {"outcome": failure.outcome, "message": str(failure)}
     report["sweeps"] = {
-        name: [_row(model, replace(start, **{name: value}), value, count) for value in values]
-        for name, values in asked_places(case).items()
+        name: [_row(model, at, i, value, count) for value in values]
+        for i, (name, values) in enumerate(asked_places(case).items())
     }
     report["assumed"] = as_entries(modes_rest_on(case))
     return report
@@ -124,7 +140,8 @@ def richer_model(tables: TowerCase) -> FlexibleModel:
     """The case's crane with more modes of every kind that it has, those that the case leaves out too."""
     kinds = described(crane_of(tables))
     asked = asked_modes(tables)
-    return tower_model(tables, **{kind: asked[kind] + RICHER for kind in kinds})
+    more = {kind: asked[kind] + RICHER for kind in kinds}
+    return tower_model(tables, planar=False, heading=0.0, **more)
 
 
 def beside_a_richer(
@@ -178,16 +195,19 @@ def modes_rest_on(case: Case) -> list[Assumption]:
 def drawn_sweeps(case: Case) -> dict[str, list[dict[str, Any]]]:
     """The sweeps of :func:`space_frequencies` at evenly spaced values between their ends, for pictures."""
     tables = case.tables(TowerCase)
-    model, count, start = tower_model(tables), tables.modes.crane_count, place_at(case)
+    model, count, at = space_model(tables), tables.modes.crane_count, astuple(place_at(case))
     sweeps = {}
-    for name, values in asked_places(case).items():
+    for i, (name, values) in enumerate(asked_places(case).items()):
         low, high = min(values), max(values)
         places = np.linspace(low, high, POINTS if high > low else 1)
-        sweeps[name] = [_row(model, replace(start, **{name: float(value)}), float(value), count) for value in places]
+        sweeps[name] = [_row(model, at, i, float(value), count) for value in places]
     return sweeps
 
 
-def _row(model: FlexibleModel, place: Place, value: float, count: int) -> dict[str, Any]:
+def _row(model: FlexibleModel, at: tuple[float, ...], changed: int, value: float, count: int) -> dict[str, Any]:
+    """Modes with one of the drives, by its place among them, at a value of its own."""
+    position, rope, heading = (value if i == changed else own for i, own in enumerate(at))
+    place = Place(position, rope, heading)
     try:
         found = modes_at(model, place, count)
     except NoEquilibrium as failure:

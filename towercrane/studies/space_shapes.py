@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.tower.poses import luffing_lines
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -38,7 +40,8 @@ def crane_lines(
     Returns
     -------
     dict of str to ndarray, shape (points, 3)
-        "tower", "jib", "counter-jib" and "rope" from trolley to load; along the jib, across it in the turning sense,
+        "tower", "jib", "counter-jib" and "rope" down to the load, of a jib that pivots also what holds it; along
+        the jib, across it in the turning sense,
         and up from the ground [m].
     """
     crane, parts = model.crane, model.parts
@@ -69,13 +72,25 @@ def crane_lines(
     z = np.linspace(0.0, height, POINTS)
     tower = np.stack([np.zeros_like(z), np.zeros_like(z), z], axis=1)
     tower[:, :2] += scale * (bent @ crane.tower(z)).T
-    at = np.array([place.trolley_position])
-    trolley = line(at, True)[0]
-    load = trolley - [0.0, 0.0, place.rope_length]
+    if crane.luffing is not None:
+        points = np.linspace(0.0, crane.jib_length, POINTS)
+        shapes = crane.jib_shapes(points)
+        bends = np.stack([jib[:lateral] @ shapes[:lateral], jib[lateral:-1] @ shapes[lateral:]])[:, None]
+        angle = np.array([place.position])
+        found = {}
+        for name, (moved, still) in luffing_lines(
+            crane.luffing, points, scale * bends, (angle + scale * jib[-1], angle)
+        ).items():
+            x, _, z = still[0].T
+            swayed = np.stack([top[0] + slope[0] * z, top[1] + twist * x + slope[1] * z, -slope[0] * x], axis=1)
+            found[name] = moved[0] + scale * swayed + np.array([0.0, 0.0, height])
+        hung = found.pop("suspension")[0]
+    else:
+        hung = line(np.array([place.position]), True)[0]
+        found = {
+            "jib": line(np.linspace(0.0, crane.jib_length, POINTS), True),
+            "counter-jib": line(np.linspace(-counter_jib, 0.0, 2), False),
+        }
+    load = hung - [0.0, 0.0, place.rope_length]
     load[:2] += scale * (turn @ mode.shape[n:])
-    return {
-        "tower": tower,
-        "jib": line(np.linspace(0.0, crane.jib_length, POINTS), True),
-        "counter-jib": line(np.linspace(-counter_jib, 0.0, 2), False),
-        "rope": np.stack([trolley, load]),
-    }
+    return {"tower": tower, **found, "rope": np.stack([hung, load])}

@@ -1,18 +1,25 @@
-"""Equations of a jib that pivots against virtual work on positions of points and energies of positions alone."""
+"""Equations and outputs of a jib that pivots against virtual work on positions of points and energies alone."""
 
 import dataclasses
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
+from oracles.balance import imbalance
 from oracles.jets import Jet
 from oracles.luffing_points import LuffingCloud
 from samples import luffing_crane as sample
 
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.luffing import motion as luffing
+from towercrane.cranes.tower.equations.structure import structure
+from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.kernels.payload import Load
+from towercrane.kernels.payload import Load, State
+from towercrane.motions.motion import Motion
+from towercrane.motions.profiles import speed_trapezoid, trapezoid
+from towercrane.simulation.simulate import simulate
 
 DRIVE = Drive("slewing", 4e6, 3e7, 0.02, 2e5, "tanh", 3e4, 0.01)
 LOSSY = {
@@ -84,6 +91,19 @@ class Moving:
         friction = drive.friction_torque * np.tanh(self.rates[at] / drive.friction_rate)
         return -drive.soft * inside - drive.stiff * (twist - inside) - drive.damping * slip - friction
 
+    @cached_property
+    def columns(self):
+        return self.cloud.displace(self.drawn()[0], self.drives)
+
+    def left_over(self):
+        """Work that inertia and forces leave over, per displacement of coordinates, the load's angles and drives."""
+        return self.cloud.left_over(*self.drawn(), self.found, self.drives, self.columns, np.zeros(3))
+
+    def observed(self):
+        span = np.array([0.0, 1.0])
+        motions = {c: Motion(span, row[None]) for c, row in zip(self.model.channels, self.inputs, strict=True)}
+        return self.model.observe(motions, np.zeros(1), self.state[None], self.slope[None], self.guards[None])
+
     def drawn(self):
         return np.concatenate([self.q, self.angles]), np.concatenate([self.rates, self.angle_rates])
 
@@ -91,13 +111,99 @@ class Moving:
 @cache
 def states(name):
     rng = np.random.default_rng(7)
-    return [Moving(rng, SCENES[name]) for _ in range(2)]
+    return [Moving(rng, SCENES[name]) for _ in range(3 if name == "whole" else 1)]
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_accelerations_follow_from_positions_and_energies(name):
     for at in states(name):
-        columns = at.cloud.displace(at.drawn()[0], at.drives)
-        expected, mass = at.cloud.accelerations(*at.drawn(), at.drives, columns, np.zeros(3), at.extra)
+        expected, mass = at.cloud.accelerations(*at.drawn(), at.drives, at.columns, np.zeros(3), at.extra)
         size = np.sqrt(np.diag(mass))
         assert np.max(abs(at.found - expected) * size) < 1e-11 * np.max(abs(expected) * size)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_drives_hold_what_virtual_work_asks(name):
+    for at in states(name):
+        n = at.n
+        sums, sizes = at.left_over()
+        assert np.max(abs(sums[: n + 2] - at.extra) / (sizes[: n + 2] + abs(at.extra))) < 3e-12
+        torque, lifting, pull = sums[n + 2 :]
+        scale = 1e-11 * sizes[n + 2 :]
+        if at.model.drive is None:
+            assert abs(at.guards[luffing.SLEWING_TORQUE] - torque) < scale[0]
+        assert abs(at.guards[luffing.TENSION] + pull) < scale[2]
+        tension, crane = at.guards[luffing.HOLDING], at.cloud.crane
+        assert abs(tension - at.cloud.holding) < 1e-11 * abs(tension) + 1e-3
+        # The winch's power, per rate of the commanded angle.
+        lever = crane.luffing.lever(crane.jib.length, at.inputs[0, 0])
+        power = (tension + 0.5 * tension**2 / crane.luffing.rope_stiffness) * lever
+        assert abs(lifting - power) < 1e-9 * sizes[n + 3]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_base_carries_what_moves_above_it(name):
+    for at in states(name):
+        at.left_over()
+        felt, points, model = at.cloud.felt, at.cloud.now, at.model
+        seen = at.observed()
+        moments, sizes = np.zeros(3), 0.0
+        for part, cloud in points.items():
+            arm = cloud.derivative(0) + np.array([0.0, 0.0, model.crane.tower_height])
+            if part == "tower":
+                arm[:, 2] = at.cloud.height
+            moments += np.cross(arm, felt[part]).sum(axis=0)
+            sizes += abs(np.cross(arm, felt[part])).sum()
+        part = model.parts["torsion"]
+        inertia = model.crane.torsion.shaft.inertia_per_length * at.cloud.tower_weights
+        moments[2] += inertia @ (at.found[:-2][part] @ at.cloud.twists)
+        names = ["base_moment_y"] if model.axes == 2 else ["base_moment_x", "base_moment_y", "base_torque"]
+        base = [seen[name].values[0] for name in names]
+        expected = moments[[1]] if model.axes == 2 else moments
+        assert np.max(abs(base + expected)) < 1e-11 * sizes
+
+
+def test_a_jib_held_level_at_the_tower_is_one_with_its_trolley_at_the_end():
+    """Without shortening, luffing rope and hoist rope on the jib, and with nothing beside the axis."""
+    behind = {"counter_jib_length": 6.0, "counter_jib_mass_per_length": 200.0, "counterweight": 9e3}
+    crane = dataclasses.replace(
+        sample.crane(foot=(0.0, 0.0), rope_stiffness=1e-30, falls=10**18, reference_angle=0.0, bodies=()), **behind
+    )
+    model = sample.model(tower=2, torsion=1, crane=crane)
+    own = dataclasses.replace(
+        model.constants.luffing, shortening=np.zeros((4, 4)), weighted=np.zeros((4, 4)), attachment=0.0
+    )
+    constants = dataclasses.replace(model.constants, luffing=own)
+    fixed = FlexibleModel(dataclasses.replace(model.crane, luffing=None), model.load)
+    rng = np.random.default_rng(3)
+    n = fixed.coordinates
+    q, rates = (0.3 * fixed.system.scale[:n] * rng.normal(size=n) for _ in range(2))
+    rope, slewing = (15.0, 0.3, -0.2), (0.7, 0.1, 0.3)
+    held = State(np.append(q, 0.0), (), (), np.append(rates, 0.0), (), ())
+    found = luffing.structure(constants, held, [(0.0, 0.0, 0.0), rope, slewing])
+    end = (crane.jib.length, 0.0, 0.0)
+    expected = structure(fixed.constants, State(q, (), (), rates, (), ()), [end, rope, slewing]).hanging
+    mass, wanted = found.hanging.mass_matrix()[:n, :n], expected.mass_matrix()
+    assert_allclose(mass, wanted, rtol=0.0, atol=1e-12 * abs(wanted).max())
+    assert_allclose(found.hanging.force[:n], expected.force, rtol=1e-11, atol=1e-9)
+    assert_allclose(found.hanging.velocity, expected.velocity, rtol=1e-12)
+    assert_allclose(found.hanging.bias, expected.bias, rtol=1e-12, atol=1e-12)
+    assert_allclose(np.array(found.hanging.jacobian)[:, :n], expected.jacobian, rtol=1e-12, atol=1e-13)
+    assert_allclose([found.rope.length, found.rope.rate, found.rope.acceleration], rope, rtol=1e-13)
+    assert abs(found.held.tension) < 1e-20
+
+
+def test_energy_of_a_manoeuvre_is_what_drives_put_in():
+    crane = sample.crane(axial_stiffness=sample.AXIAL, reference_angle=np.radians(30.0))
+    model = sample.model(tower=1, torsion=1, crane=crane)
+    motions = {
+        "slewing": speed_trapezoid(0.0, 0.07, 6.0, 0.5 * np.pi / 0.07 - 6.0),
+        "luffing": trapezoid(np.radians(30.0), np.radians(57.0), 0.012, 0.004),
+        "rope": trapezoid(30.0, 15.0, 0.4, 0.2),
+    }
+    run = simulate(model, motions, 70.0, output_step=0.5, rtol=1e-10, atol=1e-12)
+    assert run.attrs["outcome"] == "finished"
+    assert imbalance(run) < 1e-11
+    # All of it moved, and none of the ropes was slack.
+    assert float(np.ptp(run["luffing_angle"].values)) > np.radians(26.0)
+    assert float(run["luffing_rope_tension"].min()) > 1e5

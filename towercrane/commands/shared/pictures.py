@@ -20,7 +20,9 @@ def run_pictures(case: Case, run: Run) -> dict[str, Any]:
         drawn = dict(import_module(f"towercrane.report.plots.runs.{kind.pictures}").run_pictures(result))
     else:
         drawn = panels.run_pictures(result, kind.pictures)
-    return {**drawn, "modes.png": mode_picture(case, run.model)} if "members" in kind.serves else drawn
+    if "members" not in kind.serves or kind.refusal("members", case.checked):
+        return drawn
+    return {**drawn, "modes.png": mode_picture(case, run.model)}
 
 
 def mode_picture(case: Case, model: Any) -> Any:

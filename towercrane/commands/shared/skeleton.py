@@ -56,14 +56,26 @@ class Task:
 
     def serves(self, use: str) -> bool:
         """Whether the case's kind can be used for it, see :class:`towercrane.cranes.kind.Kind`."""
-        return self.case.kind in kinds_for(use)
+        return self.case.kind in kinds_for(use) and not self.refusal(use)
+
+    def refusal(self, use: str) -> str:
+        """Why a case of a kind that can be used so cannot; nothing where it can."""
+        from towercrane.cranes.registry import KINDS
+
+        return KINDS[self.case.kind].refusal(use, self.case.checked)
 
     def need(self, use: str, lacking: str) -> None:
         """Refuse a case of a kind that cannot be used so; ``lacking`` is what cranes without beams do not have."""
         kind = self.case.kind
+        self.allow(use)
         if self.serves(use):
             return
         self.refuse(f"a crane of kind {kind!r} has no {lacking}; try: towercrane linearise {self.name}")
+
+    def allow(self, use: str) -> None:
+        """Refuse a case that cannot be used so though others of its kind can."""
+        if why := self.refusal(use):
+            self.refuse(f"{why}; try: towercrane linearise {self.name}")
 
     def refuse(self, why: str) -> NoReturn:
         """End with what is wrong with the case."""

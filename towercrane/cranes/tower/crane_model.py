@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.tower.luffing_model import LuffingModel
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.luffing_crane import luffing_crane
 from towercrane.cranes.tower.modes.modal_crane import flexible_crane
 
 if TYPE_CHECKING:
@@ -92,8 +94,10 @@ def tower_crane_model(
     """
     if planar:
         modes, drive, drive_inertia = replace(modes, torsion=0, lateral=0, counter_lateral=0), None, 0.0
-    return FlexibleModel(
-        flexible_crane(crane, modes, areas, planes=1 if planar else 2),
+    planes = 1 if planar else 2
+    pivots = crane.luffing is not None
+    return (LuffingModel if pivots else FlexibleModel)(
+        luffing_crane(crane, modes, planes) if pivots else flexible_crane(crane, modes, areas, planes),
         load,
         slewing="fixed" if planar else drive or "prescribed",
         drive_inertia=drive_inertia,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from towercrane.cranes.kind import Drives, Kind, Signals, Track, later
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.checks.jib import check_jibs, jib_length
+from towercrane.cranes.tower.file.checks.luffing import check_luffing, head_height, limits, pivots, refused
 from towercrane.cranes.tower.file.checks.scene import check_scene
 from towercrane.cranes.tower.file.checks.tower import check_tower, tower_height
 
@@ -13,14 +14,23 @@ TRACKS = (Track("trolley", jib_length, "jib"),)
 FASTEST_SLEWING = 0.5
 """Largest plausible speed of a tower crane's head whose motion states none [rad/s]; they turn at 0.1 or less."""
 
+FIXED = Drives(
+    tower_height, "the height of the tower", TRACKS,
+    joints=(("shaft", "slewing"),), fastest_turn=FASTEST_SLEWING, wind=True, earthquake=True,
+)  # fmt: skip
+
+PIVOTING = Drives(
+    head_height, "the height of the jib's head",
+    joints=(("luffing",), ("shaft", "slewing")), fastest_turn=FASTEST_SLEWING, limits={"luffing": limits},
+)  # fmt: skip
+"""Of a crane whose jib pivots."""
+
 TOWER = Kind(
     name="tower",
     tables=TowerCase,
-    drives=Drives(
-        tower_height, "the height of the tower", TRACKS,
-        joints=(("shaft", "slewing"),), fastest_turn=FASTEST_SLEWING, wind=True, earthquake=True,
-    ),
-    checks=(check_tower, check_jibs, check_scene),
+    drives=FIXED,
+    drives_in=lambda tree: PIVOTING if pivots(tree) else FIXED,
+    checks=(check_tower, check_jibs, check_luffing, check_scene),
     build=later("towercrane.cranes.tower.file.build", "tower_model"),
     poses=later("towercrane.cranes.tower.poses", "tower_poses"),
     computed=later("towercrane.cranes.tower.file.lattices.torsion", "computed"),
@@ -36,5 +46,6 @@ TOWER = Kind(
     modes=later("towercrane.cranes.tower.file.requests", "modes_that_move"),
     left_out=later("towercrane.cranes.tower.file.requests", "left_out"),
     sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},
+    refuses=refused,
     serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members"}),
 )  # fmt: skip

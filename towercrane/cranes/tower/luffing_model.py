@@ -17,7 +17,8 @@ from towercrane.cranes.tower.outputs.luffing import READ, outputs
 from towercrane.cranes.tower.outputs.observed import about
 from towercrane.kernels.payload import SLACK, State, Structure
 from towercrane.simulation.differences import jacobian
-from towercrane.simulation.outcomes import JIB_AT_STOP, JIB_OVER, SLACK_ROPE, TOWER_BUCKLED
+from towercrane.simulation.outcomes import JIB_AT_STOP, JIB_OVER, SLACK_ROPE, TOWER_BUCKLED, UNSTABLE
+from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -110,6 +111,11 @@ class LuffingModel(FlexibleModel):
         origin = super().undeformed(inputs)
         origin[-1] = inputs[luffing.COMMANDED, 0]
         return origin
+
+    def gives_way(self, why: str = "") -> NoEquilibrium:
+        """What is said of a crane that cannot stand."""
+        jib = "a jib buckles that is pressed too hard, or swings down where its rope is too soft"
+        return NoEquilibrium(UNSTABLE, f"{why}{jib}; {self.buckling_message()}")
 
     @cached_property
     def _forces_at_rest(self) -> Callable[[Floats, Floats], Floats]:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
 
     Floats = NDArray[np.float64]
 
@@ -66,18 +67,29 @@ def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, tim
     turned = Rotation.from_euler("z", heading[:, None]).as_matrix()
     top = tower[:, -1]
 
-    def on_head(along: Floats, deflection: Floats) -> tuple[Floats, Floats]:
-        """Points on the jib's line, shapes (f or 1, p) and (2, f, p): deformed, and undeformed."""
-        places = np.stack(np.broadcast_arrays(along, *deflection), axis=-1)
-        straight = np.stack(np.broadcast_arrays(along, *np.zeros_like(deflection)), axis=-1)
+    def placed(places: Floats, straight: Floats) -> tuple[Floats, Floats]:
+        """Points in the head's axes, shape (f, p, 3): deformed, and undeformed."""
         return (
             top[:, None] + np.einsum("tij,tpj->tpi", head, places),
             upright[:, -1:] + np.einsum("tij,tpj->tpi", turned, straight),
         )
 
+    def on_head(along: Floats, deflection: Floats) -> tuple[Floats, Floats]:
+        """Points on the jib's line, shapes (f or 1, p) and (2, f, p): deformed, and undeformed."""
+        places = np.stack(np.broadcast_arrays(along, *deflection), axis=-1)
+        return placed(places, np.stack(np.broadcast_arrays(along, *np.zeros_like(deflection)), axis=-1))
+
     along = np.linspace(0.0, crane.jib_length, POINTS)
     jib = crane.jib_shapes(along)
     deflection = np.stack([q["jib_lateral"] @ jib[:lateral], q["jib_vertical"] @ jib[lateral:]])
+    pairs = {"tower": (tower, upright)}
+    if crane.luffing is not None:
+        angles = sampled(result, "luffing_angle", times), sampled(result, "luffing_command", times)
+        pairs |= {
+            name: placed(*lines)
+            for name, lines in luffing_lines(crane.luffing, along, deflection, angles).items()
+        }  # fmt: skip
+        return _poses(result, times, heading, pairs, height)
     # A trolley that leaves the jib ends the run; its last row stands a hair beyond the end.
     trolley = np.clip(sampled(result, "trolley_position", times), 0.0, crane.jib_length)
     there = crane.jib_shapes(trolley)
@@ -86,12 +98,49 @@ def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, tim
         np.einsum("ti,it->t", q["jib_vertical"], there[lateral:]),
     ])  # fmt: skip
     back = np.array([0.0, -behind])
-    pairs = {
-        "tower": (tower, upright),
+    pairs |= {
         "jib": on_head(along[None], deflection),
         "counter-jib": on_head(back[None], np.zeros((2, len(times), 2))),
         "suspension": on_head(trolley[:, None], at_trolley[..., None]),
     }
+    return _poses(result, times, heading, pairs, height)
+
+
+def luffing_lines(
+    jib: LuffingJib, along: Floats, deflection: Floats, angles: tuple[Floats, Floats]
+) -> dict[str, tuple[Floats, Floats]]:
+    """Lines of a head whose jib pivots, in its axes, deformed and undeformed; shapes (f, p, 3).
+
+    Parameters
+    ----------
+    jib : LuffingJib
+    along : ndarray, shape (p,)
+        Points from foot to head [m].
+    deflection : ndarray, shape (2, f, p)
+        Of the jib there, to the left and up from the chord [m].
+    angles : tuple of 2 ndarrays, shape (f,)
+        Of the chord, and of a straight jib on a rope that does not stretch [rad].
+    """
+    found: dict[str, list[Floats]] = {
+        name: [] for name in ("jib", "frame", "luffing rope", "counter-jib", "suspension")
+    }
+    for angle, (left, up) in zip(angles, (deflection, np.zeros_like(deflection)), strict=True):
+        c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+        line = np.stack([jib.foot[0] + along * c - up * s, left, jib.foot[1] + along * s + up * c], axis=-1)
+        still = np.zeros((len(angle), 1, 3))
+        frame = still + np.array([jib.frame_head[0], 0.0, jib.frame_head[1]])
+        last = min((body.place for body in jib.bodies), default=(0.0, 0.0))
+        found["jib"].append(line)
+        found["frame"].append(np.concatenate([still, frame], axis=1))
+        found["luffing rope"].append(np.concatenate([frame, line[:, -1:]], axis=1))
+        found["counter-jib"].append(np.concatenate([still, still + np.array([last[0], 0.0, last[1]])], axis=1))
+        found["suspension"].append(line[:, -1:])
+    return {name: (moved, straight) for name, (moved, straight) in found.items()}
+
+
+def _poses(
+    result: xr.Dataset, times: Floats, heading: Floats, pairs: dict[str, tuple[Floats, Floats]], height: float
+) -> Poses:
     return Poses(
         times,
         heading,

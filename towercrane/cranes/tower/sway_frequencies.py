@@ -36,28 +36,28 @@ class SwayFrequencies:
     model: FlexibleModel
     _known: dict[tuple[bool, float, float], tuple[float, ...]] = field(default_factory=dict, init=False, repr=False)
 
-    def __call__(self, channel: str, trolley: float, rope: float) -> tuple[float, ...]:
+    def __call__(self, channel: str, place: float, rope: float) -> tuple[float, ...]:
         """Frequencies that a drive excites, ascending [Hz]: two across the jib, one along it.
 
         Parameters
         ----------
         channel : str
             Of the model: what is driven.
-        trolley, rope : float
-            Trolley position and rope length [m].
+        place, rope : float
+            Trolley position [m] or luffing angle [rad], and rope length [m].
 
         Raises
         ------
         NoEquilibrium
             If the crane cannot stand there.
         """
-        key = (channel in TURNS, trolley, rope)
+        key = (channel in TURNS, place, rope)
         if key not in self._known:
             self._known[key] = self._found(*key)
         return self._known[key]
 
-    def _found(self, turns: bool, trolley: float, rope: float) -> tuple[float, ...]:
-        modes = natural_modes(self._scene, trolley, rope)
+    def _found(self, turns: bool, place: float, rope: float) -> tuple[float, ...]:
+        modes = natural_modes(self._scene, place, rope)
         if turns:
             across = [m for m in modes if sum(m.shares[kind] for kind in ACROSS) > 0.5]
             return tuple(m.frequency_hz for m in across[:LATERAL_PAIR])

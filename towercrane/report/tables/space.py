@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import degrees
 from typing import Any
 
 from towercrane.report.tables.layout import assumed_values, console_of_reports, report_table, said
@@ -11,7 +12,8 @@ def space_modes_tables(report: dict[str, Any]) -> None:
     """Natural frequencies in space, as :func:`towercrane.studies.space_modes.space_frequencies` gives them."""
     console = console_of_reports()
     at = report["at"]
-    where = f"trolley {at['trolley_position_m']:g} m, rope {at['rope_length_m']:g} m"
+    position = f"trolley {at['trolley_position_m']:g} m" if "trolley_position_m" in at else _jib_at(at)
+    where = f"{position}, rope {at['rope_length_m']:g} m"
     title = f"{report['name']}: small motions, {where}, load {report['payload_mass_kg']:g} kg"
     kinds = list(report["modes"][0]["energy_shares"]) if report["modes"] else []
     table = report_table(title, "kind", "frequency [Hz]", "more modes", *(f"{kind} energy" for kind in kinds))
@@ -29,16 +31,20 @@ def space_modes_tables(report: dict[str, Any]) -> None:
     for mode in report["missing_from_the_model"]:
         console.print(f"missing from the model: {mode['frequency_hz']:.6f} Hz, {mode['kind']}")
     for name, rows in report["sweeps"].items():
-        degrees, unit = (57.29577951308232, "deg") if name == "slewing_angle" else (1.0, "m")
+        factor, unit = (57.29577951308232, "deg") if name.endswith("_angle") else (1.0, "m")
         most = max(len(row["frequencies_hz"]) for row in rows)
         title = f"natural frequencies [Hz] over {name.replace('_', ' ')}, the other drives as above"
         table = report_table(title, f"{name.replace('_', ' ')} [{unit}]", *(f"f{i}" for i in range(1, most + 1)))
         for row in rows:
             cells = [f"{f:.5f} {_initials(k)}" for f, k in zip(row["frequencies_hz"], row["kinds"], strict=True)]
-            table.add_row(f"{degrees * row['value']:g}", *(cells or [row.get("outcome", "")]))
+            table.add_row(f"{factor * row['value']:g}", *(cells or [row.get("outcome", "")]))
         console.print(table)
     console.print("R radial, L lateral, T torsion, RS radial sway, LS lateral sway: what holds most of the energy")
     assumed_values(console, report["assumed"])
+
+
+def _jib_at(at: dict[str, float]) -> str:
+    return f"jib at {degrees(at['luffing_angle_rad']):g} deg"
 
 
 def _initials(kind: str) -> str:

@@ -174,7 +174,7 @@ class Equations(Coordinates):
         try:
             return origin + stable_equilibrium(residual, self.system.scale[:n])
         except Unstable as failure:
-            raise NoEquilibrium(TOWER_BUCKLED, f"{failure}; {self.buckling_message()}") from failure
+            raise self.gives_way(f"{failure}; ") from failure
 
     def undeformed(self, inputs: Floats) -> Floats:
         """Coordinates of the undeformed crane as its drives hold it; shape (coordinates,)."""
@@ -195,6 +195,10 @@ class Equations(Coordinates):
         numbers, shape = self.system.numbers, (len(self.channels), 1)
         code = written(forces, self.constants, [numbers], self.coordinates, shape)
         return code.values(numbers, self.constants.shapes)
+
+    def gives_way(self, why: str = "") -> NoEquilibrium:
+        """What is said of a crane that cannot stand."""
+        return NoEquilibrium(TOWER_BUCKLED, f"{why}{self.buckling_message()}")
 
     def buckling_message(self) -> str:
         """How far the tower is from buckling."""

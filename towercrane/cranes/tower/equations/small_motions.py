@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.simulation.differences import jacobian
-from towercrane.simulation.outcomes import TOWER_BUCKLED
-from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -98,13 +96,13 @@ def reciprocal_modes(model: Equations, mass: Floats, stiffness: Floats) -> tuple
     from scipy.linalg import eigh
 
     if np.linalg.eigvalsh(stiffness).min() <= 0.0:
-        raise NoEquilibrium(TOWER_BUCKLED, model.buckling_message())
+        raise model.gives_way()
     # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is.
     reciprocal, vectors = eigh(mass, stiffness)
     return 1.0 / np.sqrt(reciprocal[::-1]), vectors[:, ::-1]
 
 
-def plane_modes(model: Equations, trolley_position: float, rope_length: float) -> tuple[Floats, int]:
+def plane_modes(model: Equations, place: float, rope_length: float) -> tuple[Floats, int]:
     """Small motions in the jib's plane about the undeformed crane, as a linear frame has them.
 
     The second-order effect of the static deflection is not in them.
@@ -113,8 +111,8 @@ def plane_modes(model: Equations, trolley_position: float, rope_length: float) -
     ----------
     model : Equations
         That stays in the plane.
-    trolley_position, rope_length : float
-        [m]
+    place, rope_length : float
+        As in :func:`natural_modes`.
 
     Returns
     -------
@@ -129,19 +127,22 @@ def plane_modes(model: Equations, trolley_position: float, rope_length: float) -
     NoEquilibrium
         If the weight's softening leaves the tower no stiffness.
     """
-    mass, stiffness = plane_matrices(model, trolley_position, rope_length)
+    mass, stiffness = plane_matrices(model, place, rope_length)
     frequencies, vectors = reciprocal_modes(model, mass, stiffness)
     return frequencies, int(np.argmax(stiffness[-1, -1] * vectors[-1] ** 2))
 
 
-def plane_matrices(model: Equations, trolley_position: float, rope_length: float) -> tuple[Floats, Floats]:
+def plane_matrices(model: Equations, place: float, rope_length: float) -> tuple[Floats, Floats]:
     """Mass and stiffness of small motions in the plane, see `plane_modes`; shapes (coordinates + 1, coordinates + 1).
 
     The last coordinate is the load's horizontal way from the point it hangs from [m].
     """
     drives = np.zeros(len(model.channels))
-    drives[:2] = trolley_position, rope_length
-    return linear_matrices(model, drives)
+    drives[:2] = place, rope_length
+    if model.crane.luffing is None:
+        return linear_matrices(model, drives)
+    # A jib that pivots stands in no state but that of equilibrium.
+    return linear_matrices(model, drives, about=model.equilibrium(np.column_stack([drives, 0.0 * drives])))
 
 
 def natural_modes(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from modal import CraneFrame, EndBody
 from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.tower.file.effects import kept_tower, softened
-from towercrane.cranes.tower.file.members import counter_jib_of, crane_on, jib_of, with_end_body
+from towercrane.cranes.tower.file.members import counter_jib_of, crane_on, jib_of, luffing_of, with_end_body
 from towercrane.cranes.tower.file.plane import heading_of
 from towercrane.cranes.tower.modes.parameters import as_chain
 
@@ -29,7 +29,7 @@ def crane_of(tables: TowerCase) -> TowerCrane:
         shaft = tower_shaft(crane, standing.length)
     return crane_on(
         standing, crane, jib_lateral=jib_of(crane, "lateral"), shaft=shaft, roll_inertia=crane.roll_inertia,
-        counter_jib_lateral=counter_jib_of(crane, "lateral"),
+        counter_jib_lateral=counter_jib_of(crane, "lateral"), luffing=luffing_of(tables),
     )  # fmt: skip
 
 
@@ -44,7 +44,14 @@ def crane_frame(tables: TowerCase, *, weight: bool = False) -> CraneFrame:
     tables : TowerCase
     weight : bool
         Whether the weight softens the tower.
+
+    Raises
+    ------
+    ValueError
+        If the jib pivots.
     """
+    if tables.crane.jib.luffing is not None:
+        raise ValueError("crane.jib.luffing: wanted a jib that does not pivot; a frame of beams is of such alone")
     return frame_of(crane_of(tables), tables.payload.mass, tables.rope.length, weight=weight)
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, StrictBool, StrictInt
+from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from modal.elements.beam_elements import MOST_ELEMENTS
 from towercrane.cranes.parts.tables import CaseTable, StartTable
+from towercrane.cranes.tower.file.luffing_tables import without_trolley
 from towercrane.cranes.tower.file.tables import Crane  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.targets import ALL, FORETOLD, MOTIONS
 from towercrane.schema.fields import (
@@ -30,9 +31,13 @@ from towercrane.schema.targets import Asked, OutputsField, TargetField, Targets
 
 
 class Motions(Table):
-    """What the drives do; the head turns by its angle, or by that of its drive's shaft."""
+    """What the drives do; the head turns by its angle, or by that of its drive's shaft.
+
+    The angle of a jib that pivots is the one at which it would stand, straight, if its rope did not stretch.
+    """
 
     trolley: TrolleyMotion
+    luffing: JointMotion | None = None
     hoist: HoistMotion | None = None
     slewing: JointMotion | None = None
     shaft: JointMotion | None = None
@@ -113,6 +118,7 @@ class ModesRequest(Table):
     trolley_positions: tuple[Position, ...] = ()
     rope_lengths: tuple[Length, ...] = ()
     slewing_angles: tuple[Angle, ...] = ()
+    luffing_angles: tuple[Angle, ...] = ()
     elements: Annotated[StrictInt, Field(ge=2, le=MOST_ELEMENTS)] = 32
 
 
@@ -144,3 +150,8 @@ class TowerCase(CaseTable):
     modes: ModesRequest = Field(default_factory=ModesRequest)
     map: MapRequest = Field(default_factory=MapRequest)
     accuracy: Accuracy = Field(default_factory=Accuracy)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _complete(cls, tree: Any) -> Any:
+        return without_trolley(tree)

@@ -6,6 +6,7 @@ from math import inf
 
 from modal.lattices.jib import Shape, Side  # noqa: TC001 - pydantic reads annotations when the class is made
 from modal.lattices.walls import Lacing  # noqa: TC001
+from towercrane.cranes.tower.file.luffing_tables import Luffing  # noqa: TC001
 from towercrane.schema.fields import (
     Area,
     AreaIfAny,
@@ -87,8 +88,8 @@ class JibBody(Table):
     rotary_inertia: InertiaOrNone = 0.0
 
 
-class Jib(JibSection):
-    """Jib, uniform or of segments.
+class Arm(JibSection):
+    """Jib or counter-jib, uniform or of segments.
 
     Which keys belong together is for :mod:`towercrane.cranes.tower.file.checks.jib`.
     """
@@ -111,7 +112,13 @@ class Jib(JibSection):
         return sum(piece.length for piece in self.pieces)
 
 
-class CounterJib(Jib):
+class Jib(Arm):
+    """Jib; with a table ``luffing`` it pivots at its foot."""
+
+    luffing: Luffing | None = None
+
+
+class CounterJib(Arm):
     """Counter-jib with the counterweight at its end, and other bodies.
 
     Without a second moment of area it is rigid. With one it bends where a model has modes of it, and in exact

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal
 from modal import Beam, Chain, Collar, ColumnTruss, EndBody, Foundation, LacedColumn, Segment
 from modal.lattices.jib import JibLattice
 from modal.lattices.lattice_taper import column_segments
+from towercrane.cranes.tower.modes.luffing_jib import HeadBody, LuffingJib
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 
 if TYPE_CHECKING:
-    from towercrane.cranes.tower.file.jib_tables import Jib, JibSegment
+    from towercrane.cranes.tower.file.case_tables import TowerCase
+    from towercrane.cranes.tower.file.jib_tables import Arm, JibSegment
     from towercrane.cranes.tower.file.tables import Crane
     from towercrane.cranes.tower.file.tower_tables import BeamChoice, Lattice, Section, Tower, TowerSegment
 
@@ -175,7 +177,7 @@ def counter_jib_of(crane: Crane, plane: Plane = "vertical") -> Chain | None:
     return replace(chain, bodies={**chain.bodies, end: weight})
 
 
-def _jib_chain(jib: Jib, plane: Plane) -> Chain | None:
+def _jib_chain(jib: Arm, plane: Plane) -> Chain | None:
     segments: list[Segment] = []
     for piece in jib.pieces:
         modulus = piece.youngs_modulus or jib.youngs_modulus
@@ -240,3 +242,23 @@ def has_lattice(crane: Crane) -> bool:
     """Whether the tower, or each of its segments, has its members given."""
     tower = crane.tower
     return all(piece.lattice is not None for piece in tower.segments or (tower,))
+
+
+def luffing_of(tables: TowerCase) -> LuffingJib | None:
+    """The jib of a checked case if it pivots."""
+    own, motion = tables.crane.jib.luffing, tables.motion.luffing
+    if own is None:
+        return None
+    return LuffingJib(
+        foot=own.pivot,
+        frame_head=own.frame_head,
+        winch=own.hoist_winch,
+        attachment=own.rope_attachment,
+        rope_stiffness=own.rope_stiffness,
+        falls=own.falls,
+        reference_angle=float(getattr(motion, "start", 0.0)),
+        highest_angle=own.highest_angle,
+        tip_mass=own.tip_mass,
+        axial_stiffness=own.axial_stiffness,
+        bodies=tuple(HeadBody(body.mass, body.place) for body in tables.crane.head.bodies),
+    )

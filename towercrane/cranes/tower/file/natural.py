@@ -28,11 +28,11 @@ def natural(model: FlexibleModel, drives: Mapping[str, float]) -> Natural:
         If the tower buckles.
     """
     model = model if np.isinf(model.cap) else replace(model, cap=np.inf)
-    trolley, rope = drives["trolley"], drives["rope"]
+    place, rope = drives[model.channels[0]], drives["rope"]
     if model.axes == 2:
-        frequencies, swing = plane_modes(model, trolley, rope)
+        frequencies, swing = plane_modes(model, place, rope)
         return Natural((frequencies / (2 * np.pi)).tolist(), [], {"sway_radial": swing})
-    modes = natural_modes(model, trolley, rope, drives["shaft" if "shaft" in drives else "slewing"])
+    modes = natural_modes(model, place, rope, drives["shaft" if "shaft" in drives else "slewing"])
     kinds = [mode.kind for mode in modes]
     swings = {signal: kinds.index(kind) for signal, kind in SWAYS.items() if kind in kinds}
     return Natural([mode.frequency_hz for mode in modes], kinds, swings)
@@ -41,5 +41,11 @@ def natural(model: FlexibleModel, drives: Mapping[str, float]) -> Natural:
 def lengths(model: FlexibleModel) -> dict[str, float]:
     """Length of the member that each deflection is of [m]."""
     crane = model.crane
-    found = {"tower_tip_displacement": crane.tower_height, "jib_tip_deflection": crane.jib_length}
-    return found if model.axes == 2 else found | {f"{name}_sideways": length for name, length in found.items()}
+    tip = "jib_tip_deflection" if crane.luffing is None else "jib_deflection"
+    found = {"tower_tip_displacement": crane.tower_height, tip: crane.jib_length}
+    if model.axes == 3:
+        found |= {
+            "tower_tip_displacement_sideways": crane.tower_height,
+            "jib_tip_deflection_sideways": crane.jib_length,
+        }
+    return found

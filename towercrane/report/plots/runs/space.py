@@ -25,14 +25,20 @@ TOP = Panel(
 TWIST = Panel(
     "tower top [mrad]", 1e3, {"tower_tip_twist": "twist", "tower_tip_tilt": "tilt", "tower_tip_roll": "roll"}
 )
-TENSION = Panel("rope tension [kN]", 1e-3, {"rope_tension": "rope tension"})
+TENSION = Panel(
+    "rope tension [kN]", 1e-3, {"rope_tension": "rope tension", "luffing_rope_tension": "tension of the luffing rope"}
+)
 WIND = Panel("wind [m/s]", 1.0, {"wind_x": "along x", "wind_y": "along y", "wind_z": "up"})
 
 PICTURES: Pictures = {
     "overview.png": (
         "Run",
         (
-            Panel("angle [deg]", DEGREES, {"slewing_angle": "head", "shaft_angle": "shaft of its drive"}),
+            Panel(
+                "angle [deg]",
+                DEGREES,
+                {"slewing_angle": "head", "shaft_angle": "shaft of its drive", "luffing_angle": "jib over the head"},
+            ),
             Panel("length [m]", 1.0, {"trolley_position": "trolley on the jib", "rope_length": "rope"}),
             SWAY,
             TORQUE,
@@ -61,6 +67,7 @@ PICTURES: Pictures = {
                 1e3,
                 {"jib_tip_deflection": "up", "jib_tip_deflection_sideways": "in the turning sense"},
             ),
+            Panel("jib's middle [mm]", 1e3, {"jib_deflection": "up from the chord"}),
             Panel(
                 "jib root [kN m]",
                 1e-3,

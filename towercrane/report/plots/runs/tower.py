@@ -17,7 +17,7 @@ BOTH = ("torque.png", "base.png", "wind.png")
 def run_pictures(result: xr.Dataset) -> dict[str, Figure]:
     """All pictures of one run by file name."""
     chosen = space.pictures_of(result)
-    if "sway_tangential" in result:
+    if "sway_tangential" in result or "luffing_angle" in result:
         return panels.run_pictures(result, chosen)
     in_plane = {name: picture for name, picture in chosen.items() if name in BOTH}
     return plane.run_pictures(result) | panels.over_times(result, in_plane)

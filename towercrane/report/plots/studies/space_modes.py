@@ -30,6 +30,7 @@ MARKS = ("o", "s", "^", "D", "v")
 
 SWEEPS = {
     "trolley_position": ("trolley from the tower's axis [m]", 1.0),
+    "luffing_angle": ("jib's angle, as its winch has it [deg]", 180.0 / np.pi),
     "rope_length": ("rope length [m]", 1.0),
     "slewing_angle": ("slewing angle [deg]", 180.0 / np.pi),
 }
@@ -80,8 +81,9 @@ def frequencies(sweeps: dict[str, list[dict[str, Any]]], title: str, notes: Note
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
     figure = figure_of(12.0, 5.5)
-    panels = figure.subplots(1, len(SWEEPS), sharey=True)
-    for axes, (name, (label, factor)) in zip(panels, SWEEPS.items(), strict=True):
+    panels = figure.subplots(1, len(sweeps), sharey=True)
+    for axes, name in zip(panels, sweeps, strict=True):
+        label, factor = SWEEPS[name]
         rows = [row for row in sweeps[name] if row["frequencies_hz"]]
         at = [factor * row["value"] for row in rows]
         for k in range(min((len(row["frequencies_hz"]) for row in rows), default=0)):
