@@ -7,6 +7,7 @@ from modal import chain_frequencies, crane_structure
 from towercrane.bench.structures import structure
 from towercrane.bench.structures.lattice import lattice
 from towercrane.bench.structures.roots import roots
+from towercrane.bench.structures.segments import segments
 from towercrane.cases.case import load_case
 from towercrane.cranes.tower.file.build import crane_frame
 from towercrane.report.plots.bench.work import pictures
@@ -20,6 +21,14 @@ def test_tower_of_three_segments():
     assert errors[0] < 3e-13
     assert 1e-7 < errors[-1] < 1e-5
     assert (np.diff(errors[1:]) < 0.0).all()
+    assert "50-digit" in table["notes"][0]
+
+
+def test_towers_of_different_segments():
+    table = segments(1, (1, 4))
+    assert [record["segments"] for record in table["records"]] == [1, 4]
+    assert all(record["error"] < 4e-15 for record in table["records"])
+    assert all(min(record["milliseconds"].values()) > 0.0 for record in table["records"])
     assert "50-digit" in table["notes"][0]
 
 

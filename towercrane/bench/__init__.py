@@ -20,6 +20,7 @@ from towercrane.bench.runs.space_accuracy import error_controlled_in_space
 from towercrane.bench.scenes.prepared import jib_scene, lumped_scene, radial_scene, space_scene
 from towercrane.bench.structures.lattice import lattice
 from towercrane.bench.structures.roots import roots
+from towercrane.bench.structures.segments import segments
 from towercrane.bench.structures.structure import crane_map, stepped_tower
 from towercrane.results.versions import versions
 
@@ -34,6 +35,7 @@ SUBJECTS: dict[str, tuple[str, Subject]] = {
         lambda repeats, quick: roots(repeats),
     ),
     "tower": ("tower of three segments against finite elements", lambda repeats, quick: stepped_tower(repeats)),
+    "segments": ("towers of 5 to 80 different segments", lambda repeats, quick: segments(repeats)),
     "lattice": ("lattice tower as a truss and as beams", lambda repeats, quick: lattice(repeats)),
     "map": ("frequency map against finite elements", lambda repeats, quick: crane_map(repeats)),
     "radial-rhs": ("right-hand side of the crane in its plane", lambda repeats, quick: right_hand_side(repeats)),

@@ -7,7 +7,9 @@ import pytest
 
 from modal import Beam, Chain, EndBody, Foundation, Segment, cantilever_modes, chain_frequencies, chain_structure
 from modal.beams.roots import characteristic_roots
+from modal.structures.assembly import assembly
 from modal.structures.chain_modes import chain_modes
+from modal.structures.refinement import refined
 from modal.structures.structure import Structure
 from modal.structures.structure_modes import structure_modes
 
@@ -35,6 +37,18 @@ CUTS = {"50 equal": np.full(50, 0.02), "500 equal": np.full(500, 0.002), "300 of
 def test_a_cut_beam_has_the_frequencies_of_a_whole_one(name):
     exact = characteristic_roots(BODY.mass, BODY.rotary_inertia, 8) ** 2
     np.testing.assert_allclose(chain_frequencies(cut(CUTS[name], {-1: BODY}), 8), exact, rtol=1e-12)
+
+
+def test_unknowns_and_pieces_hang_on_waves_not_on_the_number_of_different_segments():
+    sizes, pieces = [], []
+    for number in (20, 80, 320):
+        stiff = 1.0 + 0.5 * np.cos(np.arange(number))
+        structure = chain_structure(Chain(tuple(Segment(1.0 / number, size, size) for size in stiff), {number: BODY}))
+        highest = structure.angular_frequencies(4)[-1]
+        sizes.append(assembly(refined(structure, highest), highest).points.shape[1])
+        pieces.append(structure_modes(structure, 4).parts["tower"].ends.size - 1)
+    assert sizes[0] == sizes[1] == sizes[2] <= 6
+    assert pieces == [20, 80, 320]
 
 
 def test_low_frequencies_do_not_hang_on_how_many_are_asked_for():

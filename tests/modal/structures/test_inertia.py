@@ -42,6 +42,13 @@ def test_negative_eigenvalues_are_counted_and_the_determinant_is_found(size, wid
             assert log[0] == pytest.approx(wanted, abs=1e-9)
 
 
+def test_a_pivot_beside_a_far_larger_number_is_not_taken():
+    small, large, log = 1e-10, 1e11, np.zeros(1)
+    matrix = np.array([[small, 1.0, 0.0], [1.0, 0.7, large], [0.0, large, 1.0]])
+    assert eliminated(matrix, log) == 1
+    assert log[0] == pytest.approx(np.log(1.0 - small * (0.7 - large**2)), abs=1e-12)
+
+
 def test_a_matrix_of_zeros_has_no_negative_eigenvalue_and_no_determinant():
     log = np.zeros(1)
     assert eliminated(np.zeros((3, 3)), log) == 0

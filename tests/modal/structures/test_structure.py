@@ -39,6 +39,9 @@ UNIFORM = {
     "stiff foundation": Chain((BEAM,), foundation=Foundation(1e4, 1e5)),
     "bodies beside all nodes": Chain(STEPPED, BODIES, Foundation(20.0, 100.0)),
     "pendulum": Chain(STEPPED, {2: EndBody(0.3, 0.02)}, pendulum=Pendulum(0.3, 0.7)),
+    "soft and stiff in turn": Chain(
+        tuple(Segment(0.1, 1.0 - 0.05 * i, 90.0 if i % 2 else 1.0, 30.0) for i in range(10)), {10: BODIES[1]}
+    ),
     "stepped, all effects": Chain(
         (TIMOSHENKO, Segment(0.7, 0.4, 0.5, 6.0, 0.02)), BODIES, Foundation(5.0), 0.1, shear_theory="engesser"
     ),
