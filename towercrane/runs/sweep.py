@@ -1,7 +1,7 @@
 """Many runs of one case in which some of its values vary: extremes of the outputs, run by run.
 
-Runs go side by side in vector lanes, but for those that choose their model for an error that is asked for, whose
-equations switch on the way or whose solver is SciPy's: these run one after the other. The answer is the same.
+Runs go side by side in vector lanes, but for those that choose their model for an error that is asked for or whose
+solver is SciPy's: these run one after the other. The answer is the same.
 """
 
 from __future__ import annotations
@@ -160,8 +160,8 @@ def _one_by_one(
                 continue
             if series:
                 raise ValueError(
-                    "series: wanted runs that share lanes, got one that asks for an error, switches its equations or "
-                    "has a solver of SciPy; see run_case"
+                    "series: wanted runs that share lanes, got one that asks for an error or has a solver of SciPy; "
+                    "see run_case"
                 )
             _recorded(found, run, variant, outputs)
         except CaseError as refused:

@@ -50,10 +50,7 @@ class Variant:
     @property
     def fits_lanes(self) -> bool:
         """Whether it can run in vector lanes."""
-        if self.run is None or not METHODS[self.case.solver.method].compiled:
-            return False
-        system = self.run.model.system
-        return system.switch is None and not (system.crossings and system.crossings.crosses(self.run.phases))
+        return self.run is not None and METHODS[self.case.solver.method].compiled
 
     @property
     def company(self) -> tuple[Any, ...]:

@@ -41,6 +41,15 @@ What dips between two of them is at most 0.001 of a parabola's range deep, 0.002
 NARROWEST = 1e-12
 """Part of a step within which a fall is found."""
 
+SOON, LATE, ROUGHLY = 1e-3, 0.99, 1e-3
+"""A step is taken anew, up to its guard, where that falls between these parts of it, found as exactly as the last."""
+
+MOST_RETAKES = 4
+"""Times that a step which ends at a guard is taken anew, up to there; one or two do as a rule."""
+
+MOST_STALLED = 20
+"""Switches in a row without time passing at which a run is given up."""
+
 
 @kernel()
 def fallen(guards: Any, floors: Any) -> int:

@@ -145,9 +145,11 @@ class Looked:
     equations: Callable[..., tuple[Sequence[Any], Sequence[Any]]]
     outputs: Callable[[Any, Instant], Mapping[str, Any]]
     names: tuple[str, ...]
+    channels: int
 
     def __call__(self, seen: Any, t: Any, y: Any, inputs: Any) -> tuple[list[Any], Sequence[Any]]:
         """As equations have it."""
         slopes, guards = self.equations(seen.crane, t, y, inputs)
-        found = self.outputs(seen, Instant(y, slopes, guards, [polynomial(channel, t) for channel in inputs]))
+        drives = [polynomial(channel, t) for channel in inputs[: self.channels]]
+        found = self.outputs(seen, Instant(y, slopes, guards, drives))
         return [found[name] for name in self.names], guards

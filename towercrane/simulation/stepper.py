@@ -14,7 +14,19 @@ from numba import types
 from modal.compiler.compiled import kernel
 from towercrane.kernels.arrays import rhs_signature
 from towercrane.simulation.directions import longest_turn, restore
-from towercrane.simulation.guards import CLOSE, FEW_LOOKS, LOOKS, NARROWEST, NEAR, any_near, fallen, widen
+from towercrane.simulation.guards import (
+    CLOSE,
+    FEW_LOOKS,
+    LATE,
+    LOOKS,
+    NARROWEST,
+    NEAR,
+    ROUGHLY,
+    SOON,
+    any_near,
+    fallen,
+    widen,
+)
 from towercrane.simulation.methods.step_size import SHORTEST, SLOWLY, step_factor
 
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
@@ -26,9 +38,6 @@ often a step is taken anew; largest turn of a direction in a step [rad]; power b
 
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
 """Entries of its counts."""
-
-SOON, LATE, ROUGHLY = 1e-3, 0.99, 1e-3
-"""A step is taken anew, up to its guard, where that falls between these parts of it, found as exactly as the last."""
 
 _one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 _rhs = types.FunctionType(rhs_signature())

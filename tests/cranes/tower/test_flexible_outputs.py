@@ -50,7 +50,7 @@ def test_outputs_recorded_on_the_way_are_those_of_rows(name):
     phase = int(np.searchsorted(cut.times, AT)) - 1
     inputs = cut.inputs[phase]
     names = scalars(scene)
-    looked, numbers = Looked(motion, scene.outputs, names), numbers_of(scene.seen)
+    looked, numbers = Looked(motion, scene.outputs, names, len(scene.channels)), numbers_of(scene.seen)
     code = written(looked, scene.seen, [numbers], scene.size, inputs.shape)
     given = {
         "t": {(): AT - cut.times[phase]}, "y": states.T, "inputs": inputs, "tables": table_of(scene.seen),

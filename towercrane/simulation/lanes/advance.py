@@ -105,7 +105,7 @@ def advance(
     Returns
     -------
     bool
-        Whether runs are left.
+        Whether runs are left, or lanes ask what holds for them.
     """
     # What handles all lanes takes arrays: the tuples that hold them would cost time at every call.
     places, clock, clocks = borrowed(lanes.places), borrowed(lanes.clock), in_lanes(lanes.clock)
@@ -136,6 +136,8 @@ def advance(
                 if places[RUN, lane] < 0 and lanes.next_run[0] < queue.waiting.size:
                     lane_queue.fill(queue, lanes, lane)
                     lane_queue.begin_phase(queue, lanes, lane)
+            if lane_stepper.asks(places):
+                return True
             rhs(clocks[TIME], y, slope, inputs, numbers, tables, guards)
             for lane in range(LANES):
                 if places[FRESH, lane]:
@@ -179,16 +181,16 @@ def advance(
                 look += 1
                 looking = looks.look_along(places, clock, look, FEW_LOOKS)
             looks.keep_close(places, lane_lowest, lane_highest, lane_floors)
-            suspect, looking = False, looks.look_for_falls(places, clock, LOOKS)
+            suspect, looking = False, looks.look_for_falls(places, clock, LOOKS, queue.retakes)
             while looking:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
                 rhs(clocks[MOMENT], trial, slope, inputs, numbers, tables, guards)
                 lane_stepper.count(looking, places, counts, 1)
                 looks.note_looks(looking, places, clock, lane_guards, lane_floors, LOOKS)
-                suspect, looking = True, looks.look_for_falls(places, clock, LOOKS)
+                suspect, looking = True, looks.look_for_falls(places, clock, LOOKS, queue.retakes)
             if suspect:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[HIGH], trial)
-                looks.cut_steps(places, clock, lane_trial, lane_new)
+                looks.cut_steps(places, clock, lane_trial, lane_new, counts, queue.retakes)
             wanted = looks.wanted_samples(places, clock, sample_times)
             while wanted:
                 looks.dense_states(y, dense, k, clocks[TRIAL], clocks[FRACTION], trial)
@@ -207,7 +209,9 @@ def advance(
             for lane in range(LANES):
                 if places[RUN, lane] < 0 or not clock[ACCEPTED_STEP, lane]:
                     continue
-                if places[CROSSED, lane] >= 0:
+                if places[CROSSED, lane] >= 0 and queue.asks:
+                    lane_queue.pause(lanes, lane)
+                elif places[CROSSED, lane] >= 0:
                     lane_queue.end_run(answers, lanes, lane, FIRST_GUARD + places[CROSSED, lane])
                 elif clock[TIME, lane] >= clock[END, lane]:
                     places[PHASE, lane] += 1

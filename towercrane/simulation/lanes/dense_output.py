@@ -6,23 +6,28 @@ from typing import Any
 
 from modal.compiler.compiled import kernel
 from towercrane.kernels.vector import LANES
-from towercrane.simulation.guards import CLOSE, NARROWEST, is_near
+from towercrane.simulation.guards import CLOSE, LATE, NARROWEST, ROUGHLY, SOON, is_near
 from towercrane.simulation.lanes.queue import (
+    ACCEPTED,
     ACCEPTED_STEP,
     BEGIN,
     CROSSED,
     END,
     FRACTION,
+    FULL,
     HIGH,
     LARGEST,
     LARGEST_TIME,
     LOW,
     MOMENT,
+    REJECTED,
+    RETAKEN,
     RUN,
     SAMPLE,
     SAMPLES_END,
     SMALLEST,
     SMALLEST_TIME,
+    STEP,
     STOP,
     SUSPECT,
     TIME,
@@ -141,7 +146,14 @@ def keep_close(places: Any, lowest: Any, highest: Any, floors: Any) -> None:
 
 
 @kernel()
-def look_for_falls(places: Any, clock: Any, looks: int) -> int:
+def anew(places: Any, clock: Any, retakes: int, lane: int) -> bool:
+    """Whether a lane's step is taken anew up to the guard that fell, as in a single run."""
+    inside = SOON < clock[HIGH, lane] < LATE
+    return bool(places[CROSSED, lane] >= 0 and places[RETAKEN, lane] < retakes and inside)
+
+
+@kernel()
+def look_for_falls(places: Any, clock: Any, looks: int, retakes: int) -> int:
     """Lanes that have to look once more for the fall of a guard close to its floor, as bits, and where in steps.
 
     The bracket is empty before the first look. It moves along the step, and is halved once a guard has fallen at
@@ -157,7 +169,9 @@ def look_for_falls(places: Any, clock: Any, looks: int) -> int:
             if part > looks:
                 continue
             clock[FRACTION, lane] = part / looks
-        elif clock[HIGH, lane] - clock[LOW, lane] > NARROWEST:
+        elif clock[HIGH, lane] - clock[LOW, lane] > (
+            ROUGHLY * clock[HIGH, lane] if anew(places, clock, retakes, lane) else NARROWEST
+        ):
             clock[FRACTION, lane] = 0.5 * (clock[LOW, lane] + clock[HIGH, lane])
         else:
             continue
@@ -185,10 +199,18 @@ def note_looks(looking: int, places: Any, clock: Any, guards: Any, floors: Any, 
 
 
 @kernel()
-def cut_steps(places: Any, clock: Any, states: Any, new: Any) -> None:
-    """Let the steps in which a guard fell end there, in these states."""
+def cut_steps(places: Any, clock: Any, states: Any, new: Any, counts: Any, retakes: int) -> None:
+    """Let the steps in which a guard fell end there, in these states, or be taken anew up to there."""
     for lane in range(LANES):
-        if clock[ACCEPTED_STEP, lane] and places[CROSSED, lane] >= 0:
+        if clock[ACCEPTED_STEP, lane] and places[SUSPECT, lane] and anew(places, clock, retakes, lane):
+            run = places[RUN, lane]
+            counts[run, ACCEPTED] -= 1
+            counts[run, REJECTED] += 1
+            clock[FULL, lane] = max(clock[FULL, lane], clock[TRIAL, lane])
+            clock[STEP, lane] = clock[HIGH, lane] * clock[TRIAL, lane]
+            clock[ACCEPTED_STEP, lane] = 0.0
+            places[RETAKEN, lane] += 1
+        elif clock[ACCEPTED_STEP, lane] and places[CROSSED, lane] >= 0:
             clock[STOP, lane] = clock[TIME, lane] + clock[HIGH, lane] * clock[TRIAL, lane]
             for m in range(new.shape[0]):
                 new[m, lane] = states[m, lane]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.kernels.polynomial import polynomial
+from towercrane.simulation.integrate import evaluate
 from towercrane.simulation.lanes.queue import FINISHED, LARGEST, SMALLEST, WAITING, WRITTEN
 from towercrane.simulation.observed import observed_rows
 from towercrane.simulation.trajectory import phase_of
@@ -58,6 +59,6 @@ def _evaluated(run: LaneRun, time: float, state: Floats) -> tuple[Floats, Floats
     cut = run.phases
     phase = int(phase_of(np.asarray(time), cut))
     inputs = cut.inputs[phase] if phase < len(cut.inputs) else cut.after
-    local = time - cut.times[phase]
-    drives = np.transpose(polynomial(inputs.T, local))
-    return *run.model.system.slope(local, state, inputs), drives
+    drives = np.transpose(polynomial(inputs[: len(run.model.channels)].T, time - cut.times[phase]))
+    slopes, guards = evaluate(run.model.system, cut, np.array([time]), state[None])
+    return slopes[0], guards[0], drives

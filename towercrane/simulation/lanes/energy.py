@@ -9,6 +9,7 @@ import numpy as np
 from towercrane.kernels.polynomial import polynomial
 from towercrane.motions.motion import SAME_INSTANT
 from towercrane.simulation.energy_balance import ROUNDING, explained
+from towercrane.simulation.integrate import evaluate
 from towercrane.simulation.lanes.queue import ACCEPTED
 from towercrane.simulation.observed import observed_rows
 
@@ -46,10 +47,16 @@ def off_balance(
         return np.zeros(len(runs), dtype=bool)
     starts, ends = queue.starts, answers.end_states
     drives = np.concatenate([_drives(queue, np.zeros(len(runs))), _drives(queue, answers.end_times)])
-    # Begin and end together; energies ask for no slopes and no guards.
+    drives = drives[:, : len(models[0].channels)]
+    # Begin and end together; energies ask for no slopes, and for guards where rates jump alone.
     states = np.concatenate([starts, ends])
-    none = np.zeros((len(states), len(models[0].system.guards)))
-    found = observed_rows(2 * models, (ENERGY, ROPE), states, np.zeros_like(states), none, drives)
+    guards = np.zeros((len(states), len(models[0].system.guards)))
+    if models[0].system.crossings is not None:
+        for row, (run, time) in enumerate(
+            zip([*runs, *runs], [*np.zeros(len(runs)), *answers.end_times], strict=True)
+        ):
+            guards[row] = evaluate(run.model.system, run.phases, np.array([time]), states[row, None])[1][0]
+    found = observed_rows(2 * models, (ENERGY, ROPE), states, np.zeros_like(states), guards, drives)
     energies, ropes = (column.reshape(2, -1) for column in found.T)
     weights = np.array([model.provenance()["payload_mass"] * model.provenance()["gravity"] for model in models])
     work = ends[:, -1] - starts[:, -1]

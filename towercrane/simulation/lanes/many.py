@@ -23,6 +23,7 @@ from towercrane.simulation.energy_balance import NOT_CONSERVED
 from towercrane.simulation.lanes.advance import advance
 from towercrane.simulation.lanes.ends import record_ends
 from towercrane.simulation.lanes.energy import off_balance
+from towercrane.simulation.lanes.events import Events, asks, retakes
 from towercrane.simulation.lanes.queue import (
     ACCEPTED,
     EVALUATIONS,
@@ -40,10 +41,11 @@ from towercrane.simulation.lanes.queue import (
 from towercrane.simulation.lanes.queue import COLLAPSED as COLLAPSED_CODE
 from towercrane.simulation.lanes.queue import FINISHED as FINISHED_CODE
 from towercrane.simulation.lanes.queue import NOT_FINITE as NOT_FINITE_CODE
+from towercrane.simulation.lanes.queue import STALLED as STALLED_CODE
 from towercrane.simulation.methods.method import DEFAULT
 from towercrane.simulation.methods.registry import pair_of
 from towercrane.simulation.observed import Looked, scalars
-from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE
+from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, STALLED
 from towercrane.simulation.system import NoEquilibrium, written_of
 from towercrane.simulation.trajectory import phase_of
 
@@ -114,7 +116,7 @@ def integrate_many(
     Parameters
     ----------
     runs : sequence of LaneRun
-        Whose equations are alike but for their numbers, and have no switch.
+        Whose equations are alike but for their numbers.
     sample_times : ndarray, shape (p,)
         Increasing times at which the outputs are looked at [s].
     outputs : sequence of str, optional
@@ -145,13 +147,10 @@ def integrate_many(
     model, system = runs[0].model, runs[0].model.system
     if any(not run.model.system.alike(system) for run in runs):
         raise ValueError("runs: wanted the same numbers and shapes of modes in all, got different ones")
-    if system.switch is not None:
-        raise ValueError("runs: wanted equations that do not switch, got some that do")
-    if system.crossings is not None and any(system.crossings.crosses(run.phases) for run in runs):
-        raise ValueError("runs: wanted trolleys that pass no joint of their jib, got some that do")
     names = scalars(model) if outputs is None else tuple(outputs)
     if unknown := set(names) - set(scalars(model)):
         raise ValueError(f"outputs: wanted some of {', '.join(scalars(model))}, got {min(unknown)!r}")
+    runs = [run.cut() for run in runs]
     answers = _answers(len(runs), system, len(names), len(sample_times) if series else 0)
     workers = threads or available_cores()
     share = min(RUNS_PER_TASK, max(LANES, -(-len(runs) // (4 * workers))))
@@ -159,7 +158,7 @@ def integrate_many(
     # Runs with polynomials of lower degree are padded.
     shape = max(run.phases.inputs.shape[1:] for run in runs)
     code = written_of([run.model.system for run in runs], shape)
-    looked = Looked(system.equations, model.outputs, names)
+    looked = Looked(system.equations, model.outputs, names, len(model.channels))
     seen = [numbers_of(run.model.seen) for run in runs]
     looks = written(looked, model.seen, seen, system.size, shape)
     rhs, observe = code.rhs(LANES), looks.rhs(LANES)
@@ -169,12 +168,15 @@ def integrate_many(
         mine = Answers(*(array[task] for array in answers))
         queue = _queue(runs[task], mine, sample_times, atol, pair, code, looks.numbers(np.array(seen[task]).T).T)
         lanes = lanes_for(queue, len(pair.a), len(names))
+        events = Events(runs[task], queue, mine, lanes, code) if queue.asks else None
         left = True
         while left and not stop.is_set():
             left = advance(
                 rhs, observe, queue, mine, lanes, pair.stages, pair.a, pair.c, pair.error, pair.dense,
                 pair.error_order, rtol, turn, STEPS_PER_CALL,
             )  # fmt: skip
+            if events is not None:
+                events.attend()
         record_ends(names, runs[task], queue, mine)
         off = off_balance(runs[task], queue, mine, rtol, atol)
         mine.outcomes[(mine.outcomes > NO_START) & off] = OFF_BALANCE
@@ -264,6 +266,8 @@ def _queue(
         sample_times=np.array(sample_times, dtype=float),
         tables=systems[0].table,
         directions=systems[0].directions,
+        asks=int(asks(runs[0])),
+        retakes=retakes(runs[0]),
     )
 
 
@@ -285,7 +289,7 @@ def _told(runs: Sequence[LaneRun], answers: Answers) -> LaneAnswers:
     """Outcomes by name; nothing of runs that were interrupted."""
     names = {
         WAITING: INTERRUPTED, FINISHED_CODE: FINISHED, COLLAPSED_CODE: COLLAPSED,
-        NOT_FINITE_CODE: NOT_FINITE, OFF_BALANCE: NOT_CONSERVED,
+        NOT_FINITE_CODE: NOT_FINITE, OFF_BALANCE: NOT_CONSERVED, STALLED_CODE: STALLED,
     }  # fmt: skip
     codes = zip(runs, answers.outcomes.tolist(), strict=True)
     outcomes = [

@@ -14,19 +14,23 @@ from modal.compiler.compiled import kernel
 from towercrane.kernels.vector import LANES
 from towercrane.simulation.methods.step_size import FREELY
 
-RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED = range(7)
+RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED, RETAKEN, ASKS = range(9)
 """Rows of a lane's places: run (-1: idle), phase, next sample, first sample of the next phase, whether the slope at
-the start is wanted, whether a guard has been near its floor, and the guard that fell (-1: none)."""
+the start is wanted, whether a guard has been near its floor, the guard that fell (-1: none), how often its step has
+been taken anew, and what it asks of Python."""
 
-BEGIN, END, TIME, STEP, LONGEST, GROWTH, TRIAL, ACCEPTED_STEP, STOP, FRACTION, MOMENT, LOW, HIGH = range(13)
+NOTHING, BEGINS, CROSSES = range(3)
+"""What a lane asks: nothing, or what holds at the start of its phase or after a guard."""
+
+BEGIN, END, TIME, STEP, LONGEST, GROWTH, TRIAL, ACCEPTED_STEP, STOP, FRACTION, MOMENT, LOW, HIGH, FULL = range(14)
 """Rows of a lane's clock: start of the phase, its length, time since it began, next step, longest step allowed,
 power by which steps grow, step that is tried, 1 where it was accepted, time it reaches, and for a look inside the
-step its fraction, its time and the bracket of a guard's fall."""
+step its fraction, its time and the bracket of a guard's fall; and the longest step that is taken anew."""
 
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN = range(4)
 """Columns of a run's counts."""
 
-WAITING, NO_START, FINISHED, COLLAPSED, NOT_FINITE, OFF_BALANCE, FIRST_GUARD = range(7)
+WAITING, NO_START, FINISHED, COLLAPSED, NOT_FINITE, OFF_BALANCE, STALLED, FIRST_GUARD = range(8)
 """Codes of outcomes; NO_START is for runs that never came to a lane, OFF_BALANCE is found
 afterwards, those from FIRST_GUARD on are the guards'."""
 
@@ -55,6 +59,10 @@ class Queue(NamedTuple):
     tables : ndarray, shape (cells, modes, powers)
         The same for all runs, as are
     directions : ndarray of int, shape (count, 3)
+    asks : int
+        Whether Python says what holds at the start of a phase and after a guard.
+    retakes : int
+        How often a step that ends at a guard is taken anew.
     """
 
     waiting: Any
@@ -71,6 +79,8 @@ class Queue(NamedTuple):
     sample_times: Any
     tables: Any
     directions: Any
+    asks: int
+    retakes: int
 
 
 class Answers(NamedTuple):
@@ -102,8 +112,8 @@ class Lanes(NamedTuple):
     ----------
     next_run : ndarray of int, shape (1,)
         Place in ``waiting`` of the first run that no lane has taken.
-    places : ndarray of int, shape (7, lanes)
-    clock : ndarray, shape (13, lanes)
+    places : ndarray of int, shape (9, lanes)
+    clock : ndarray, shape (14, lanes)
     y, new, trial, slope, atol : ndarray, shape (size, lanes)
     k : ndarray, shape (m, size, lanes)
     guards, lowest, highest, floors : ndarray, shape (guards, lanes)
@@ -139,7 +149,7 @@ def queue_type() -> Any:
     integers = types.Array(types.int64, 1, "C")
     indices = types.int64[:, ::1]
     fields = [integers, two, two, one, two, two, two, integers, two, four, indices, one, three, indices]
-    return types.NamedTuple(fields, Queue)
+    return types.NamedTuple([*fields, types.int64, types.int64], Queue)
 
 
 def answers_type() -> Any:
@@ -164,12 +174,12 @@ def lanes_for(queue: Queue, stages: int, outputs: int) -> Lanes:
     def lanes(*shape: int) -> Any:
         return np.zeros((*shape, LANES))
 
-    places = np.zeros((7, LANES), dtype=np.int64)
+    places = np.zeros((9, LANES), dtype=np.int64)
     places[RUN] = -1
     return Lanes(
         next_run=np.zeros(1, dtype=np.int64),
         places=places,
-        clock=lanes(13),
+        clock=lanes(14),
         y=lanes(size),
         new=lanes(size),
         trial=lanes(size),
@@ -221,9 +231,19 @@ def begin_phase(queue: Any, lanes: Any, lane: int) -> None:
     lanes.places[SAMPLE, lane] = queue.first_samples[run, phase]
     lanes.places[SAMPLES_END, lane] = queue.first_samples[run, phase + 1]
     lanes.places[FRESH, lane] = 1
+    lanes.places[RETAKEN, lane], lanes.clock[FULL, lane] = 0, 0.0
+    lanes.places[ASKS, lane] = BEGINS if queue.asks else NOTHING
     for channel in range(lanes.inputs.shape[0]):
         for c in range(lanes.inputs.shape[1]):
             lanes.inputs[channel, c, lane] = queue.inputs[run, phase, channel, c]
+
+
+@kernel()
+def pause(lanes: Any, lane: int) -> None:
+    """Let a lane ask what holds after the guard that fell; it then goes on as at the start of a phase."""
+    lanes.places[ASKS, lane] = CROSSES
+    lanes.places[FRESH, lane] = 1
+    lanes.clock[STEP, lane] = max(lanes.clock[TRIAL, lane], lanes.clock[FULL, lane])
 
 
 @kernel()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
@@ -45,10 +45,15 @@ class LaneRun:
     swing_angle: float = 0.0
     means: Mapping[int, float] = field(default_factory=dict)
 
+    def cut(self) -> LaneRun:
+        """The same run with its phases cut where its rates jump."""
+        crossings = self.model.system.crossings
+        return self if crossings is None else replace(self, phases=crossings.cut(self.phases))
+
     @property
     def start_inputs(self) -> Floats:
         """Polynomials of the first phase as a state at rest knows them."""
-        inputs = self.phases.inputs[0].copy()
+        inputs = self.phases.inputs[0, : len(self.model.channels)].copy()
         for channel, mean in self.means.items():
             inputs[channel] = 0.0
             inputs[channel, 0] = mean

@@ -17,17 +17,21 @@ from towercrane.simulation.lanes.dense_output import fallen, near, wants_sample
 from towercrane.simulation.lanes.queue import (
     ACCEPTED,
     ACCEPTED_STEP,
+    ASKS,
     CROSSED,
     END,
     EVALUATIONS,
     FIRST_GUARD,
     FRESH,
+    FULL,
     GROWTH,
     HIGH,
     LONGEST,
     LOW,
     NOT_FINITE,
+    NOTHING,
     REJECTED,
+    RETAKEN,
     RUN,
     STEP,
     STOP,
@@ -141,6 +145,8 @@ def move_on(places: Any, clock: Any) -> bool:
     ended = False
     for lane in range(LANES):
         if clock[ACCEPTED_STEP, lane]:
+            if places[CROSSED, lane] < 0:
+                clock[FULL, lane], places[RETAKEN, lane] = 0.0, 0
             clock[TIME, lane] = clock[STOP, lane]
             ended = ended or places[CROSSED, lane] >= 0 or clock[TIME, lane] >= clock[END, lane]
     return ended
@@ -152,6 +158,15 @@ def wants_entry(places: Any, waiting: int) -> bool:
     found = False
     for lane in range(LANES):
         found = found or (waiting > 0 and places[RUN, lane] < 0) or places[FRESH, lane] != 0
+    return found
+
+
+@kernel()
+def asks(places: Any) -> bool:
+    """Whether some lane asks what holds for it."""
+    found = False
+    for lane in range(LANES):
+        found = found or (places[RUN, lane] >= 0 and places[ASKS, lane] != NOTHING)
     return found
 
 

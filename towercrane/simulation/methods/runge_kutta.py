@@ -25,12 +25,6 @@ if TYPE_CHECKING:
 STEPS_PER_CALL = 20_000
 """Steps between two looks at progress and the keyboard."""
 
-MOST_RETAKES = 4
-"""Times that a step which ends at a guard is taken anew, up to there; one or two do as a rule."""
-
-MOST_STALLED = 20
-"""Switches in a row without time passing at which a run is given up."""
-
 CONSISTENT = 1e-12
 """Rounding of coefficients."""
 
@@ -130,6 +124,7 @@ class RungeKutta(Method):
     def carry(self, run: Run, phases: Phases, sample_times: Floats, split: bool, progress: Progress | None) -> str:
         """Carry a run on through its phases, in place; how it ended."""
         from towercrane.simulation import stepper
+        from towercrane.simulation.guards import MOST_RETAKES, MOST_STALLED
         from towercrane.simulation.methods.step_size import FREELY
 
         system = run.system

@@ -43,8 +43,10 @@ class Joints:
     def cut(self, phases: Phases) -> Phases:
         """The phases cut where the trolley crosses a joint, with its section as one row of inputs more.
 
-        Where the trolley stands on a joint it keeps its section.
+        Where the trolley stands on a joint it keeps its section. Phases that are cut already stay as they are.
         """
+        if phases.inputs.shape[1] > self.crane.channels:
+            return phases
         ends, width = self.crane.sections, phases.inputs.shape[2]
         times, inputs, section = [], [], _section(ends, float(phases.inputs[0, TROLLEY, 0]))
         for begin, until, rows in zip(phases.times[:-1], phases.times[1:], phases.inputs, strict=True):
