@@ -19,6 +19,13 @@ if TYPE_CHECKING:
     from modal.lattices.walls import Wall
 
 
+SAME = 0.01
+"""Relative; heights of lattices end to end that differ by less count as rounded."""
+
+DIGITS = 9
+"""Of the places of nodes along a jib [m]."""
+
+
 @dataclass(frozen=True, eq=False)
 class LatticeJib:
     """Lattices end to end from the root out, whose chords are held at the root.
@@ -31,7 +38,7 @@ class LatticeJib:
     Raises
     ------
     ValueError
-        If there is no part, a length is no whole number of panels, or shapes or breadths differ.
+        If there is no part, a length is no whole number of panels, or shapes, breadths or heights do not meet.
 
     Notes
     -----
@@ -55,6 +62,12 @@ class LatticeJib:
             values = {getattr(lattice, name) for _, lattice in self.parts}
             if len(values) > 1:
                 raise ValueError(f"LatticeJib.parts: wanted one {name} all along, got {sorted(values)!r}")
+        for (_, near), (_, far) in pairwise(self.parts):
+            if abs(far.height - near.far_height) > SAME * near.far_height:
+                raise ValueError(
+                    f"LatticeJib.parts: wanted a height of {near.far_height:.6g} m as that before ends with, got "
+                    f"{far.height:.6g} m"
+                )
 
     @property
     def length(self) -> float:
@@ -94,14 +107,15 @@ class _Members:
         self.values: list[tuple[float, float, float]] = []
         # Positions of nodes along each chord.
         stations: dict[int, set[float]] = defaultdict(lambda: {0.0})
-        self.ends = np.cumsum([0.0, *(length for length, _ in jib.parts)])
+        # Rounded, so that a node that ends two walls is one.
+        self.ends = np.cumsum([0.0, *(length for length, _ in jib.parts)]).round(DIGITS)
         self.jib = jib
         count = len(jib.parts[0][1].section(1.0).chords)
         passed = [0] * count
         for (length, lattice), start in zip(jib.parts, self.ends, strict=False):
             for k, wall in enumerate(lattice.walls):
                 panels = round(length / wall.panel)
-                at = [float(x) for x in start + length * np.arange(panels + 1) / panels]
+                at = [float(x) for x in (start + length * np.arange(panels + 1) / panels).round(DIGITS)]
                 self._lace(lattice, wall, at, stations, passed[k])
                 passed[k] += panels
         end = float(self.ends[-1])

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.clock import timed
+from modal.structures.structure import chain_structure
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
+    from modal.beams.chain import Chain
     from modal.elements.space_beam import SpaceBeam
     from modal.elements.space_frame import SpaceFrame
 
@@ -52,17 +54,34 @@ class SpaceAnswers:
 
 @dataclass(frozen=True, slots=True)
 class SpaceModel:
-    """A model, its answers and the median time for them [s]: "pinned", "rigid joints" or "beam"."""
+    """A model, its answers and the median time for them [s]: "pinned", "rigid joints", "beam" or "in each plane"."""
 
     name: str
     answers: SpaceAnswers
     seconds: float
 
 
+def plane_answers(up: Chain, aside: Chain) -> SpaceAnswers:
+    """What beams of both planes say, by dynamic stiffness; of torsion nothing."""
+    deflections, frequencies = [], {"torsion": (np.nan,) * COUNT}
+    for kind, chain in (("vertical", up), ("lateral", aside)):
+        structure = chain_structure(chain)
+        load = np.zeros(len(structure.unknowns))
+        load[-2] = 1.0
+        deflections.append(float(structure.displacements(load)[-2]))
+        frequencies[kind] = _hertz(structure.angular_frequencies(COUNT))
+    return SpaceAnswers((deflections[0], deflections[1], np.nan), frequencies)
+
+
 def compare_in_space(
-    frame: Callable[[float | None], SpaceFrame], beam: Callable[[], SpaceBeam], rigidity: float, *, repeats: int = 1
+    frame: Callable[[float | None], SpaceFrame],
+    beam: Callable[[], SpaceBeam],
+    rigidity: float,
+    planes: tuple[Chain, Chain] | None = None,
+    *,
+    repeats: int = 1,
 ) -> tuple[SpaceModel, ...]:
-    """A lattice along x from its root: pinned, rigidly joined and as a beam.
+    """A lattice along x from its root: pinned, rigidly joined, as a beam in space, and as beams in both planes.
 
     Parameters
     ----------
@@ -70,6 +89,8 @@ def compare_in_space(
         What makes them; a frame of a rigidity, or pinned, as `modal.lattices.space.frame_of_round` has it.
     rigidity : float
         Of rigid joints.
+    planes : tuple of Chain, optional
+        Beams that bend up and to the side.
     repeats : int
         Calls that the time is the median of.
     """
@@ -79,7 +100,10 @@ def compare_in_space(
     for name, given in (("pinned", None), ("rigid joints", rigidity)):
         answers, taken = timed(partial(_frame_answers, frame, given, made), repeats)
         found.append(SpaceModel(name, answers, taken))
-    return (*found, SpaceModel("beam", of_beam, seconds))
+    found.append(SpaceModel("beam", of_beam, seconds))
+    if planes is not None:
+        found.append(SpaceModel("in each plane", *timed(partial(plane_answers, *planes), repeats)))
+    return tuple(found)
 
 
 def beam_answers(beam: SpaceBeam) -> SpaceAnswers:

@@ -5,6 +5,7 @@ from math import nan
 
 import pytest
 from samples.tables import ASSUMED, said
+from samples.tower_files import UNIFORM, write_case
 
 from towercrane.cases.case import load_case
 from towercrane.report.tables.lattice import WIDTH, lattice_tables
@@ -87,7 +88,8 @@ def test_tables_of_lattices_keep_to_eighty_columns(capsys):
 
 def test_a_report_has_every_lattice_of_a_case_in_space():
     found = lattice_report(load_case("qtz5613/condition-3"))
-    (tower,) = found["lattices"]
+    tower, jib = found["lattices"]
+    assert jib["name"] == "jib"
     assert (tower["name"], tower["planes_alike"]) == ("tower", True)
     pinned, rigid, beam = tower["models"]
     assert [model["name"] for model in tower["models"]] == ["pinned", "rigid joints", "beam"]
@@ -98,3 +100,39 @@ def test_a_report_has_every_lattice_of_a_case_in_space():
         assert beam["frequencies_hz"][kind] == pytest.approx(pinned["frequencies_hz"][kind], rel=1.1e-2)
     assert rigid["deflections"]["twist"] < 0.97 * pinned["deflections"]["twist"]
     json.dumps(found)
+
+
+def test_a_jib_stands_beside_the_beams_that_its_results_rest_on():
+    found = lattice_report(load_case("flat-top/travel"))
+    tower, jib = found["lattices"]
+    assert (tower["name"], jib["name"], jib["planes_alike"]) == ("tower", "jib", False)
+    pinned, _, beam, plane = jib["models"]
+    assert plane["name"] == "in each plane"
+    assert beam["frequencies_hz"]["torsion"] == pytest.approx(pinned["frequencies_hz"]["torsion"], rel=2.5e-3)
+    for kind in ("vertical", "lateral"):
+        assert beam["frequencies_hz"][kind] == pytest.approx(pinned["frequencies_hz"][kind], rel=2e-3)
+        assert plane["frequencies_hz"][kind] == pytest.approx(pinned["frequencies_hz"][kind], rel=8e-3)
+    assert plane["deflections"]["vertical"] == pytest.approx(pinned["deflections"]["vertical"], rel=3e-4)
+    lattice_tables(found)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (["crane.tower.lattice.horizontal_area=0 cm^2"], r"^crane\.tower\.lattice: .*mechanism|pins hold together"),
+    ],
+)
+def test_a_lattice_that_is_none_is_refused_by_its_key(changes, message):
+    with pytest.raises(ValueError, match=message):
+        lattice_report(load_case("qtz5613/condition-3", changes))
+
+
+def test_a_crane_without_members_is_refused(tmp_path):
+    with pytest.raises(ValueError, match=r"^crane\.tower\.lattice: wanted all members of the tower, or of a jib"):
+        lattice_report(load_case(write_case(tmp_path, UNIFORM)))
+
+
+def test_heights_of_a_jib_that_do_not_meet_are_refused_by_their_key():
+    changes = ["crane.jib.segments.3.lattice.height=1.2 m"]
+    with pytest.raises(ValueError, match=r"^crane\.jib: LatticeJib\.parts: wanted a height of 1\.5 m"):
+        lattice_report(load_case("flat-top/travel", changes))

@@ -30,27 +30,35 @@ def lattice_report(case: Case) -> dict[str, Any]:
     dict
         ``models`` of the tower in one plane, bare and with the slewing part on top: a list with name, answers, errors
         relative to the truss, seconds; empty where the tower has no lattice. ``lattices``, each with name, length,
-        whether both planes are alike, and models in space, pinned, with rigid joints and as a beam: deflections of
-        the tip per force [m/N] and its twist per torque [rad/(N m)], frequencies by kind [Hz], seconds. ``tube``, the
+        whether both planes are alike, and models: in space, pinned, with rigid joints and as a beam, of a jib also as
+        the beams of each plane that results rest on. Models have deflections of the tip per force [m/N] and its twist
+        per torque [rad/(N m)], frequencies by kind [Hz], seconds; NaN is what a model does not say. ``tube``, the
         diameter over wall of members with rigid joints; ``height_m`` of the tower's truss, which has whole panels and
         neither the tower's bodies nor its foundation; ``left_out``, ``assumed``.
 
     Raises
     ------
     ValueError
-        If a truss is a mechanism, or legs do not stand on those below.
+        If there is no lattice, a truss is a mechanism, or parts do not fit each other; it names the key.
     """
     tables = case.tables(TowerCase)
-    truss, crane = tower_truss(tables.crane), crane_of(tables)
+    crane = crane_of(tables)
+    try:
+        truss = tower_truss(tables.crane)
+    except ValueError as error:
+        raise ValueError(f"crane.tower.lattice: {error}") from error
     models = compare_truss(truss, crane.end_body) if truss is not None else ()
     rigidity, found = TUBE / (8.0 * pi), []
     for lattice in lattices_of(tables.crane):
-        in_space = compare_in_space(lattice.frame, lattice.beam, rigidity)
+        try:
+            in_space = compare_in_space(lattice.frame, lattice.beam, rigidity, lattice.planes)
+        except ValueError as error:
+            raise ValueError(f"{lattice.key}: {error}") from error
         found.append(
             {
                 "name": lattice.name,
                 "length_m": lattice.length,
-                "planes_alike": lattice.planes_alike,
+                "planes_alike": lattice.planes is None,
                 "models": [
                     {
                         "name": model.name,
@@ -63,6 +71,10 @@ def lattice_report(case: Case) -> dict[str, Any]:
                     for model in in_space
                 ],
             }
+        )
+    if not found:
+        raise ValueError(
+            "crane.tower.lattice: wanted all members of the tower, or of a jib (each segment's lattice), got none"
         )
     return {
         "name": crane.name,

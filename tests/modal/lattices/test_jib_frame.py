@@ -172,6 +172,14 @@ def test_a_cantilever_of_rigid_members_is_a_beam():
     assert_allclose(frame.displacements(couple)[-2, 2] / 0.5, length / GJ, rtol=1e-6)
 
 
+def test_panels_whose_lengths_do_not_add_up_in_binary_meet_all_the_same():
+    lattice = replace(FLAT_TOP[0], panel_length=1.39)
+    frame = LatticeJib(((40 * 1.39, lattice), (3 * 1.39, lattice))).frame()
+    # Two base chords of 44 nodes, a top chord of 43 and its root.
+    assert len(frame.nodes) == 2 * 44 + 44
+    assert (frame.modes(2)[0] > 0.0).all()
+
+
 def test_a_jib_says_what_does_not_fit():
     with pytest.raises(ValueError, match=r"wanted a whole number of panels of 2\.0 m, got 9\.0 m, which is 4\.5"):
         LatticeJib(((9.0, FLAT_TOP[0]),))

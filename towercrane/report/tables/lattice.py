@@ -37,6 +37,10 @@ def lattice_tables(report: dict[str, Any]) -> None:
         f"rigid joints: members as round tubes {report['tube']:g} times as wide as their wall, which is assumed; "
         "members bend between their ends as well"
     )
+    if any(not lattice["planes_alike"] for lattice in report["lattices"]):
+        console.print(
+            "a jib's truss ends with its last nodes, as the beam in space does; those of each plane reach to the tip"
+        )
     console.print("loads act on the tip, a force to the side of a jib on its rail; the root is clamped, the tip bare")
     said(console, report["left_out"])
     assumed_values(console, report["assumed"])

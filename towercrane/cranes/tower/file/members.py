@@ -15,6 +15,7 @@ from towercrane.cranes.tower.modes.parameters import TowerCrane
 if TYPE_CHECKING:
     from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.cranes.tower.file.jib_tables import Arm, JibSegment
+    from towercrane.cranes.tower.file.jib_tables import JibLattice as JibMembers
     from towercrane.cranes.tower.file.tables import Crane
     from towercrane.cranes.tower.file.tower_tables import BeamChoice, Lattice, Section, Tower, TowerSegment
 
@@ -162,7 +163,7 @@ def jib_of(crane: Crane, plane: Plane = "vertical") -> Beam | Chain | None:
     if not more and not jib.bodies and first.laced is None and plain and first.lateral_shear_stiffness == inf:
         modulus, mass = first.youngs_modulus or jib.youngs_modulus, first.mass_per_length
         assert modulus is not None, "the file is checked to give one"
-        return None if inertia is None else Beam(first.length, _spread(first) or mass or 0.0, modulus, inertia)
+        return None if inertia is None else Beam(first.length, spread(first) or mass or 0.0, modulus, inertia)
     return _jib_chain(jib, plane)
 
 
@@ -177,14 +178,19 @@ def counter_jib_of(crane: Crane, plane: Plane = "vertical") -> Chain | None:
     return replace(chain, bodies={**chain.bodies, end: weight})
 
 
+def jib_lattice(lattice: JibMembers, youngs_modulus: float) -> JibLattice:
+    """Members of a crane file as a jib's lattice."""
+    return JibLattice(**dict(lattice), youngs_modulus=youngs_modulus)
+
+
 def _jib_chain(jib: Arm, plane: Plane) -> Chain | None:
     segments: list[Segment] = []
     for piece in jib.pieces:
         modulus = piece.youngs_modulus or jib.youngs_modulus
         assert modulus is not None, "the file is checked to give one"
         if piece.laced is not None:
-            lattice = JibLattice(**dict(piece.laced), youngs_modulus=modulus)
-            segments += lattice.segments(piece.length, plane, _spread(piece))
+            lattice = jib_lattice(piece.laced, modulus)
+            segments += lattice.segments(piece.length, plane, spread(piece))
             continue
         prefix = "lateral_" if plane == "lateral" else ""
         inertia, shear, rotary = (
@@ -193,7 +199,7 @@ def _jib_chain(jib: Arm, plane: Plane) -> Chain | None:
         )
         if inertia is None:
             return None
-        mass = _spread(piece)
+        mass = spread(piece)
         assert mass is not None, "the file is checked to give one"
         segments.append(Segment(piece.length, mass, modulus * inertia, shear, rotary))
     chain = Chain(tuple(segments))
@@ -204,7 +210,7 @@ def _jib_chain(jib: Arm, plane: Plane) -> Chain | None:
     return chain
 
 
-def _spread(piece: JibSegment) -> float | None:
+def spread(piece: JibSegment) -> float | None:
     """Mass per length of a piece [kg/m], stated or from its whole mass."""
     return piece.mass_per_length if piece.mass is None else piece.mass / piece.length
 
@@ -236,12 +242,6 @@ def lattice_of(crane: Crane) -> LacedColumn | None:
     if tower.lattice is None or tower.youngs_modulus is None:
         return None
     return laced_column(tower.lattice, tower.youngs_modulus)
-
-
-def has_lattice(crane: Crane) -> bool:
-    """Whether the tower, or each of its segments, has its members given."""
-    tower = crane.tower
-    return all(piece.lattice is not None for piece in tower.segments or (tower,))
 
 
 def luffing_of(tables: TowerCase) -> LuffingJib | None:
