@@ -59,7 +59,7 @@ def earthquake_motions(tree: dict[str, Any], folder: Path) -> tuple[list[Fault],
         try:
             times, accelerations = read_accelerations(folder / file)
             # Beyond the last row of the run, at which it may still be looked at.
-            until = 2.0 * (si_at(tree, "run.duration", "s") or 0.0)
+            until = float(times[-1]) + 1.0 + (si_at(tree, "run.duration", "s") or 0.0)
             motions |= earthquake(times, acts * accelerations, until)
         except CaseError as error:
             faults += _named(error, "earthquake.file")

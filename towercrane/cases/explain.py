@@ -94,6 +94,8 @@ def _fault(key: str, detail: ErrorDetails, kind: str) -> Fault:
     wanted = _wanted(key, field) or detail["msg"]
     if slip == "missing":
         return Fault("", key, wanted, "nothing: the key is missing")
+    if slip == "too_long":
+        return Fault("", key, f"{wanted}, {context['max_length']} at most", str(context["actual_length"]))
     hint = ""
     if slip == "literal_error" and field and isinstance(detail["input"], str):
         near = closest(detail["input"], _words(field.annotation))
@@ -125,7 +127,9 @@ def _wanted(key: str, field: FieldInfo | None) -> str:
 
 
 def _listed(items: tuple[Any, ...]) -> str:
-    """A list of numbers, of so many of one quantity or of any number."""
+    """A list of words, of so many numbers of one quantity, or of any number."""
+    if words := _words(items[0]):
+        return f"a list of {_one_of(words)}"
     kinds = [item for each in items for item in getattr(each, "__metadata__", ()) if isinstance(item, Quantity)]
     if Ellipsis in items or not kinds:
         return "a list in brackets"

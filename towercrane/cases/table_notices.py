@@ -25,11 +25,14 @@ FEWEST = 8
 SAME_INSTANT = 1e-6
 """[s]"""
 
+STILL = 0.01
+"""Velocity of the ground over its largest that rounding of a record leaves."""
+
 
 def table_notices(case: Case) -> tuple[str, ...]:
     """Records that end before the run does, and tables whose noise the crane feels as acceleration."""
     # The case of a result has no motions to look at: what was to be said of them stands in the result.
-    return (*_ended(case), *_noisy(case)) if case.plans else ()
+    return (*_ended(case), *_shaken(case), *_noisy(case)) if case.plans else ()
 
 
 def _ended(case: Case) -> Iterator[str]:
@@ -45,6 +48,32 @@ def _ended(case: Case) -> Iterator[str]:
             f"wind.series: the record ends at {end:g} s; in the {duration - end:g} s that the run goes on the wind "
             f"stays at its last value, x, y, z = {stays} m/s"
         )
+
+
+def _shaken(case: Case) -> Iterator[str]:
+    """Earthquakes that end before the run or after it, and ground that they leave moving."""
+    if getattr(case.checked, "earthquake", None) is None:
+        return
+    motions, duration = [case.plans[f"ground_{axis}"].commanded for axis in "xyz"], case.run.duration
+    # The last piece carries on what the file's last line leaves.
+    end, fastest = float(motions[0].switch_times[-2]), max(max(map(abs, own.range(1))) for own in motions)
+    if end > duration + SAME_INSTANT:
+        knots = motions[0].switch_times[:-1]
+        largest = np.max([abs(own(knots, 2)) for own in motions], axis=0)
+        seen, missed = (float(largest[part].max(initial=0.0)) for part in (knots <= duration, knots > duration))
+        yield (
+            f"earthquake.file: the record goes on to {end:g} s, the run ends at {duration:g} s: it has felt up to "
+            f"{seen:.2g} m/s^2 and misses up to {missed:.2g} m/s^2"
+        )
+        return
+    left = [float(own(end, 1)) for own in motions]
+    moves = max(map(abs, left)) > STILL * fastest
+    at = f"moves on at its last velocity, x, y, z = {', '.join(f'{v:.2g}' for v in left)} m/s" if moves else "rests"
+    if end < duration - SAME_INSTANT:
+        rest = duration - end
+        yield f"earthquake.file: the record ends at {end:g} s; in the {rest:g} s that the run goes on the ground {at}"
+    elif moves:
+        yield f"earthquake.file: the record leaves the ground moving, x, y, z = {at.partition(' = ')[2]}"
 
 
 def _noisy(case: Case) -> Iterator[str]:

@@ -138,6 +138,8 @@ class Kind:
         Kinds of modes that move, of its tables, by the key of the table "model" that counts them.
     left_out : callable, optional
         What a scene leaves out because nothing excites it, of its tables, in sentences.
+    notices : callable, optional
+        What of a run nobody would expect, of its tables and the model that was run, in sentences.
     sways : dict of str to str
         Outputs that show the load's swing, and which way each is: shown in films, and where models are compared.
     serves : frozenset of str
@@ -166,6 +168,7 @@ class Kind:
     plain: Callable[[Any], bool] | None = None
     modes: Callable[[Any], dict[str, str]] | None = None
     left_out: Callable[[Any], list[str]] | None = None
+    notices: Callable[[Any, Any], list[str]] | None = None
     sways: Mapping[str, str] = field(default_factory=dict)
     serves: frozenset[str] = frozenset()
     drives_in: Callable[[Tree], Drives] | None = None

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 RUN_FILES = (
     "result.nc", "summary.json", "result.csv", "overview.png", "motion.png", "swing.png", "phase.png", "tower.png",
     "jib.png", "spectrum.png", "modes.png", "sway.png", "moments.png", "torque.png", "angles.png", "path.png",
-    "plan.png", "torques.png", "base.png", "wind.png",
+    "plan.png", "torques.png", "base.png", "wind.png", "ground.png", "collars.png",
 )  # fmt: skip
 """Everything that a run may write."""
 

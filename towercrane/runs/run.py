@@ -10,6 +10,7 @@ from towercrane.accuracy.promise import chosen, promise, targets_of
 from towercrane.cases.assumptions import as_attribute, rests_on
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cases.table_notices import table_notices
+from towercrane.cranes.registry import KINDS
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import labelled, looks_per_row, record
 from towercrane.simulation.system import NoEquilibrium
@@ -53,7 +54,8 @@ def record_case(
     result.attrs["case"] = case.name
     result.attrs["changes"] = json.dumps(case.changes)
     result.attrs["case_text"] = json.dumps(case.as_written)
-    result.attrs["notices"] = json.dumps(table_notices(case))
+    said = KINDS[case.kind].notices
+    result.attrs["notices"] = json.dumps([*table_notices(case), *(said(case.checked, result.model) if said else ())])
     result.attrs["assumed"] = as_attribute(rests_on(case))
     return result
 

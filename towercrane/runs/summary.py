@@ -9,7 +9,6 @@ import numpy as np
 
 from towercrane.accuracy.promise import AS_ASKED
 from towercrane.cases.assumptions import idle_in_file, left_out
-from towercrane.cases.table_notices import table_notices
 from towercrane.cranes.kind import Natural
 from towercrane.cranes.registry import KINDS
 from towercrane.runs.vibration import vibration
@@ -169,7 +168,7 @@ def notices(case: Case, run: Run, natural: Natural, free: slice) -> list[str]:
         found.append(f"ended at {run.attrs['end_time']:.6g} s: {run.attrs['outcome']}{reason}")
     if (promised := accuracy(run)) and promised["reasons"]:
         found.append(f"error asked for: {promised['outcome']}: {'; '.join(promised['reasons'])}")
-    found += table_notices(case)
+    found += json.loads(run.attrs["notices"])
     tension = run["rope_tension"].values
     if case.rope.slack == "rod" and tension.min() < 0.0:
         first = float(run["time"].values[int(np.argmax(tension < 0.0))])

@@ -150,7 +150,7 @@ def study(
     ----------
     model : FlexibleModel
     plans : dict of str to Plan
-        By channel; the wind is left out.
+        By channel; wind and ground are left out.
     allowed : float
         Residual that counts as rest [m].
     progress : callable, optional
@@ -258,8 +258,9 @@ def _row(row: Row) -> dict[str, Any]:
 
 
 def _studied(model: FlexibleModel) -> FlexibleModel:
-    """The crane in still air, every mode of its structure damped."""
-    return replace(model, damping=ModalDamping(DAMPING, DAMPING, DAMPING, DAMPING), wind=False)
+    """The crane in still air on a ground at rest, every mode of its structure damped."""
+    damping = ModalDamping(DAMPING, DAMPING, DAMPING, DAMPING)
+    return replace(model, damping=damping, wind=False, ground=False, floors=0)
 
 
 def _peak(values: xr.DataArray) -> float:

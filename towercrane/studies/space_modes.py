@@ -188,7 +188,7 @@ def beside_a_richer(
 
 def modes_rest_on(case: Case) -> list[Assumption]:
     """Assumptions that natural frequencies, and what the modes left out would change, rest on: in still air."""
-    apart = ("motion.", "run.", "wind.", "payload.drag", "crane.wind_areas.", "crane.friction.")
+    apart = ("motion.", "run.", "wind.", "earthquake.", "payload.drag", "crane.wind_areas.", "crane.friction.")
     return [a for a in rests_on(case, all_modes=True) if not a.key.startswith(apart)]
 
 

@@ -127,7 +127,7 @@ def test_power_balance_with_every_drive_loss_and_wind():
 def test_power_balance_on_a_ground_that_moves_every_way():
     lossy = Load(1500.0, rope_damping=800.0, drag_area=8.0)
     damping = ModalDamping(0.005, 0.005, 0.01, 0.01)
-    scene = space.model(2, 1, 2, 2, lossy, damping=damping, ground=True, weight_softening=True)
+    scene = space.model(2, 1, 2, 2, load=lossy, damping=damping, ground=True, weight_softening=True)
     rng = np.random.default_rng(2)
     times = np.linspace(0.0, 20.0, 101)
     motions = manoeuvre() | earthquake(times, 0.8 * rng.normal(size=(101, 3)), 60.0)

@@ -45,6 +45,7 @@ TOWER = Kind(
     pictures="tower",
     modes=later("towercrane.cranes.tower.file.requests", "modes_that_move"),
     left_out=later("towercrane.cranes.tower.file.requests", "left_out"),
+    notices=later("towercrane.cranes.tower.file.requests", "notices"),
     sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},
     refuses=refused,
     serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members"}),

@@ -11,6 +11,7 @@ from towercrane.schema.targets import ForEvery
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.file.case_tables import MapRequest, ModesRequest, TowerCase
+    from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.motions.motion import Motion
     from towercrane.schema.targets import Targets
 
@@ -45,6 +46,16 @@ def modes_that_move(tables: TowerCase) -> dict[str, str]:
     """Kinds of modes that move in a scene, by the key that counts them; a counter-jib bends as the case has it."""
     named = zip(MODE_KINDS, ("tower", "torsion", "lateral", "vertical"), strict=False)
     return {key: word for key, word in named if key in moving(stays_in_plane(tables))}
+
+
+def notices(tables: TowerCase, model: FlexibleModel) -> list[str]:
+    """What the modes of a run leave out of an earthquake."""
+    if tables.earthquake is None or model.crane.written is None:
+        return []
+    from towercrane.cranes.tower.modes.effective_mass import effective_mass
+
+    said = effective_mass(model.crane.written).notice(model.crane.tower.count)
+    return [said] if said else []
 
 
 SIDEWAYS = "torsion of the tower, bending of tower and jib to their sides and sway across the jib are left out"

@@ -1,4 +1,4 @@
-"""Pictures of runs in space: sway, torques, tower top, moments on the base, wind, and the load's path."""
+"""Pictures of runs in space: sway, torques, tower top, moments on the base, wind, ground, collars, path."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.kind import Panel
+from towercrane.cranes.tower.modes.collars import MOST_COLLARS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,6 +28,19 @@ TWIST = Panel(
 )
 TENSION = Panel(
     "rope tension [kN]", 1e-3, {"rope_tension": "rope tension", "luffing_rope_tension": "tension of the luffing rope"}
+)
+GROUND = Panel(
+    "ground [m/s^2]",
+    1.0,
+    {"ground_acceleration_x": "along x", "ground_acceleration_y": "along y", "ground_acceleration_z": "up"},
+)
+COLLARS = tuple(
+    Panel(
+        f"collars along {axis} [kN]",
+        1e-3,
+        {f"collar_{k}_force_{axis}": f"force on collar {k}" for k in range(1, MOST_COLLARS + 1)},
+    )
+    for axis in "xy"
 )
 WIND = Panel("wind [m/s]", 1.0, {"wind_x": "along x", "wind_y": "along y", "wind_z": "up"})
 
@@ -83,9 +97,19 @@ PICTURES: Pictures = {
         ),
     ),
 }
-"""Title and panels of each picture of a run in space; the wind's is only for one with wind."""
+"""Title and panels of each picture of a run in space, but for those of what only some runs have."""
+
+SOME: Pictures = {
+    "wind.png": ("Wind", (WIND,)),
+    "ground.png": ("Earthquake", (GROUND,)),
+    "collars.png": ("Forces on the collars", COLLARS),
+}
+"""Pictures of what only some runs have."""
 
 
 def pictures_of(result: xr.Dataset) -> Pictures:
     """Pictures of a run by the names of their files."""
-    return PICTURES | ({"wind.png": ("Wind", (WIND,))} if "wind_x" in result else {})
+    shown = {name: {line for panel in panels for line in panel.lines} for name, (_, panels) in SOME.items()}
+    return PICTURES | {
+        name: picture for name, picture in SOME.items() if not shown[name].isdisjoint(result.data_vars)
+    }
