@@ -38,6 +38,10 @@ if TYPE_CHECKING:
 TERMS = 22
 """Terms of the Taylor series: with the pieces cut as below, what is left out is rounding, 1e-16 of a stiffness."""
 
+NOTHING = 1e-20
+"""Part of the smallest entry of a transfer beyond rigid motion that a term must have to count; four rows without any
+end the series of a uniform piece, in which each row is made of the two before it."""
+
 SERIES = 9
 """Rows of the scratch array of `coefficients`."""
 
@@ -115,8 +119,10 @@ def coefficients(segment: Row, ends: Four, omega2: float, load: float, out: Tabl
     return int(terms)
 
 
-def state_series(series: Table, terms: int, state: Table) -> None:
-    """Taylor coefficients of (v, theta, V, M) along a piece of unit length; ``state[0]`` holds the start.
+def state_series(series: Table, terms: int, state: Table) -> int:
+    """Taylor coefficients of (v, theta, V, M) along a piece of unit length; the last row that counts.
+
+    ``state[0]`` holds the start.
 
     Parameters
     ----------
@@ -129,6 +135,10 @@ def state_series(series: Table, terms: int, state: Table) -> None:
     """
     # At the start two parts of it may cancel.
     inclined = series[SERIES - 1, 0] != 0.0 or series[SERIES - 1, 1] != 0.0
+    # Inertia has a part in every entry, if there is any.
+    unit = series[0, 0] if series[0, 0] != 0.0 else abs(series[4, 0]) + series[5, 0]
+    start = max(abs(state[0, 0]), abs(state[0, 1]), abs(state[0, 2]), abs(state[0, 3]))
+    negligible, idle, count = NOTHING * unit * start, 0, TERMS
     for k in range(TERMS):
         last = min(k, terms - 1)
         state[k, 5] = state[k, 2]
@@ -149,7 +159,16 @@ def state_series(series: Table, terms: int, state: Table) -> None:
                 dtheta += series[SERIES - 1, i] * (state[k - i, 4] - state[k - i, 1])
         state[k + 1, 0], state[k + 1, 1] = dv / (k + 1), dtheta / (k + 1)
         state[k + 1, 2], state[k + 1, 3] = dforce / (k + 1), dmoment / (k + 1)
-    state[TERMS, 4] = state[TERMS, 5] = 0.0
+        largest = max(abs(dv), abs(dtheta), abs(dforce), abs(dmoment))
+        idle = idle + 1 if terms == 2 and largest <= negligible else 0
+        if idle == 4:
+            count = k + 1
+            break
+    for k in range(count, TERMS + 1):
+        for i in range(6):
+            if k > count or i >= 4:
+                state[k, i] = 0.0
+    return count
 
 
 def piece_transfer(
@@ -167,14 +186,14 @@ def piece_transfer(
     for column in range(4):
         for i in range(4):
             state[0, i] = 1.0 if i == column else 0.0
-        state_series(series, terms, state)
+        count = state_series(series, terms, state)
         if column == 1:
             state[1, 0] -= 1.0
         if column == 2:
             state[1, 3] += 1.0
         for i in range(4):
             total = 0.0
-            for k in range(TERMS, 0, -1):
+            for k in range(count, 0, -1):
                 total += state[k, i]
             # From units of the piece: rotations as they are.
             if i == 0 or i == 3:
