@@ -1,4 +1,4 @@
-"""Natural frequencies and mode shapes of beams, shafts, lattice columns and plane frames."""
+"""Natural frequencies and mode shapes of beams, shafts, plane frames, and of lattices in space."""
 
 from __future__ import annotations
 
@@ -12,13 +12,18 @@ if TYPE_CHECKING:
     from modal.beams.segment import Segment
     from modal.beams.shapes import Modes, cantilever_modes
     from modal.beams.torsion import Shaft, TorsionModes, torsion_modes
+    from modal.elements.space_beam import SpaceBeam
+    from modal.elements.space_frame import SpaceFrame
     from modal.elements.structure_elements import (
         StructureElements,
         finite_element_frequencies,
         finite_element_structure_frequencies,
     )
+    from modal.lattices.jib import JibLattice
+    from modal.lattices.jib_truss import LatticeJib
     from modal.lattices.lattice import LacedColumn
     from modal.lattices.lattice_comparison import LatticeAnswers, LatticeModel, compare_lattice_models
+    from modal.lattices.section import LatticeSection
     from modal.lattices.truss import ColumnTruss, Mechanism
     from modal.structures.crane_frame import CraneFrame, crane_structure
     from modal.structures.members import Unstable
@@ -32,14 +37,19 @@ __all__ = [
     "CraneFrame",
     "EndBody",
     "Foundation",
+    "JibLattice",
     "LacedColumn",
     "LatticeAnswers",
+    "LatticeJib",
     "LatticeModel",
+    "LatticeSection",
     "Mechanism",
     "Modes",
     "Pendulum",
     "Segment",
     "Shaft",
+    "SpaceBeam",
+    "SpaceFrame",
     "Structure",
     "StructureElements",
     "TorsionModes",
@@ -63,7 +73,12 @@ _HOME = {
     "CraneFrame": "structures.crane_frame",
     "EndBody": "beams.beam",
     "Foundation": "beams.chain",
+    "JibLattice": "lattices.jib",
     "LacedColumn": "lattices.lattice",
+    "LatticeJib": "lattices.jib_truss",
+    "LatticeSection": "lattices.section",
+    "SpaceBeam": "elements.space_beam",
+    "SpaceFrame": "elements.space_frame",
     "LatticeAnswers": "lattices.lattice_comparison",
     "LatticeModel": "lattices.lattice_comparison",
     "Mechanism": "lattices.truss",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.checks import check_positive
+from modal.checks import check_positive, whole_number
 from modal.lattices.space import beam_of, frame_of_round
 
 if TYPE_CHECKING:
@@ -90,6 +90,7 @@ class LatticeJib:
 
     def beam(self, elements: int = 10) -> SpaceBeam:
         """The jib as a beam, each part as so many elements, its tip as `modal.lattices.space.beam_of` has it."""
+        whole_number("elements", elements, 1)
         sections = [
             (length / elements, lattice.at((k + 0.5) / elements, length))
             for length, lattice in self.parts

@@ -16,7 +16,9 @@ from modal import (
     CraneFrame,
     EndBody,
     Foundation,
+    JibLattice,
     LacedColumn,
+    LatticeJib,
     Pendulum,
     Segment,
     Shaft,
@@ -42,12 +44,14 @@ RIGID = replace(FRAME, jib=None)
 SHAFT = Shaft(30.0, 100.0, 1e8)
 STRUCTURE = chain_structure(CHAIN)
 TRUSS = ColumnTruss(COLUMN, 4.0, 300.0)
+LATTICE = JibLattice(1.5, 1.4, 4e-3, 8e-3, 2.0, 1e-3, 1e-3, 2e11, "X", side_post_area=1e-3)
+JIB = LatticeJib(((8.0, LATTICE),))
 OBJECTS = [
     BEAM, EndBody(), CHAIN.segments[0], CHAIN, Foundation(1e9, 1e9), Collar(1e7), Pendulum(1e3, 10.0), FRAME, COLUMN,
-    SHAFT, TRUSS,
+    SHAFT, TRUSS, LATTICE, LATTICE.section(1.5),
 ]  # fmt: skip
 INFINITE = {"mass", "rotary_inertia", "shear_stiffness", "rotation_stiffness", "translation_stiffness"}
-SIGNED = {"EndBody.offset", "Segment.shear_power", "Chain.axial_load", "Foundation.coupling"}
+SIGNED = {"EndBody.offset", "Segment.shear_power", "Segment.coupling", "Chain.axial_load", "Foundation.coupling"}
 NUMBERS = [
     pytest.param(made, field.name, id=f"{type(made).__name__}.{field.name}")
     for made in OBJECTS
@@ -66,18 +70,25 @@ COUNTS = {
     "Structure": STRUCTURE.angular_frequencies,
     "StructureElements": StructureElements(STRUCTURE, 2).angular_frequencies,
     "modes of StructureElements": StructureElements(STRUCTURE, 2).modes,
+    "SpaceFrame": JIB.frame().modes,
+    "SpaceBeam": JIB.beam().modes,
     "compare_lattice_models": lambda count: compare_lattice_models(COLUMN, 4.0, EndBody(), 300.0, count=count),
 }
 ELEMENTS = {
     "finite_element_frequencies": lambda n: finite_element_frequencies(BEAM, 1, elements=n),
     "finite_element_structure_frequencies": lambda n: finite_element_structure_frequencies(STRUCTURE, 1, elements=n),
     "StructureElements": partial(StructureElements, STRUCTURE),
+    "beam of LatticeJib": JIB.beam,
 }
 LENGTHS = {
     "height of segment": COLUMN.segment,
     "height of column_segments": partial(column_segments, COLUMN, top_ratio=0.5),
     "height of equivalent_slenderness": COLUMN.equivalent_slenderness,
     "height of compare_lattice_models": lambda h: compare_lattice_models(COLUMN, h, EndBody(), 300.0),
+    "length of LatticeJib": lambda length: LatticeJib(((length, LATTICE),)),
+    "length of pieces": LATTICE.pieces,
+    "length of segments": lambda length: LATTICE.segments(length, "vertical"),
+    "mass_per_length of pieces": partial(LATTICE.pieces, 4.0),
     "mass_per_length of segment": partial(COLUMN.segment, 4.0),
     "mass_per_length of ColumnTruss": partial(ColumnTruss, COLUMN, 4.0),
     "top_ratio of column_segments": partial(column_segments, COLUMN, 4.0),
