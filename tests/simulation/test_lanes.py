@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from samples.qtz5613 import CRANE, in_plane, model, motions
 
 from modal import Chain, Foundation, Segment
+from towercrane.cranes.parts.ground import earthquake
 from towercrane.kernels.payload import Load
 from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases, rest, sequence
@@ -23,7 +24,7 @@ LOOSE = {"rtol": 1e-5, "atol": 1e-7}
 
 
 def lane_run(crane, drives, state="equilibrium", swing_angle=0.0):
-    return LaneRun(crane, phases((drives["trolley"], drives["rope"]), DURATION), state, swing_angle)
+    return LaneRun(crane, phases(tuple(drives[name] for name in crane.channels), DURATION), state, swing_angle)
 
 
 def in_lanes(scenes, **options):
@@ -81,6 +82,15 @@ def test_lanes_give_the_bits_of_single_runs(modes):
 )
 def test_what_the_model_includes_is_the_same_in_lanes(options):
     scenes = loads_and_ropes(3, 2, 3, **options)
+    assert_same(in_lanes(scenes), scenes)
+
+
+def test_a_ground_that_moves_is_the_same_in_lanes():
+    records = np.random.default_rng(3).normal(size=(3, 21, 3))
+    scenes = [
+        (crane, drives | earthquake(np.linspace(0.0, 5.0, 21), record, 2.0 * DURATION))
+        for (crane, drives), record in zip(loads_and_ropes(3, 2, 1, ground=True), records, strict=True)
+    ]
     assert_same(in_lanes(scenes), scenes)
 
 

@@ -23,9 +23,9 @@ LOSSY = Load(1500.0, rope_damping=800.0, drag_area=8.0)
 DRIVE = Drive("slewing", 4e6, 2e7, 0.01, 4e5, "tanh", 5e4, 0.005)
 WINDY = {"areas": AREAS, "wind": True}
 SCENES = {
-    "prescribed": space.model(2, 1, 2, 3, LOSSY, **WINDY),
-    "driven": space.model(1, 1, 1, 1, LOSSY, slewing=DRIVE, drive_inertia=1e6),
-    "turned plane": space.model(2, 0, 0, 3, LOSSY, **WINDY, planes=1, slewing="fixed", axes=2, heading=2.2),
+    "prescribed": space.model(2, 1, 2, 3, load=LOSSY, **WINDY),
+    "driven": space.model(1, 1, 1, 1, load=LOSSY, slewing=DRIVE, drive_inertia=1e6),
+    "turned plane": space.model(2, 0, 0, 3, load=LOSSY, **WINDY, planes=1, slewing="fixed", axes=2, heading=2.2),
     "plane": in_plane(space.CRANE, Load(800.0), 2, 3),
 }
 AT = 7.3

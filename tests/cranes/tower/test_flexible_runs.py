@@ -54,7 +54,7 @@ def course(scene, motions, state, duration, step=0.5):
 def test_crane_started_in_its_plane_stays_there_exactly_and_is_the_crane_of_the_plane():
     motions = {"trolley": trapezoid(5.0, 41.0, 0.8, 0.1), "rope": trapezoid(18.0, 12.0, 0.4, 0.2)}
     options = {"output_step": 0.5, "swing_angle": 0.1, "rtol": 1e-11, "atol": 1e-13}
-    space_run = simulate(space.model(2, 1, 2, 3, 800.0), motions | {"slewing": rest(0.0)}, 60.0, **options)
+    space_run = simulate(space.model(2, 1, 2, 3, load=800.0), motions | {"slewing": rest(0.0)}, 60.0, **options)
     plane_run = simulate(in_plane(space.CRANE, Load(800.0), 2, 3), motions, 60.0, **options)
     for name in (
         "sway_tangential",
@@ -116,7 +116,7 @@ def test_power_balance_with_every_drive_loss_and_wind():
     lossy = Load(1500.0, rope_damping=800.0, drag_area=8.0)
     damping = ModalDamping(0.005, 0.005, 0.01, 0.01)
     areas = WindAreas(tower=2.5, jib=1.0, counter_jib=1.2, counterweight=10.0)
-    scene = space.model(2, 1, 2, 2, lossy, areas, damping=damping, wind=True, weight_softening=True)
+    scene = space.model(2, 1, 2, 2, load=lossy, areas=areas, damping=damping, wind=True, weight_softening=True)
     rng = np.random.default_rng(2)
     motions = manoeuvre() | gusts(1.0, [12.0, 5.0, 0.0] + 3.0 * rng.normal(size=(40, 3)))
     _, seen = course(scene, motions, space.start(scene, motions, swing_angle=0.3), 46.0)
@@ -221,7 +221,7 @@ def test_start_from_equilibrium_stays_there_at_any_heading():
 def test_steady_wind_holds_the_load_at_its_known_angle():
     # Rigid crane, heavily damped rope: tan(angle) = c w^2 / m g.
     load = Load(800.0, rope_damping=5e4, drag_area=10.0)
-    scene = space.model(0, 0, 0, 0, load, wind=True)
+    scene = space.model(0, 0, 0, 0, load=load, wind=True)
     result = simulate(scene, standing(20.0, 10.0) | steady([0.0, 15.0, 0.0]), 200.0, output_step=1.0)
     expected = np.arctan2(0.5 * 1.225 * 10.0 * 15.0**2, 800.0 * 9.81)
     assert_allclose(result["sway_tangential"].values[-1], expected, rtol=1e-6)
