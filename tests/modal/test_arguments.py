@@ -44,7 +44,7 @@ RIGID = replace(FRAME, jib=None)
 SHAFT = Shaft(30.0, 100.0, 1e8)
 STRUCTURE = chain_structure(CHAIN)
 TRUSS = ColumnTruss(COLUMN, 4.0, 300.0)
-LATTICE = JibLattice(1.5, 1.4, 4e-3, 8e-3, 2.0, 1e-3, 1e-3, 2e11, "X", side_post_area=1e-3)
+LATTICE = JibLattice(1.5, 1.4, 4e-3, 8e-3, 2.0, 1e-3, 1e-3, 2e11, "X", "X", 1e-3, 1e-3)
 JIB = LatticeJib(((8.0, LATTICE),))
 OBJECTS = [
     BEAM, EndBody(), CHAIN.segments[0], CHAIN, Foundation(1e9, 1e9), Collar(1e7), Pendulum(1e3, 10.0), FRAME, COLUMN,
