@@ -115,6 +115,29 @@ def test_jib_at_rest_hangs_as_a_cantilever_does():
     assert_allclose(poses.members["jib"][0, :, 2] - 23.8, known, rtol=0, atol=1e-5)
 
 
+def test_a_counter_jib_that_bends_is_drawn_bent_and_its_ballast_hangs_on_it():
+    case = load_case("flat-top/manoeuvre", ["run.duration=8 s", "model.tower_modes=0", "model.torsion_modes=0"])
+    result = run_case(case)
+    poses = poses_of(case, result, result["time"].values)
+    seen = {name: poses.turned_back(line) for name, line in poses.members.items()}
+    up, sideways = (result[f"counter_jib_tip_deflection{way}"].values for way in ("", "_sideways"))
+    assert -0.28 < up.max() < -0.26
+    assert abs(sideways).max() > 2e-3
+    assert_allclose(seen["counter-jib"][:, -1, 2], 48.0 + up, rtol=0, atol=1e-12)
+    assert_allclose(seen["counter-jib"][:, -1, 1], -sideways, rtol=0, atol=1e-12)
+    assert_allclose(seen["counter-jib"][:, 0], [[0.0, 0.0, 48.0]] * len(up), rtol=0, atol=1e-12)
+    # Winch and ballast are on the bent line, and sections meet on the jib.
+    assert_allclose(poses.undeformed["ballast"][0, :, 0], [-9.0, -14.0], rtol=1e-13)
+    assert_allclose(poses.undeformed["joints"][0, :, 0], [10.0, 20.0, 30.0, 40.0, 50.0], rtol=1e-13)
+    for points, line in (("ballast", "counter-jib"), ("joints", "jib")):
+        for row in (0, len(up) - 1):
+            places, along = seen[points][row], seen[line][row]
+            order = np.argsort(along[:, 0])
+            for axis in (1, 2):
+                on_line = np.interp(places[:, 0], along[order, 0], along[order, axis])
+                assert_allclose(places[:, axis], on_line, rtol=0, atol=1e-3)
+
+
 def test_multi_mass_crane_hangs_on_its_points(posed):
     case, result, poses = posed["multi-mass"]
     p = parameters_of(case.crane)

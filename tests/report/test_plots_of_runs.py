@@ -64,6 +64,8 @@ OVER_TIME = [
                       ["tower_tip_twist", "tower_tip_tilt", "tower_tip_roll"]],
         "jib.png": [["jib_tip_deflection", "jib_tip_deflection_sideways"],
                     ["jib_root_moment", "jib_root_moment_sideways"]],
+        "counter-jib.png": [["counter_jib_tip_deflection", "counter_jib_tip_deflection_sideways"],
+                            ["counter_jib_root_moment", "counter_jib_root_moment_sideways"]],
         "base.png": [["base_moment_x", "base_moment_y"], ["base_torque"]],
         "wind.png": [["wind_x", "wind_y", "wind_z"]],
     }),

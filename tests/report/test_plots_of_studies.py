@@ -119,8 +119,9 @@ def test_influence_is_drawn_as_bars_and_surfaces():
 def test_mode_shapes_stand_and_lie_as_their_beams_do():
     tower = cantilever_modes(Beam(20.0, 300.0, 2e11, 0.01), 8, EndBody(2e4, 5e6))
     arm = cantilever_modes(Beam(50.0, 100.0, 2e11, 0.003), 3)
-    left, right = plane.modes(tower, arm, []).axes
-    for axes, shapes, upright, zeros in ((left, tower, True, 1), (right, arm, False, 1)):
+    left, right, last = plane.modes(tower, arm, [], arm).axes
+    assert len(plane.modes(tower, arm, []).axes) == 2
+    for axes, shapes, upright, zeros in ((left, tower, True, 1), (right, arm, False, 1), (last, arm, False, 1)):
         lines = axes.get_lines()[:-zeros]
         assert len(lines) == min(len(shapes.frequencies_hz), plane.MOST_SHAPES)
         for i, line in enumerate(lines):

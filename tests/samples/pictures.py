@@ -36,7 +36,9 @@ SPACE = made(
     ["slewing_angle", "shaft_angle", "trolley_position", "rope_length", "sway_radial", "sway_tangential",
      "slewing_torque", "trolley_force", "rope_tension", "tower_tip_displacement", "tower_tip_displacement_sideways",
      "tower_tip_twist", "tower_tip_tilt", "tower_tip_roll", "jib_tip_deflection", "jib_tip_deflection_sideways",
-     "jib_root_moment", "jib_root_moment_sideways", "base_moment_x", "base_moment_y", "base_torque",
+     "jib_root_moment", "jib_root_moment_sideways", "counter_jib_tip_deflection",
+     "counter_jib_tip_deflection_sideways", "counter_jib_root_moment", "counter_jib_root_moment_sideways",
+     "base_moment_x", "base_moment_y", "base_torque",
      "wind_x", "wind_y", "wind_z", "payload_position:axis"]
 )  # fmt: skip
 JIB = made(

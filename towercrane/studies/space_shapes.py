@@ -55,19 +55,18 @@ def crane_lines(
     bent = turn @ bent
     top, slope = bent @ crane.tower(height), bent @ crane.top_slope
     twist = mode.shape[parts["torsion"]] @ crane.torsion(height) + mode.shape[parts["slewing"]].sum()
-    jib = mode.shape[parts["jib_lateral"].start : n]
-    lateral = model.counts["jib_lateral"]
+    jib, middle = mode.shape[parts["jib_lateral"].start : n], sum(crane.groups[:2])
 
-    def on_head(along: Floats, flexible: bool) -> Floats:
-        """Displacement of points of the head on the jib's line."""
-        shapes = crane.jib_shapes(along) if flexible else np.zeros((len(jib), len(along)))
-        across, up = jib[:lateral] @ shapes[:lateral], jib[lateral:] @ shapes[lateral:]
+    def on_head(along: Floats) -> Floats:
+        """Displacement of points of the head on the line of jib and counter-jib."""
+        shapes = crane.jib_shapes(np.maximum(along, 0.0)) + crane.counter_shapes(np.maximum(-along, 0.0))
+        across, up = jib[:middle] @ shapes[:middle], jib[middle:] @ shapes[middle:]
         moved = [np.full_like(along, top[0]), top[1] + twist * along + across, -slope[0] * along + up]
         return np.stack(moved, axis=1)
 
-    def line(along: Floats, flexible: bool) -> Floats:
+    def line(along: Floats) -> Floats:
         still = np.stack([along, np.zeros_like(along), np.full_like(along, height)], axis=1)
-        return still + scale * on_head(along, flexible)
+        return still + scale * on_head(along)
 
     z = np.linspace(0.0, height, POINTS)
     tower = np.stack([np.zeros_like(z), np.zeros_like(z), z], axis=1)
@@ -75,7 +74,7 @@ def crane_lines(
     if crane.luffing is not None:
         points = np.linspace(0.0, crane.jib_length, POINTS)
         shapes = crane.jib_shapes(points)
-        bends = np.stack([jib[:lateral] @ shapes[:lateral], jib[lateral:-1] @ shapes[lateral:]])[:, None]
+        bends = np.stack([jib[:middle] @ shapes[:middle], jib[middle:-1] @ shapes[middle:]])[:, None]
         angle = np.array([place.position])
         found = {}
         for name, (moved, still) in luffing_lines(
@@ -85,11 +84,12 @@ def crane_lines(
             swayed = np.stack([top[0] + slope[0] * z, top[1] + twist * x + slope[1] * z, -slope[0] * x], axis=1)
             found[name] = moved[0] + scale * swayed + np.array([0.0, 0.0, height])
         hung = found.pop("suspension")[0]
+        del found["ballast"]
     else:
-        hung = line(np.array([place.position]), True)[0]
+        hung = line(np.array([place.position]))[0]
         found = {
-            "jib": line(np.linspace(0.0, crane.jib_length, POINTS), True),
-            "counter-jib": line(np.linspace(-counter_jib, 0.0, 2), False),
+            "jib": line(np.linspace(0.0, crane.jib_length, POINTS)),
+            "counter-jib": line(np.linspace(-counter_jib, 0.0, POINTS)),
         }
     load = hung - [0.0, 0.0, place.rope_length]
     load[:2] += scale * (turn @ mode.shape[n:])

@@ -77,7 +77,7 @@ SCENES = {
         "drive_inertia": 2e5,
         **LOSSY,
     },
-    "of segments": SECTIONED,
+    "of segments": {**SECTIONED, "crane": dataclasses.replace(sectioned.CRANE, roll_inertia=3e5)},
     "of segments, planar": {
         **SECTIONED,
         "torsion": 0,
@@ -219,9 +219,23 @@ def test_sections_carry_what_moves_beyond_them(name):
 
         top = np.zeros(3)
         top[:2] = model.constants.motions[[SLIDE_X, SLIDE_Y]] @ instant.q
-        root = np.zeros(3)
-        for beyond in ("jib", *(f"jib, rotor {k}" for k in range(3)), "trolley", "load"):
-            root += np.cross(points[beyond].derivative(0) - top, felt[beyond]).sum(axis=0)
+        roots = {}
+        for member, more in (("jib", ("trolley", "load")), ("counter-jib", ("counterweight",))):
+            roots[member] = np.zeros(3)
+            for beyond in (member, *(f"{member}, rotor {k}" for k in range(3)), *more):
+                roots[member] += np.cross(points[beyond].derivative(0) - top, felt[beyond]).sum(axis=0)
         left, up = (np.array([row[k].c[0] for row in instant.cloud.axes]).ravel() for k in (1, 2))
-        assert abs(seen["jib_root_moment"].values[0] + root @ left) < 1e-11 * sizes
-        assert abs(seen["jib_root_moment_sideways"].values[0] - root @ up) < 1e-11 * sizes
+        assert abs(seen["jib_root_moment"].values[0] + roots["jib"] @ left) < 1e-11 * sizes
+        assert abs(seen["jib_root_moment_sideways"].values[0] - roots["jib"] @ up) < 1e-11 * sizes
+        if not any(model.crane.groups[1::2]):
+            assert not any(name.startswith("counter_jib") for name in seen)
+            continue
+        assert abs(seen["counter_jib_root_moment"].values[0] - roots["counter-jib"] @ left) < 1e-11 * sizes
+        assert abs(seen["counter_jib_root_moment_sideways"].values[0] - roots["counter-jib"] @ up) < 1e-11 * sizes
+        # Where its tip is drawn, seen from the straight counter-jib.
+        _, y, z = (
+            float(np.squeeze(jet.c[0]))
+            for jet in instant.cloud.members["counter-jib"].tip(instant.cloud.split(instant.q))
+        )
+        tip = [seen[f"counter_jib_tip_deflection{way}"].values[0] for way in ("_sideways", "")]
+        assert np.max(abs(np.array(tip) - [-y, z])) < 1e-13

@@ -26,11 +26,11 @@ def run_pictures(case: Case, run: Run) -> dict[str, Any]:
 
 
 def mode_picture(case: Case, model: Any) -> Any:
-    """Modes of a plane crane's tower and jib."""
+    """Modes of a plane crane's tower and jibs."""
     from towercrane.cases.assumptions import as_notes, rests_on
     from towercrane.cranes.tower.file.case_tables import TowerCase
     from towercrane.report.plots.runs import plane
 
     crane, count = model.crane.written, case.tables(TowerCase).modes.count
     notes = as_notes(a for a in rests_on(case) if a.key.startswith("crane."))
-    return plane.modes(crane.tower_modes(count), crane.jib_modes(count), notes)
+    return plane.modes(crane.tower_modes(count), crane.jib_modes(count), notes, crane.counter_jib_modes(count))

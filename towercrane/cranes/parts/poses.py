@@ -36,7 +36,8 @@ class Poses:
     heading : ndarray, shape (f,)
         Angle about the vertical to which the drives have turned the crane [rad].
     members : mapping of str to ndarray, shapes (f, points, 3)
-        Lines of the deformed crane by name, and the single point "suspension" that the rope hangs from.
+        Lines of the deformed crane by name, and points: the one that the rope hangs from, "suspension", and where
+        there are any, those where sections of the jib meet, "joints", and where weights balance it, "ballast".
     undeformed : mapping of str to ndarray
         The same without any deformation, its drives where they are at that time.
     load : ndarray, shape (f, 3)

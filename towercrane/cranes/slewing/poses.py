@@ -82,4 +82,5 @@ def _members(model: LumpedModel, parameters: SlewingParameters, q: Floats) -> di
     }
     if "counterweight" in points:
         members["counter-jib"] = np.stack([tower[:, -1], points["counterweight"]], axis=1)
+        members["ballast"] = points["counterweight"][:, None]
     return members

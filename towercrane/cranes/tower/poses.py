@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+BENDING = "jib_lateral", "counter_jib_lateral", "jib_vertical", "counter_jib_vertical"
+"""Kinds of modes of jib and counter-jib in the order of their shapes."""
+
 POINTS = 40
 """Points along a member."""
 
@@ -43,14 +46,12 @@ def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, tim
     """
     from scipy.spatial.transform import Rotation
 
-    crane, behind = model.crane, tables.crane.counter_jib.reach
+    crane, behind = model.crane, tables.crane.counter_jib
     # In the plane the head does not turn.
     heading = sampled(result, "slewing_angle", times) if "slewing_angle" in result else np.zeros(len(times))
-    q = {
-        kind: _coordinates(result, kind, times)
-        for kind in ("tower_x", "tower_y", "torsion", "jib_lateral", "jib_vertical")
-    }
-    height, lateral = crane.tower_height, q["jib_lateral"].shape[1]
+    q = {kind: _coordinates(result, kind, times) for kind in ("tower_x", "tower_y", "torsion", *BENDING)}
+    amplitudes = np.concatenate([q[kind] for kind in BENDING], axis=1)
+    height, middle = crane.tower_height, sum(crane.groups[:2])
 
     up = np.linspace(0.0, height, POINTS)
     upright = np.broadcast_to(np.stack([0.0 * up, 0.0 * up, up], axis=1), (len(times), POINTS, 3))
@@ -79,9 +80,14 @@ def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, tim
         places = np.stack(np.broadcast_arrays(along, *deflection), axis=-1)
         return placed(places, np.stack(np.broadcast_arrays(along, *np.zeros_like(deflection)), axis=-1))
 
+    def bent(shapes: Floats) -> Floats:
+        """Deflections to the left and up, shape (2, f, p), of shapes at places or at a place for each time."""
+        at = "ti,ipt->tp" if shapes.ndim == 3 else "ti,ip->tp"
+        parts = (slice(middle), slice(middle, None))
+        return np.stack([np.einsum(at, amplitudes[:, part], shapes[part]) for part in parts])
+
     along = np.linspace(0.0, crane.jib_length, POINTS)
-    jib = crane.jib_shapes(along)
-    deflection = np.stack([q["jib_lateral"] @ jib[:lateral], q["jib_vertical"] @ jib[lateral:]])
+    deflection = bent(crane.jib_shapes(along))
     pairs = {"tower": (tower, upright)}
     if crane.luffing is not None:
         angles = sampled(result, "luffing_angle", times), sampled(result, "luffing_command", times)
@@ -90,19 +96,19 @@ def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, tim
             for name, lines in luffing_lines(crane.luffing, along, deflection, angles).items()
         }  # fmt: skip
         return _poses(result, times, heading, pairs, height)
+    back, hung = np.linspace(0.0, behind.reach, POINTS), np.array(behind.weights)
+    joints = np.array(tables.crane.jib.joints)
     # A trolley that leaves the jib ends the run; its last row stands a hair beyond the end.
     trolley = np.clip(sampled(result, "trolley_position", times), 0.0, crane.jib_length)
-    there = crane.jib_shapes(trolley)
-    at_trolley = np.stack([
-        np.einsum("ti,it->t", q["jib_lateral"], there[:lateral]),
-        np.einsum("ti,it->t", q["jib_vertical"], there[lateral:]),
-    ])  # fmt: skip
-    back = np.array([0.0, -behind])
     pairs |= {
         "jib": on_head(along[None], deflection),
-        "counter-jib": on_head(back[None], np.zeros((2, len(times), 2))),
-        "suspension": on_head(trolley[:, None], at_trolley[..., None]),
+        "counter-jib": on_head(-back[None], bent(crane.counter_shapes(back))),
+        "suspension": on_head(trolley[:, None], bent(crane.jib_shapes(trolley[None]))),
     }
+    if joints.size:
+        pairs["joints"] = on_head(joints[None], bent(crane.jib_shapes(joints)))
+    if hung.size:
+        pairs["ballast"] = on_head(-hung[None], bent(crane.counter_shapes(hung)))
     return _poses(result, times, heading, pairs, height)
 
 
@@ -122,7 +128,7 @@ def luffing_lines(
         Of the chord, and of a straight jib on a rope that does not stretch [rad].
     """
     found: dict[str, list[Floats]] = {
-        name: [] for name in ("jib", "frame", "luffing rope", "counter-jib", "suspension")
+        name: [] for name in ("jib", "frame", "luffing rope", "counter-jib", "ballast", "suspension")
     }
     for angle, (left, up) in zip(angles, (deflection, np.zeros_like(deflection)), strict=True):
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
@@ -133,7 +139,8 @@ def luffing_lines(
         found["jib"].append(line)
         found["frame"].append(np.concatenate([still, frame], axis=1))
         found["luffing rope"].append(np.concatenate([frame, line[:, -1:]], axis=1))
-        found["counter-jib"].append(np.concatenate([still, still + np.array([last[0], 0.0, last[1]])], axis=1))
+        found["ballast"].append(still + np.array([last[0], 0.0, last[1]]))
+        found["counter-jib"].append(np.concatenate([still, found["ballast"][-1]], axis=1))
         found["suspension"].append(line[:, -1:])
     return {name: (moved, straight) for name, (moved, straight) in found.items()}
 

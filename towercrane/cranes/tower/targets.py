@@ -38,6 +38,8 @@ OUT_OF_PLANE = (
     "tower_tip_twist",
     "jib_tip_deflection_sideways",
     "jib_root_moment_sideways",
+    "counter_jib_tip_deflection_sideways",
+    "counter_jib_root_moment_sideways",
     "base_torque",
     *(f"collar_{k}_torque" for k in range(1, MOST_COLLARS + 1)),
 )

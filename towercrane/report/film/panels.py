@@ -35,6 +35,10 @@ ALONG, ABOVE = (0, 2), (0, 1)
 """Coordinates that are seen from the side and from above."""
 
 
+POINTS = "suspension", "joints", "ballast"
+"""Members that are no lines."""
+
+
 class View:
     """A crane from one side.
 
@@ -72,13 +76,14 @@ class View:
         self.still = line(STILL, lw=0.9, dashes=(4, 3))
         self.crane = line(CRANE, lw=2.0)
         counterweight = line(CRANE, marker="s", ms=8, ls="")
+        joints = line(CRANE, marker="o", ms=3.0, ls="")
         hook = line(CRANE, marker="o", ms=4.5, mfc="white", ls="", visible=shaded)
         self.trace = [line(LOAD, lw=1.4, alpha=alpha) for _, alpha in FADES]
         self.rope = line(ROPE, lw=0.9)
         trolley = line(ROPE, marker="o", ms=4.5, ls="")
         block = line(LOAD, marker="s", ms=8, mec="black", mew=0.6, ls="")
         self.moving: list[Artist] = [
-            self.true, weight, self.still, self.crane, counterweight, hook,
+            self.true, weight, self.still, self.crane, joints, counterweight, hook,
             *self.trace[::-1], self.rope, trolley, block,
         ]  # fmt: skip
 
@@ -91,8 +96,10 @@ class View:
             (trolley, true["suspension"]),
             (block, load),
         ]
-        if "counter-jib" in true:
-            places += [(weight, true["counter-jib"][:, -1:]), (counterweight, drawn["counter-jib"][:, -1:])]
+        if "ballast" in true:
+            places += [(weight, true["ballast"]), (counterweight, drawn["ballast"])]
+        if "joints" in true:
+            places.append((joints, drawn["joints"]))
         self._places = [(artist, points[..., seen]) for artist, points in places]
         self._load = load[:, 0][:, seen]
         self._ages = [round(age * playback.frames_per_second) for age, _ in FADES]
@@ -161,6 +168,6 @@ class Sway:
 
 def _wire(members: Mapping[str, Floats]) -> Floats:
     """All lines as one, broken between members; shape (frames, points, 3)."""
-    lines = [line for name, line in members.items() if name != "suspension"]
+    lines = [line for name, line in members.items() if name not in POINTS]
     gap = np.full((len(lines[0]), 1, 3), np.nan)
     return np.concatenate([part for line in lines for part in (line, gap)], axis=1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import accumulate
 from math import inf
 
 from modal.lattices.jib import Shape, Side  # noqa: TC001 - pydantic reads annotations when the class is made
@@ -107,6 +108,11 @@ class Arm(JibSection):
         return (JibSegment.model_construct(length=self.length, **whole),)
 
     @property
+    def joints(self) -> tuple[float, ...]:
+        """Where its segments meet, by the distance from the tower's axis [m]."""
+        return tuple(accumulate(piece.length for piece in self.pieces[:-1]))
+
+    @property
     def reach(self) -> float:
         """Its length [m], of segments their sum: the stated one may miss that by rounding."""
         return sum(piece.length for piece in self.pieces)
@@ -128,6 +134,12 @@ class CounterJib(Arm):
     length: ReachIfAny = None
     mass_per_length: MassPerLengthFromNone = None
     counterweight: MassOrNone = 0.0
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """Where bodies and the counterweight hang, by the distance from the tower's axis [m]."""
+        at_end = (self.reach,) if self.counterweight else ()
+        return (*(min(body.position, self.reach) for body in self.bodies), *at_end)
 
     @property
     def bends(self) -> bool:

@@ -41,11 +41,10 @@ def natural(model: FlexibleModel, drives: Mapping[str, float]) -> Natural:
 def lengths(model: FlexibleModel) -> dict[str, float]:
     """Length of the member that each deflection is of [m]."""
     crane = model.crane
-    tip = "jib_tip_deflection" if crane.luffing is None else "jib_deflection"
-    found = {"tower_tip_displacement": crane.tower_height, tip: crane.jib_length}
-    if model.axes == 3:
-        found |= {
-            "tower_tip_displacement_sideways": crane.tower_height,
-            "jib_tip_deflection_sideways": crane.jib_length,
-        }
+    found = {"tower_tip_displacement": crane.tower_height, "jib_tip_deflection": crane.jib_length}
+    if crane.counter_vertical is not None:
+        found["counter_jib_tip_deflection"] = crane.counter_vertical.length
+    found |= {f"{name}_sideways": length for name, length in found.items()} if model.axes == 3 else {}
+    if crane.luffing is not None:
+        found["jib_deflection"] = found.pop("jib_tip_deflection")
     return found

@@ -175,10 +175,26 @@ class FlexibleCrane:
             found[self.carrying] = np.concatenate([basis(position, derivative) for basis in bases])
         return found
 
+    def counter_shapes(self, position: ArrayLike) -> Floats:
+        """The same on the counter-jib, by the distance from its root; those of the jib are zero there."""
+        found = np.zeros((sum(self.groups), *np.shape(position)))
+        lateral, aside, vertical, _ = self.groups
+        if self.counter_lateral is not None:
+            found[lateral : lateral + aside] = self.counter_lateral(position)
+        if self.counter_vertical is not None:
+            found[lateral + aside + vertical :] = self.counter_vertical(position)
+        return found
+
     @cached_property
     def tip_shapes(self) -> Floats:
         """Shapes of the jib at its tip, shape (jib modes, 1)."""
         return self.jib_shapes([self.jib_length])
+
+    @cached_property
+    def counter_tip_shapes(self) -> Floats:
+        """Shapes of the counter-jib at its tip, shape (jib modes,)."""
+        bends = self.counter_vertical or self.counter_lateral
+        return self.counter_shapes(bends.length if bends is not None else 0.0)
 
     @property
     def top_slope(self) -> Floats:

@@ -192,6 +192,10 @@ class TowerCrane:
         """Modes of the jib, clamped at the tower top and free at its end."""
         return modes_of(self.jib, count)
 
+    def counter_jib_modes(self, count: int) -> Modes | ChainModes | None:
+        """The same of the counter-jib with its ballast; None where it is rigid."""
+        return modes_of(self.counter_jib, count) if self.counter_jib is not None else None
+
 
 def modes_of(member: Beam | Chain, count: int, end_body: EndBody = EndBody()) -> Modes | ChainModes:  # noqa: B008
     """Modes of a member clamped at its foot, or on its foundation, with a body at its end."""

@@ -69,6 +69,11 @@ class Sight(Kinematics):
         """Deflection of the jib's tip, to the left and up."""
         return self.deflection(self.seen.tip, self.state.coordinates)
 
+    @cached_property
+    def counter_tip(self) -> tuple[Any, Any]:
+        """Deflection of the counter-jib's tip, to the left of who looks along the jib and up."""
+        return self.deflection(self.seen.counter_tip, self.state.coordinates)
+
     def amplitudes(self, kind: str) -> Sequence[Any]:
         """Coordinates of a kind, the tower's along the fixed axes."""
         crane, q = self.seen.crane, self.state.coordinates
@@ -170,6 +175,22 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
         lambda at: -at.sections.jib_root.moment[2],
         About("N m", "bending moment at the jib's root, positive where it speeds the jib up in the turning sense"),
     ),
+    "counter_jib_tip_deflection": (
+        lambda at: at.counter_tip[1],
+        About("m", "deflection of the counter-jib's tip from the tilted straight counter-jib, positive up"),
+    ),
+    "counter_jib_tip_deflection_sideways": (
+        lambda at: -at.counter_tip[0],
+        About("m", "deflection of the counter-jib's tip from where it is straight, positive in the turning sense"),
+    ),
+    "counter_jib_root_moment": (
+        lambda at: -at.sections.counter_root.moment[1],
+        About("N m", "bending moment at the counter-jib's root, positive under its ballast"),
+    ),
+    "counter_jib_root_moment_sideways": (
+        lambda at: -at.sections.counter_root.moment[2],
+        About("N m", "bending moment at the counter-jib's root, positive where it speeds up the turning"),
+    ),
     "base_moment_x": (
         lambda at: at.support.base.moment[0],
         About("N m", "moment of the crane on its base about x, positive: tips towards -y"),
@@ -234,7 +255,13 @@ def about(
     crane, counts = model.constants, dict(model.counts)
     if model.axes == 2:
         counts["tower_y"] = counts["tower_x"]
-    there = {"shaft": crane.drive is not None, "wind": crane.wind, "ground": bool(crane.ground)}
+    _, aside, _, behind = model.crane.groups
+    there = {
+        "shaft": crane.drive is not None,
+        "wind": crane.wind,
+        "ground": bool(crane.ground),
+        "counter": bool(aside + behind),
+    }
     found = {name: shown for name, (_, shown) in read.items() if there.get(name.partition("_")[0], True)}
     springs = [(1.0, own.rotation_stiffness, own.torsional_stiffness) for own in model.crane.collars]
     for name in [name for name in found if name.startswith("collar_")]:

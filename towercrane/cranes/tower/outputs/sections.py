@@ -6,7 +6,7 @@ more modes for the same accuracy. Weights act where the deflected crane carries 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -130,6 +130,13 @@ class Sections:
         pull = tuple(force - crane.trolley_mass * (top + bias + own) for top, bias, own, force in inertia)
         body = self.turning(at.seen.jib, at.seen.jib_exposure)
         return body.with_trolley(crane.trolley_mass, end.place, pull).pushed(NONE, couple)
+
+    @cached_property
+    def counter_root(self) -> Body:
+        """What is beyond the root of a counter-jib that bends; that of a rigid one has the head's own inertia too."""
+        seen = self.at.seen
+        alone = replace(seen.counter, roll=seen.counter.roll - seen.counter_roll)
+        return self.turning(alone, seen.counter_exposure)
 
     @cached_property
     def tower_top(self) -> Body:

@@ -31,8 +31,10 @@ class Seen:
         Masses of the jib, and of what else turns.
     jib_exposure, counter_exposure : MassSums or None
         Their drag per squared speed, where a wind blows.
-    tip : ndarray, shape (jib modes,)
-        Shapes of the jib at its tip.
+    tip, counter_tip : ndarray, shape (modes of jib and counter-jib,)
+        Their shapes at the tip of the jib, and at that of the counter-jib.
+    counter_roll : float
+        Moment of inertia about the jib's axis of what else turns than jib and counter-jib [kg m^2].
     tower_height, tower_drag, tower_mass, tower_moment : float
         [m, kg/m^2]; mass of the tower and its own bodies, and its first moment about the foot [kg, kg m].
     zeroth, first, swept : ndarray, shape (tower modes,)
@@ -56,6 +58,8 @@ class Seen:
     jib_exposure: MassSums | None
     counter_exposure: MassSums | None
     tip: Floats
+    counter_tip: Floats
+    counter_roll: float
     tower_height: float
     tower_drag: float
     tower_mass: float
@@ -85,6 +89,8 @@ def seen_of(model: Equations) -> Seen:
         jib_exposure=crane.jib_exposure,
         counter_exposure=crane.counter_exposure,
         tip=crane.tip_shapes[:, 0],
+        counter_tip=crane.counter_tip_shapes,
+        counter_roll=crane.written.roll_inertia if crane.written is not None else 0.0,
         tower_height=crane.tower_height,
         tower_drag=crane.tower_drag,
         tower_mass=crane.tower_mass,

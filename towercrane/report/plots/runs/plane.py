@@ -31,26 +31,33 @@ MOST_SHAPES = 6
 """Mode shapes in one picture; more could not be told apart."""
 
 
-def modes(tower: Modes | ChainModes, jib: Modes, notes: list[tuple[str, str, str]] | None = None) -> Figure:
-    """Mode shapes of tower and jib, each scaled to a largest deflection of one."""
-    figure = figure_of(9.0, 6.0)
-    left, right = figure.subplots(1, 2, width_ratios=(1, 1.4))
-    for axes, shapes, upright in ((left, tower, True), (right, jib, False)):
-        along = np.linspace(0.0, shapes.length, 400)
+def modes(
+    tower: Modes | ChainModes,
+    jib: Modes | ChainModes,
+    notes: list[tuple[str, str, str]] | None = None,
+    counter_jib: Modes | ChainModes | None = None,
+) -> Figure:
+    """Mode shapes of tower, jib and a counter-jib that bends, each scaled to a largest deflection of one."""
+    panels = [("Tower with slewing part, without weight", tower), ("Jib, clamped at the tower", jib)]
+    if counter_jib is not None:
+        panels.append(("Counter-jib, clamped at the tower", counter_jib))
+    figure = figure_of(4.5 * len(panels), 6.0)
+    all_axes = figure.subplots(1, len(panels), width_ratios=(1.0, *[1.4] * (len(panels) - 1)))
+    for axes, (title, shapes) in zip(all_axes, panels, strict=True):
+        along, upright = np.linspace(0.0, shapes.length, 400), shapes is tower
         for i, deflection in enumerate(shapes(along)[:MOST_SHAPES]):
             deflection = deflection / max(abs(deflection).max(), 1e-300)
             line = {"color": COLOURS[i % 6], "ls": DASHES[i % 4]}
             name = f"mode {i + 1}: {shapes.frequencies_hz[i]:.4g} Hz"
             axes.plot(*((deflection, along) if upright else (along, deflection)), label=name, **line)
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, fontsize=8, frameon=False)
-    left.axvline(0.0, color="0.6", lw=0.8)
-    right.axhline(0.0, color="0.6", lw=0.8)
-    left.set(title="Tower with slewing part, without weight", xlabel="deflection / largest [1]", ylabel="height [m]")
-    right.set(
-        title="Jib, clamped at the tower",
-        xlabel="distance from tower axis [m]",
-        ylabel="deflection / largest [1]",
-    )
+        places, deflections = "height [m]" if upright else "distance from tower axis [m]", "deflection / largest [1]"
+        if upright:
+            axes.axvline(0.0, color="0.6", lw=0.8)
+            axes.set(title=title, xlabel=deflections, ylabel=places)
+        else:
+            axes.axhline(0.0, color="0.6", lw=0.8)
+            axes.set(title=title, xlabel=places, ylabel=deflections)
     footnote(figure, notes or [])
     return figure
 

@@ -89,6 +89,24 @@ PICTURES: Pictures = {
             ),
         ),
     ),
+    "counter-jib.png": (
+        "Counter-jib",
+        (
+            Panel(
+                "counter-jib tip [mm]",
+                1e3,
+                {"counter_jib_tip_deflection": "up", "counter_jib_tip_deflection_sideways": "in the turning sense"},
+            ),
+            Panel(
+                "counter-jib root [kN m]",
+                1e-3,
+                {
+                    "counter_jib_root_moment": "moment under ballast",
+                    "counter_jib_root_moment_sideways": "moment that turns the jib",
+                },
+            ),
+        ),
+    ),
     "base.png": (
         "Moments on the base",
         (

@@ -59,7 +59,7 @@ def frequencies(data: xr.Dataset) -> Figure:
     axes.grid(which="both", color="0.92", lw=0.6)
     figure.legend(handles=[*branches, *payloads], loc="outside right upper", fontsize=8, frameon=False)
     tower = f"tower {'softened' if data.attrs['weight_softening'] else 'not softened'} by its weight"
-    figure.suptitle(f"{data.attrs['crane']}: rope {data.attrs['rope_length']:g} m, {tower}", fontsize=10)
+    axes.set_title(f"{data.attrs['crane']}: rope {data.attrs['rope_length']:g} m, {tower}", fontsize=10)
     footnote(figure, assumed(data))
     return figure
 
