@@ -10,6 +10,7 @@ COLLAPSED = "step size collapsed"
 NOT_FINITE = "state not finite"
 
 SLACK_ROPE = "slack rope"
+SLACK_TIE = "slack tie bar"
 TROLLEY_OFF_JIB = "trolley off the jib"
 TOWER_BUCKLED = "tower buckled"
 JIB_OVER = "jib over backwards"

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.equations.coordinates import Coordinates
     from towercrane.cranes.tower.equations.luffing.constants import Luffing
+    from towercrane.cranes.tower.equations.tied.constants import Tied
     from towercrane.kernels.payload import Load
 
     Floats = NDArray[np.float64]
@@ -39,6 +40,7 @@ Drives = Row
 KINDS = (
     "tower_x", "tower_y", "torsion", "slewing",
     "jib_lateral", "counter_jib_lateral", "jib_vertical", "counter_jib_vertical", "luffing",
+    "tower_head", "tie", "tie_sideways",
 )  # fmt: skip
 """Kinds of coordinates in the order of the state."""
 
@@ -53,7 +55,7 @@ class Constants:
         Of space for the load, the vertical last; with 2 the coordinates must leave the crane in its plane.
     channels : int
         Number of the motions that drive it.
-    counts : tuple of 9 int
+    counts : tuple of 12 int
         Coordinates of each kind.
     slewing : {"fixed", "prescribed", "driven"}
     wind : bool
@@ -95,6 +97,8 @@ class Constants:
         Shapes of the jib's modes as polynomials about the middle of cells, as many equal ones in every section.
     luffing : Luffing or None
         Of a jib that pivots.
+    tied : Tied or None
+        Of jibs on tie bars.
     """
 
     axes: int
@@ -135,6 +139,7 @@ class Constants:
     sections: Floats
     shapes: Table
     luffing: Luffing | None
+    tied: Tied | None
 
     @property
     def coordinates(self) -> int:
@@ -161,6 +166,10 @@ class Constants:
     def jointed(self) -> bool:
         """Whether the jib has more than one section."""
         return len(self.sections) > 2
+
+    def across(self, mode: int) -> bool:
+        """Whether a coordinate is of motion to the left on the head."""
+        return mode in self.lateral or mode in self.part("tie_sideways")
 
     def row_of(self, mode: int) -> int | None:
         """Row of a mode's shape in the table; the counter-jib's have none."""
@@ -201,7 +210,7 @@ def geometric_stiffness(model: Coordinates) -> Floats:
 def _taken(model: Coordinates, own: float) -> Floats:
     """What unit gravity takes from the stiffness of the tower modes, by so much of the structure's own mass."""
     crane = model.crane
-    above = own * crane.slewing.mass + crane.trolley_mass + model.load.mass
+    above = own * crane.turning_mass + crane.trolley_mass + model.load.mass
     slopes, weights = crane.tower_softening
     return np.asarray(above * slopes + own * weights)
 
@@ -242,6 +251,7 @@ def constants_of(model: Coordinates) -> Constants:
         rotary_mass=rotary_mass(model),
         stiffness=stiffness(model),
         luffing=None,
+        tied=None,
     )
 
 
@@ -265,9 +275,9 @@ def _of_coordinates(model: Coordinates) -> dict[str, Floats]:
     if crane.exposure is not None:
         exposure[jib] = crane.exposure.first
     d = model.damping
-    kinds = d.tower, d.tower, d.torsion, 0.0, d.lateral, d.counter_lateral, d.vertical, d.counter_vertical, 0.0
-    lost = dict(zip(KINDS, kinds, strict=True))
-    ratios = np.concatenate([np.full(count, lost[kind]) for kind, count in model.counts.items()])
+    kinds = d.tower, d.tower, d.torsion, 0.0, d.lateral, d.counter_lateral, d.vertical, d.counter_vertical
+    lost = dict(zip(KINDS, kinds, strict=False))
+    ratios = np.concatenate([np.full(count, lost.get(kind, 0.0)) for kind, count in model.counts.items()])
     # Of a mode that a cap slows, of its slowed frequency and greater mass: the ratio is as stated.
     damping = 2.0 * ratios * model.angular_frequencies * np.sqrt(1.0 + model.added_mass)
     return {
@@ -310,6 +320,9 @@ def own_mass(model: Coordinates) -> Floats:
     own[parts["slewing"], parts["slewing"]] = model.drive_inertia
     jib = slice(parts["jib_lateral"].start, parts["counter_jib_vertical"].stop)
     own[jib, jib] = crane.slewing.products
+    if crane.tied is not None:
+        carried = slice(jib.start, n)
+        own[carried, carried] = np.einsum("ijkk->ij", crane.tied_sums.products)
     return own
 
 
@@ -345,5 +358,10 @@ def scale(model: Coordinates) -> Floats:
         if counter is not None:
             largest.append(abs(counter(np.linspace(0.0, counter.length, 201))).max(axis=1))
     largest.append(np.ones(model.counts.get("luffing", 0)))
+    if crane.tied is not None:
+        largest += [
+            abs(crane.tied.column([crane.tied.bars.head.height]))[:, 0],
+            np.ones(model.counts["tie"] + model.counts["tie_sideways"]),
+        ]
     sizes = np.concatenate([1.0 / np.concatenate(largest), np.ones(model.axes)])
     return np.concatenate([sizes, sizes, [model.load.work_scale(crane.gravity, crane.jib_length)]])

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 ANGLES = "slewing", "luffing"
 """Kinds of coordinates that are no modes: of the head where a drive turns it, of a jib that pivots."""
 
+BOWS = {"tie": "tie_sag", "tie_sideways": "tie_bow"}
+"""Kinds of coordinates that are the bows of ties [m], down and to the left, and their names."""
+
 
 @dataclass(frozen=True, eq=False)
 class Coordinates:
@@ -155,6 +158,8 @@ class Coordinates:
             "jib_vertical": vertical,
             "counter_jib_vertical": counter_vertical,
         }
+        if crane.tied is not None:
+            modes |= dict(zip(("tower_head", "tie", "tie_sideways"), crane.tied.counts[4:], strict=True))
         return modes if crane.luffing is None else {**modes, "luffing": 1}
 
     @cached_property
@@ -170,6 +175,8 @@ class Coordinates:
         for kind, count in self.counts.items():
             if kind in ANGLES:
                 names |= dict.fromkeys([f"{kind}_angle"][:count], "rad")
+            elif kind in BOWS:
+                names |= {f"{BOWS[kind]}_{i + 1}": "m" for i in range(count)}
             else:
                 names |= {f"{kind}_mode_{i + 1}": "kg^0.5 m" for i in range(count)}
         return names
@@ -197,6 +204,7 @@ class Coordinates:
             np.zeros(counts["slewing"]),
             *(basis.angular_frequencies for basis in bases if basis is not None),
             np.zeros(counts.get("luffing", 0)),
+            *(() if crane.tied is None else (crane.tied.column.angular_frequencies, crane.tied.bows)),
         ])  # fmt: skip
 
     @cached_property

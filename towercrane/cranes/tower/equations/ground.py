@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.body import Body, Carried
     from towercrane.cranes.tower.equations.constants import Constants, Drives
     from towercrane.cranes.tower.equations.head import Head
-    from towercrane.cranes.tower.equations.jib import Sums
     from towercrane.kernels.payload import State
 
 STILL = 0.0, 0.0, 0.0
@@ -47,7 +46,7 @@ def ground_of(crane: Constants, drives: Drives) -> Ground:
 
 
 def shake(
-    crane: Constants, state: State, head: Head, turning: Body, left: Sums, up: Sums, end: Carried, ground: Ground,
+    crane: Constants, state: State, head: Head, turning: Body, drift: Vector, end: Carried, ground: Ground,
     drives: Drives,
 ) -> Shaken:  # fmt: skip
     """What the acceleration of the ground, and floors that move against it, do to the tower; and the power.
@@ -59,8 +58,8 @@ def shake(
     ----------
     turning : Body
         What turns, without trolley.
-    left, up : Sums
-        Of the jib.
+    drift : tuple of 3
+        Rate of its first moments in the head's axes.
     end : Carried
         The trolley.
     """
@@ -76,9 +75,9 @@ def shake(
     mass, (rx, ry, rz) = crane.trolley_mass, end.velocity
     (sx, sy, sz), swept = head.top, cross(head.spin, turning.first)
     momentum = (
-        turning.mass * sx + swept[0] + mass * rx,
-        turning.mass * sy + swept[1] + left.first_rate + mass * ry,
-        turning.mass * sz + swept[2] + up.first_rate + mass * rz,
+        turning.mass * sx + swept[0] + drift[0] + mass * rx,
+        turning.mass * sy + swept[1] + drift[1] + mass * ry,
+        turning.mass * sz + swept[2] + drift[2] + mass * rz,
     )
     return Shaken(forces, power - dot(momentum, head.to_head(ground.acceleration)))
 

@@ -112,7 +112,9 @@ class Joints:
             column, _ = outer.share.turning
             turned = crane.trolley_mass * np.array(column) @ velocity
             for moved, sign in ((rates, 1.0), (0.0 * rates, -1.0)):
-                turned += sign * slewing_torque(crane, outer, moved.tolist(), (-along * n * (sign > 0.0)).tolist())
+                turned += sign * slewing_torque(
+                    outer.share, outer.projected, moved.tolist(), (-along * n * (sign > 0.0)).tolist()
+                )
             found[-1] += polynomial(after[SLEWING], 0.0)[1] * turned
         return found
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 TENSION, INNER_END, OUTER_END, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, TROLLEY_FORCE, GUARDS = range(9)
 """Guards, and how many: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad], way to the
 corner of the drive's coupling from inside and from outside [rad]. Outputs beside them: torque of the slewing drive
-[N m] and force of the trolley's [N]; of a jib with joints the trolley's section follows."""
+[N m] and force of the trolley's [N]; of a jib with joints the trolley's section follows, then tensions of ties."""
 
 
 def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
@@ -35,7 +35,7 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     if found.drive is not None:
         torque, beyond = found.drive.torque, found.drive.beyond
     elif crane.axes == 3:
-        torque = slewing_torque(crane, found, hung.accelerations, [hung.pull(k) for k in axes])
+        torque = slewing_torque(found.share, found.projected, hung.accelerations, [hung.pull(k) for k in axes])
         if crane.slewing == "prescribed":
             _, turning, _ = drives[SLEWING]
             power = power + torque * turning
@@ -47,4 +47,6 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     force = dot([found.path[k] for k in crane.fixed_axes], held)
     slope = slopes(state, hung, hung.power + (power + force * found.trolley.rate))
     margins = [hung.tension, found.trolley.x, crane.jib_length - found.trolley.x, crane.tilt_limit - found.tilt]
-    return slope, [*margins, -beyond, beyond, torque, force, *(found.trolley.section if crane.jointed else ())]
+    section_too = found.trolley.section if crane.jointed else ()
+    tensions = found.taut.tensions if found.taut is not None else ()
+    return slope, [*margins, -beyond, beyond, torque, force, *section_too, *tensions]

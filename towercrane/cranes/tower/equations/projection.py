@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.constants import Constants
     from towercrane.cranes.tower.equations.head import Head
 
+Momenta = tuple[Vector, Vector]
+"""Sums of a coordinate's motion over mass: momentum, and moment of momentum about an origin."""
+
 Motions = tuple[Any, Any, Any, Any, Any]
 """A number for each of the head's own motions u_x, u_y, th_x, th_y and turning."""
 
@@ -108,17 +111,38 @@ def project_bending(
     return found
 
 
+def project_row(head: Head, row: Momenta, end: Vector) -> Projected:
+    """A coordinate of what turns, with what it moves the rope's upper end along the head's axes."""
+    x, y, _ = head.rows
+    momentum, moment = row
+    shared = (
+        dot(x, momentum), dot(y, momentum), dot(head.turn_x, moment), dot(head.turn_y, moment), moment[2],
+    )  # fmt: skip
+    return Projected(shared, 0.0, head.to_fixed(end))
+
+
+def project_carrier(
+    crane: Constants, row: Momenta, axis: int, shape: Any, head: Head, place: Vector, pull: Vector
+) -> Projected:
+    """The same, with a trolley at this place and this force on it, which it moves by ``shape`` along an axis."""
+    end = (0.0, shape, 0.0) if axis == 1 else (0.0, 0.0, shape)
+    (px, py, pz), (mx, my, mz) = row
+    mass, (x, y, z) = crane.trolley_mass, cross(place, end)
+    carried = (px, py + mass * end[1], pz + mass * end[2]), (mx + mass * x, my + mass * y, mz + mass * z)
+    return project_row(head, carried, end)._replace(force=shape * pull[axis])
+
+
 def mass_matrix(crane: Constants, projected: list[Projected], shapes: list[Any]) -> list[list[Any]]:
     """Rows of the lower triangle of the mass matrix; ``shapes`` are those of the jib's modes at the trolley."""
-    movers, lateral = crane.movers, crane.lateral
+    movers = crane.movers
     rows = []
     for i, own in enumerate(projected):
-        # Tower, slewing and jib see each other through the head; jib modes of the two directions do not.
+        # Tower, slewing and jib see each other through the head; what moves to the left and what does not do not.
         row = [
             crane.own_mass[i][m] + dot(own.row, crane.motions[:, m]) for m in range(min(i + 1, movers))
         ]  # fmt: skip
         for m in range(movers, i + 1):
-            if i in lateral or m not in lateral:
+            if crane.across(i) == crane.across(m):
                 own_mass = crane.own_mass[i][m] + crane.rotary_mass[i][m]
                 row.append(own_mass + crane.trolley_mass * shapes[i - movers] * shapes[m - movers])
             else:

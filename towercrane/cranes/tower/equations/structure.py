@@ -24,7 +24,17 @@ from towercrane.cranes.tower.equations.drive import Driven, drive
 from towercrane.cranes.tower.equations.ground import ground_of, shake
 from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.jib import bend, path_of, trolley_of
-from towercrane.cranes.tower.equations.projection import Share, mass_matrix, project_bending, project_mover, share_of
+from towercrane.cranes.tower.equations.projection import (
+    Projected,
+    Share,
+    mass_matrix,
+    project_bending,
+    project_carrier,
+    project_mover,
+    share_of,
+)
+from towercrane.cranes.tower.equations.tied.fields import move_fields
+from towercrane.cranes.tower.equations.tied.ties import Taut, pull_ties
 from towercrane.cranes.tower.equations.wind import press_wind
 from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.payload import State, Structure
@@ -49,9 +59,11 @@ class CraneStructure(NamedTuple):
         Direction of the trolley's path, per way along the jib, in fixed axes.
     share : Share
         What turns.
-    shapes : list
-        Of the jib's modes at the trolley.
+    projected : list of Projected
+        The coordinates.
     drive : Driven or None
+    taut : Taut or None
+        Tie bars.
     """
 
     hanging: Structure
@@ -60,8 +72,9 @@ class CraneStructure(NamedTuple):
     power: Any
     path: Vector
     share: Share
-    shapes: list[Any]
+    projected: list[Projected]
     drive: Driven | None
+    taut: Taut | None
 
 
 def structure(crane: Constants, state: State, drives: Drives, section: Section | None = None) -> CraneStructure:
@@ -74,16 +87,24 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         tuple(gravity * down + own for down, own in zip(head.rows[2], shaken, strict=True))
         for gravity in (crane.self_gravity, crane.gravity)
     )
-    left, up = bend(crane, head, felt, state)
     across, rise = (path_of(crane, modes, trolley, state) for modes in (crane.lateral, crane.vertical))
     end = carried(head, trolley, across, rise)
     pull = tuple(-crane.trolley_mass * (own + fall) for own, fall in zip(end.bias, falls, strict=True))
-    turning = body_of(crane.straight, head, felt, left.sums, up.sums)
+    taut, tied = None, crane.tied
+    if tied is None:
+        left, up = bend(crane, head, felt, state)
+        turning, own_forces = body_of(crane.straight, head, felt, left.sums, up.sums), left.forces + up.forces
+        drift = 0.0, left.sums.first_rate, up.sums.first_rate
+    else:
+        q, rates = state.coordinates[crane.movers :], state.rates[crane.movers :]
+        turning, own_forces, rows, drift = move_fields(tied.fields, head, felt, q, rates)
+        taut = pull_ties(tied, q)
+        own_forces = [own + pulled for own, pulled in zip(own_forces, taut.forces, strict=True)]
     body = turning.with_trolley(crane.trolley_mass, end.place, pull)
 
     power: Any = 0.0
     forces = []
-    bent = [0.0] * crane.movers + left.forces + up.forces
+    bent = [0.0] * crane.movers + own_forces
     for i in range(crane.coordinates):
         loss = crane.damping[i] * state.rates[i]
         power = power - loss * state.rates[i]
@@ -99,16 +120,23 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         body = body.pushed((0.0, blown.side, 0.0), (blown.rolling, 0.0, blown.turning))
 
     if crane.ground:
-        moved = shake(crane, state, head, turning, left.sums, up.sums, end, ground, drives)
+        moved = shake(crane, state, head, turning, drift, end, ground, drives)
         power = power + moved.power
         forces = [force + own for force, own in zip(forces, moved.forces, strict=True)]
 
     share = share_of(head, body, end.place)
     projected = [project_mover(crane, i, share) for i in range(crane.movers)]
-    for modes, axis, crossed, shapes in (
-        (crane.lateral, 1, left.across, across.shapes), (crane.vertical, 2, up.across, rise.shapes),
-    ):  # fmt: skip
-        projected += project_bending(crane, modes, axis, crossed, shapes, head, end.place, pull)
+    shapes = across.shapes + rise.shapes
+    if tied is None:
+        for modes, axis, crossed, own_shapes in (
+            (crane.lateral, 1, left.across, across.shapes), (crane.vertical, 2, up.across, rise.shapes),
+        ):  # fmt: skip
+            projected += project_bending(crane, modes, axis, crossed, own_shapes, head, end.place, pull)
+    else:
+        shapes += [0.0] * (len(rows) - len(shapes))
+        axes_of = [1] * len(crane.lateral) + [2] * (len(rows) - len(crane.lateral))
+        for row, shape, axis in zip(rows, shapes, axes_of, strict=True):
+            projected.append(project_carrier(crane, row, axis, shape, head, end.place, pull))
     forces = [force + own.force for force, own in zip(forces, projected, strict=True)]
     driven = drive(crane, state, drives) if crane.drive is not None else None
     if driven is not None:
@@ -116,7 +144,7 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         forces[turned] = forces[turned] + (driven.torque + driven.friction)
         power = power + driven.power
 
-    axes, shapes = crane.fixed_axes, across.shapes + rise.shapes
+    axes = crane.fixed_axes
     velocity, bias = head.to_fixed(end.velocity), head.to_fixed(end.bias)
     hanging = Structure(
         mass=mass_matrix(crane, projected, shapes),
@@ -128,7 +156,7 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         ground=[ground.acceleration[k] for k in axes],
     )
     path = tuple(row[0] + row[1] * across.slope + row[2] * rise.slope for row in head.rows)
-    return CraneStructure(hanging, trolley, tilt, power, path, share, shapes, driven)
+    return CraneStructure(hanging, trolley, tilt, power, path, share, projected, driven, taut)
 
 
 def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
@@ -147,14 +175,10 @@ def load_force(crane: Constants, wind: Row) -> list[Any]:
     return [*pull[:-1], pull[-1] - crane.load.mass * crane.gravity]
 
 
-def slewing_torque(crane: Constants, found: CraneStructure, accelerations: list[Any], pull: list[Any]) -> Any:
+def slewing_torque(share: Share, projected: list[Projected], accelerations: list[Any], pull: list[Any]) -> Any:
     """Torque that a prescribed slewing takes: the equation of the coordinate that is not free."""
-    column, row = found.share.turning
-    torque = -found.share.forces[4]
-    for i in range(crane.movers):
-        torque = torque + dot(row, crane.motions[:, i]) * accelerations[i]
-    hung = crane.trolley_mass * found.trolley.x
-    for i in crane.lateral:
-        moment = crane.jib_moment[i] + crane.jib_turning[i] + hung * found.shapes[i - crane.movers]
-        torque = torque + moment * accelerations[i]
+    column, _ = share.turning
+    torque = -share.forces[4]
+    for own, acceleration in zip(projected, accelerations, strict=True):
+        torque = torque + own.row[4] * acceleration
     return torque - dot(column, pull)

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modal.beams.beam import Beam
+from modal.beams.chain import Chain
+from modal.beams.segment import Segment
 from modal.beams.shapes import cantilever_modes
-from modal.structures.chain_modes import chain_modes
+from modal.structures.chain_modes import ChainModes, chain_modes
 from modal.structures.part_shapes import gauss
 from towercrane.cranes.parts import wind
 from towercrane.cranes.tower.modes.mass_sums import (
@@ -22,14 +24,18 @@ from towercrane.cranes.tower.modes.mass_sums import (
     uniform_sums,
 )
 from towercrane.cranes.tower.modes.parameters import as_chain
+from towercrane.cranes.tower.modes.tied.head import TiedHead
+from towercrane.cranes.tower.modes.tied.shapes import column_shapes, hinged_shapes
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
-    from modal import Chain, Modes
-    from modal.structures.chain_modes import ChainModes
+    from modal import Modes
     from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.tied.shapes import Pull
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +50,8 @@ class JibShapes:
     counter_lateral, counter_vertical : ChainModes or None
         Of a counter-jib that bends.
     jib, counter : MassSums
-        Over the jib, and over what else turns.
+        Over the jib, and over what else turns but cat-head and ties.
+    tied : TiedHead or None
     """
 
     crane: TowerCrane
@@ -54,6 +61,7 @@ class JibShapes:
     counter_vertical: ChainModes | None
     jib: MassSums
     counter: MassSums
+    tied: TiedHead | None = None
 
     def exposures(self, areas: wind.WindAreas) -> tuple[MassSums, MassSums]:
         """Sums over the drag per squared speed of jib and counter-jib, in place of their mass."""
@@ -78,18 +86,22 @@ class JibShapes:
         return _places(self.lateral, self.counter_lateral, self.vertical, self.counter_vertical)[member]
 
 
-def shapes_of(crane: TowerCrane, modes: ModeCounts) -> JibShapes:
-    """Shapes of a crane's jib and counter-jib, so many of each kind."""
+def shapes_of(crane: TowerCrane, modes: ModeCounts, planes: int = 2) -> JibShapes:
+    """Shapes of a crane's jib and counter-jib, so many of each kind; in two planes ties bow to their sides."""
     lateral: Modes | ChainModes
     vertical: Modes | ChainModes
-    if isinstance(crane.jib, Beam) and isinstance(crane.jib_lateral, Beam | None):
+    bars = crane.tie_bars
+    pulled = ((), ()) if bars is None else (bars.pulls(1.0), bars.pulls(-1.0))
+    if bars is None and isinstance(crane.jib, Beam) and isinstance(crane.jib_lateral, Beam | None):
         lateral = cantilever_modes(crane.jib_lateral or crane.jib, modes.lateral)
         vertical = cantilever_modes(crane.jib, modes.vertical)
         # The shapes do not depend on the bending stiffness: the longer list serves both directions.
         both = max(lateral, vertical, key=lambda m: m.count)
         jib = uniform_sums(crane.jib.length, crane.jib.mass_per_length, both, modes.lateral, modes.vertical)
     else:
-        lateral, vertical, jib = _of_chain(crane.jib, crane.jib_lateral, modes.lateral, modes.vertical)
+        lateral, vertical, jib = _of_chain(
+            crane.jib, crane.jib_lateral, modes.lateral, modes.vertical, pulls=pulled[0]
+        )
     counter_lateral = counter_vertical = None
     mass, moment, inertia = 0.0, 0.0, 0.0
     if crane.counter_jib is None:
@@ -97,20 +109,41 @@ def shapes_of(crane: TowerCrane, modes: ModeCounts) -> JibShapes:
     else:
         members = crane.counter_jib, crane.counter_jib_lateral
         counts = modes.counter_lateral, modes.counter_vertical
-        counter_lateral, counter_vertical, counter = _of_chain(*members, *counts, side=-1.0)
+        counter_lateral, counter_vertical, counter = _of_chain(*members, *counts, side=-1.0, pulls=pulled[1])
     places = _places(lateral, counter_lateral, vertical, counter_vertical)
     rest = rigid_sums(mass, moment, inertia, places["jib"][1], roll=crane.roll_inertia)
     if crane.counter_jib is not None:
         rest = counter.among(*places["counter"]) + rest
-    return JibShapes(crane, lateral, vertical, counter_lateral, counter_vertical, jib.among(*places["jib"]), rest)
+    tied, groups = None, (lateral, vertical, counter_lateral, counter_vertical)
+    if bars is not None:
+        assert isinstance(lateral, ChainModes), "both members are chains"
+        assert isinstance(vertical, ChainModes), "both members are chains"
+        assert counter_lateral is not None, "both members bend"
+        assert counter_vertical is not None, "both members bend"
+        column = Segment(bars.head.height, bars.head.mass_per_length, bars.head.bending_stiffness)
+        tied = TiedHead(
+            bars,
+            (lateral, counter_lateral, vertical, counter_vertical),
+            column_shapes(Chain((column,)), 0),
+            planes > 1,
+        )
+    return JibShapes(crane, *groups, jib.among(*places["jib"]), rest, tied)
 
 
 def _of_chain(
-    vertical: Beam | Chain, lateral: Beam | Chain | None, left: int, up: int, side: float = 1.0
-) -> tuple[ChainModes, ChainModes, MassSums]:
-    """Modes of a member to the left and up, so many of either, and sums over its mass."""
+    vertical: Beam | Chain, lateral: Beam | Chain | None, left: int, up: int, side: float = 1.0,
+    pulls: Sequence[Pull] = (),
+) -> tuple[ChainModes, ChainModes, MassSums]:  # fmt: skip
+    """Modes of a member to the left and up, so many of either, and sums over its mass.
+
+    One that ties pull up hinges at its foot, and has shapes beside the modes.
+    """
     upright, sideways = as_chain(vertical), None if lateral is None else as_chain(lateral)
-    to_left, upward = chain_modes(sideways or upright, left), chain_modes(upright, up)
+    for pull in pulls:
+        upright, _ = upright.with_node(pull.place)
+        sideways = None if sideways is None else sideways.with_node(pull.place)[0]
+    to_left = chain_modes(sideways or upright, left)
+    upward = hinged_shapes(upright, up, pulls) if pulls else chain_modes(upright, up)
     return to_left, upward, chain_sums(upright, sideways, upward, to_left, side)
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.modes.mass_sums import Basis, MassSums
     from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.tied.head import FieldSums, TiedHead
 
     Floats = NDArray[np.float64]
 
@@ -90,6 +91,8 @@ class FlexibleCrane:
         Bending of the counter-jib, from its root outward, to the left and up.
     joints : tuple of float
         Places on the jib, between its ends and ascending, at which its slope or curvature may step [m].
+    tied : TiedHead, optional
+        Cat-head and ties, of jibs that hinge at their feet.
     written : TowerCrane, optional
         The parameters that it is made of; without, it was put together by hand.
 
@@ -121,6 +124,7 @@ class FlexibleCrane:
     counter_lateral: ChainModes | None = None
     counter_vertical: ChainModes | None = None
     joints: tuple[float, ...] = ()
+    tied: TiedHead | None = None
     written: TowerCrane | None = None
 
     def __post_init__(self) -> None:
@@ -131,6 +135,17 @@ class FlexibleCrane:
     def slewing(self) -> MassSums:
         """Sums over all that turns, without trolley and load."""
         return self.jib + self.counter
+
+    @cached_property
+    def tied_sums(self) -> FieldSums:
+        """Sums over the same and over cat-head and ties, of points that move in any direction."""
+        assert self.tied is not None, "the crane has ties"
+        return self.tied.sums(self.slewing)
+
+    @property
+    def turning_mass(self) -> float:
+        """Mass of all that turns, without trolley and load [kg]."""
+        return self.slewing.mass if self.tied is None else self.tied_sums.mass
 
     @property
     def exposure(self) -> MassSums | None:
@@ -228,7 +243,7 @@ def flexible_crane(
     for member, (count, wanted) in described.items():
         if count and getattr(crane, member) is None:
             raise ValueError(f"TowerCrane.{member}: wanted for {count} {wanted} modes, got None")
-    shapes = shapes_of(crane, modes)
+    shapes = shapes_of(crane, modes, planes)
     tower = crane.tower_modes(modes.tower)
     jib_exposure, counter_exposure = None, None
     if areas is not None:
@@ -255,6 +270,7 @@ def flexible_crane(
         counter_lateral=shapes.counter_lateral,
         counter_vertical=shapes.counter_vertical,
         joints=crane.joints,
+        tied=shapes.tied,
         written=crane,
     )
 

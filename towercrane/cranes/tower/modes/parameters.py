@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from modal.beams.torsion import Shaft
     from modal.structures.chain_modes import ChainModes
     from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
+    from towercrane.cranes.tower.modes.tied.bars import TieBars
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +51,9 @@ class TowerCrane:
     luffing : LuffingJib, optional
         Of a jib that pivots and carries no trolley; what depends on its angle is taken at its reference angle.
         Without it the jib is clamped and level.
+    tie_bars : TieBars, optional
+        Cat-head and ties of a crane whose jib and counter-jib, a chain, hinge at their feet: up and down they turn
+        there freely, to their sides they are clamped.
 
     Raises
     ------
@@ -72,6 +76,7 @@ class TowerCrane:
     luffing: LuffingJib | None = None
     counter_jib: Chain | None = None
     counter_jib_lateral: Chain | None = None
+    tie_bars: TieBars | None = None
 
     def __post_init__(self) -> None:
         masses = ("counter_jib_mass_per_length", "counterweight", "trolley_mass", "gravity", "roll_inertia")
@@ -87,6 +92,8 @@ class TowerCrane:
                 )
         if self.counter_jib is not None and (self.counter_jib_mass_per_length or self.counterweight):
             raise ValueError("TowerCrane.counter_jib: wanted its mass in its segments and bodies alone, got it twice")
+        if self.tie_bars is not None and (self.luffing is not None or self.counter_jib is None):
+            raise ValueError("TowerCrane.tie_bars: wanted a jib that does not pivot and a counter-jib that bends")
         if self.counter_jib is not None and self.counter_jib.length != self.counter_jib_length:
             wanted, got = self.counter_jib.length, self.counter_jib_length
             raise ValueError(f"TowerCrane.counter_jib_length: wanted {wanted!r}, that of its segments, got {got!r}")
@@ -140,6 +147,9 @@ class TowerCrane:
         """Places between the ends of the jib at which its sections change or a body sits [m], ascending."""
         members = (self.jib, self.jib_lateral)
         found = {place for member in members if not isinstance(member, Beam | None) for place in member.nodes[1:-1]}
+        if self.tie_bars is not None:
+            # Under a tie the curvature steps.
+            found |= {tie.position for tie in self.tie_bars.jib if tie.position < self.jib.length}
         return tuple(sorted(found))
 
     @property
@@ -147,7 +157,7 @@ class TowerCrane:
         """Mass m_r of everything that turns, without trolley and load [kg]."""
         if self.luffing is not None:
             return self.luffing.standing_sums(self).mass
-        return self.jib_inertia[0] + self.counter_mass
+        return self.jib_inertia[0] + self.counter_mass + self._tied[0]
 
     @property
     def slewing_inertia(self) -> float:
@@ -157,14 +167,19 @@ class TowerCrane:
         """
         if self.luffing is not None:
             return self.luffing.standing_sums(self).zz
-        return self.jib_inertia[2] + self.counter_inertia
+        return self.jib_inertia[2] + self.counter_inertia + self._tied[2]
 
     @property
     def static_moment(self) -> float:
         """First moment S_r of everything that turns about the tower axis, positive towards the jib [kg m]."""
         if self.luffing is not None:
             return self.luffing.standing_sums(self).forward
-        return self.jib_inertia[1] + self.counter_moment
+        return self.jib_inertia[1] + self.counter_moment + self._tied[1]
+
+    @property
+    def _tied(self) -> tuple[float, float, float]:
+        """Mass, first moment and moment of inertia of cat-head and ties about the tower's axis."""
+        return (0.0, 0.0, 0.0) if self.tie_bars is None else self.tie_bars.inertia()
 
     @property
     def tower_mass(self) -> float:

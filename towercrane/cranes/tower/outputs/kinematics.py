@@ -59,7 +59,7 @@ class Kinematics:
     @cached_property
     def trolley(self) -> Trolley:
         """The trolley along the jib; at a joint the guards know on which section."""
-        crane, known = self.seen.crane, self.instant.guards[GUARDS:]
+        crane, known = self.seen.crane, self.instant.guards[GUARDS : GUARDS + 3]
         return trolley_of(crane, self.instant.drives, Section(*known) if crane.jointed and len(known) else None)
 
     @cached_property

@@ -12,18 +12,24 @@ import numpy as np
 
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
 from towercrane.cranes.tower.equations.drive import Driven, drive
-from towercrane.cranes.tower.equations.head import Head, head_of
+from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.luffing.hinge import Hinged, hinge, jib_part, luffing_of, pivot_of
 from towercrane.cranes.tower.equations.luffing.ropes import Held, hold, tied_at, way_to
-from towercrane.cranes.tower.equations.projection import Projected, Share, mass_matrix, project_mover, share_of
-from towercrane.cranes.tower.equations.structure import load_force
-from towercrane.kernels.algebra import Vector, dot
+from towercrane.cranes.tower.equations.projection import (
+    Projected,
+    Share,
+    mass_matrix,
+    project_mover,
+    project_row,
+    share_of,
+)
+from towercrane.cranes.tower.equations.structure import load_force, slewing_torque
+from towercrane.kernels.algebra import dot
 from towercrane.kernels.payload import Rope, State, Structure, hang_load, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.constants import Constants, Drives
-    from towercrane.cranes.tower.equations.luffing.pivot import Coupled
 
 TENSION, HOLDING, STOP, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, GUARDS = range(8)
 """Guards, and how many: tension of the hoist's falls and of the luffing rope [N], way to the jib's stop [rad]; then
@@ -120,25 +126,6 @@ def structure(crane: Constants, state: State, drives: Drives) -> LuffingStructur
     return LuffingStructure(hanging, rope, held, tilt, power, share, projected, hinged, driven)
 
 
-def project_row(head: Head, row: Coupled, end: Vector) -> Projected:
-    """A coordinate of the jib, with what it moves the sheave along the head's axes."""
-    x, y, _ = head.rows
-    momentum, moment = row
-    shared = (
-        dot(x, momentum), dot(y, momentum), dot(head.turn_x, moment), dot(head.turn_y, moment), moment[2],
-    )  # fmt: skip
-    return Projected(shared, 0.0, head.to_fixed(end))
-
-
-def slewing_torque(found: LuffingStructure, accelerations: list[Any], pull: list[Any]) -> Any:
-    """Torque that a prescribed slewing takes: the equation of the coordinate that is not free."""
-    column, _ = found.share.turning
-    torque = -found.share.forces[4]
-    for own, acceleration in zip(found.projected, accelerations, strict=True):
-        torque = torque + own.row[4] * acceleration
-    return torque - dot(column, pull)
-
-
 def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
     """Slopes of the state (q, n, q', p, work), and guards."""
     state, axes = state_of(y, crane.coordinates, crane.axes), range(crane.axes)
@@ -149,7 +136,7 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     if found.driven is not None:
         torque, beyond = found.driven.torque, found.driven.beyond
     elif crane.axes == 3:
-        torque = slewing_torque(found, hung.accelerations, [hung.pull(k) for k in axes])
+        torque = slewing_torque(found.share, found.projected, hung.accelerations, [hung.pull(k) for k in axes])
         if crane.slewing == "prescribed":
             _, turning, _ = drives[SLEWING]
             power = power + torque * turning

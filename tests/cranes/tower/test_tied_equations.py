@@ -1,0 +1,140 @@
+"""Equations of jibs on tie bars against virtual work on positions of points and energies of positions alone."""
+
+import dataclasses
+from functools import cache
+
+import numpy as np
+import pytest
+from oracles.jets import Jet
+from oracles.tied_points import TiedCloud
+from samples import hammerhead as sample
+
+from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.equations.body import body_of
+from towercrane.cranes.tower.equations.head import head_of
+from towercrane.cranes.tower.equations.jib import bend
+from towercrane.cranes.tower.equations.motion import motion
+from towercrane.cranes.tower.equations.tied.constants import Fields
+from towercrane.cranes.tower.equations.tied.fields import move_fields
+from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.modal_crane import flexible_crane
+from towercrane.cranes.tower.modes.mode_counts import ModeCounts
+from towercrane.cranes.tower.modes.tied.head import sums_on_axis
+from towercrane.kernels.payload import Load, State
+
+DRIVE = Drive("slewing", 4e6, 3e7, 0.02, 2e5, "none", 0.0, 1.0)
+
+SCENES = {
+    "head": {"lateral": 1, "aside": 1},
+    "whole": {"tower": 2, "torsion": 1, "aside": 1, "vertical": 2, "back": 1},
+    "planar": {"tower": 2, "lateral": 0, "planes": 1, "slewing": "fixed"},
+    "lossy": {
+        "tower": 1, "lateral": 1, "vertical": 0, "back": 0,
+        "load": Load(5000.0, rope_damping=400.0, drag_area=6.0), "damping": ModalDamping(0.02, 0.01, 0.03, 0.05),
+    },
+    "driven": {"tower": 1, "torsion": 1, "slewing": DRIVE, "drive_inertia": 2e5, "lateral": 1, "back": 0},
+}  # fmt: skip
+
+
+class Moving:
+    """A random state with moving drives, and what both sides say of it."""
+
+    def __init__(self, rng, options):
+        self.model = model = sample.model(**options)
+        self.cloud = TiedCloud(model, options.get("crane", sample.CRANE))
+        n = model.coordinates
+        amplitude = 0.3 * model.system.scale[:n]
+        amplitude[n - model.crane.tied.count :] *= 0.1
+        rest = model.undeformed(np.zeros((len(model.channels), 3)))
+        self.q, self.rates = rest + amplitude * rng.normal(size=n), amplitude * rng.normal(size=n)
+        self.angles, self.angle_rates = rng.uniform([-2.5, -1.0], [2.5, 1.0]), rng.normal(size=2)
+        if model.slewing == "fixed":
+            self.angles[1] = self.angle_rates[1] = 0.0
+        drives = {
+            "trolley": [rng.uniform(2.0, 58.0), rng.normal(), rng.normal()],
+            "rope": [rng.uniform(14, 30), rng.normal(), rng.normal()],
+            "slewing": [rng.uniform(-3, 3), 0.2 * rng.normal(), 0.2 * rng.normal()],
+        }
+        if model.slewing == "fixed":
+            drives["slewing"] = [0.0, 0.0, 0.0]
+        self.extra = np.zeros(n + 2)
+        if model.drive is not None:
+            at = model.parts["slewing"]
+            self.q[at], self.rates[at] = rng.uniform(-3, 3), 0.02 * rng.normal()
+            drives["shaft"] = [float(self.q[at][0]) - 0.01, 0.1, 0.0]
+            self.extra[at] = -DRIVE.soft * 0.01 - DRIVE.damping * (self.rates[at] - 0.1)
+        self.inputs = np.array([drives[channel] for channel in model.channels])
+        self.drives = [Jet(*drives[name]) for name in ("slewing", "trolley", "rope")]
+        (theta, phi), (theta_rate, phi_rate) = self.angles, self.angle_rates
+        s, c, sp, cp = np.sin(theta), np.cos(theta), np.sin(phi), np.cos(phi)
+        e_theta, e_phi = np.array([c, 0, s]), np.array([-s * sp, cp, c * sp])
+        rope = np.array([s * cp, sp, -c * cp])
+        swing = cp * theta_rate * e_theta + phi_rate * e_phi
+        axes = [0, 1, 2] if model.axes == 3 else [0, 2]
+        self.state = np.concatenate([self.q, rope[axes], self.rates, swing[axes], [0.0]])
+        self.slope, self.guards = (np.array(row) for row in motion(model.constants, 0.0, self.state, self.inputs))
+        bending = np.zeros(3)
+        bending[axes] = self.slope[2 * n + len(axes) : -1]
+        self.found = np.concatenate([
+            self.slope[n + len(axes) : 2 * n + len(axes)],
+            [bending @ e_theta / cp + 2 * theta_rate * phi_rate * sp / cp, bending @ e_phi - theta_rate**2 * sp * cp],
+        ])  # fmt: skip
+
+    def drawn(self):
+        return np.concatenate([self.q, self.angles]), np.concatenate([self.rates, self.angle_rates])
+
+
+@cache
+def states(name):
+    rng = np.random.default_rng(5)
+    options = SCENES[name]
+    axes = {"axes": 2} if options.get("planes") == 1 else {}
+    return [Moving(rng, {**options, **axes})]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_accelerations_and_tensions_follow_from_positions_and_energies(name):
+    for at in states(name):
+        columns = at.cloud.displace(at.drawn()[0], at.drives)
+        expected, mass = at.cloud.accelerations(*at.drawn(), at.drives, columns, np.zeros(3), at.extra)
+        size = np.sqrt(np.diag(mass))
+        assert np.max(abs(at.found - expected) * size) < 1e-10 * np.max(abs(expected) * size)
+        at.cloud.energy([Jet(value) for value in at.q])
+        assert np.allclose(at.guards[-len(at.cloud.tensions) :], at.cloud.tensions, rtol=1e-10)
+
+
+def test_points_that_move_across_an_axis_are_the_plain_jib():
+    """Sections that turn about their own axes among them."""
+    heavy = {
+        name: dataclasses.replace(
+            chain, segments=tuple(dataclasses.replace(own, rotary_inertia=300.0) for own in chain.segments)
+        )
+        for name, chain in (("jib", sample.JIB), ("jib_lateral", sample.SIDEWAYS), ("counter_jib", sample.COUNTER),
+                            ("counter_jib_lateral", sample.COUNTER))
+    }  # fmt: skip
+    plain = dataclasses.replace(sample.CRANE, tie_bars=None, roll_inertia=4e4, **heavy)
+    model = FlexibleModel(flexible_crane(plain, ModeCounts(1, 1, 2, 2, 1, 1)), Load(2000.0))
+    crane, n = model.constants, model.coordinates
+    rng = np.random.default_rng(2)
+    q, rates = model.system.scale[:n] * rng.normal(size=(2, n))
+    state = State(list(q), (), (), list(rates), (), ())
+    head, _ = head_of(crane, state, [(20.0, 0.0, 0.0), (10.0, 0.0, 0.0), (0.4, 0.3, 0.2)])
+    felt = tuple(9.81 * down for down in head.rotation[6:])
+    left, up = bend(crane, head, felt, state)
+    expected = body_of(crane.straight, head, felt, left.sums, up.sums)
+    sums = sums_on_axis(model.crane.slewing, 3, 6)
+    own = Fields(sums.mass, sums.first, sums.inertia, sums.momentum, sums.moved, sums.products, sums.spun)
+    body, forces, rows, rate = move_fields(own, head, felt, q[-6:], rates[-6:])
+    assert np.allclose(rate, (0.0, left.sums.first_rate, up.sums.first_rate), rtol=1e-12)
+    for one, other in zip(body, expected, strict=True):
+        assert np.allclose(one, other, rtol=1e-12, atol=1e-12 * np.max(np.abs(other)))
+    assert np.allclose(forces, left.forces + up.forces, rtol=1e-12, atol=1e-12 * np.max(np.abs(forces)))
+    arms = [
+        (-c, 0.0, b)
+        for b, c in zip((crane.jib_moment + crane.jib_turning)[list(crane.lateral)], left.across, strict=True)
+    ]
+    arms += [(c, -b, 0.0) for b, c in zip((crane.jib_moment + crane.jib_turning)[list(crane.vertical)], up.across,
+                                          strict=True)]  # fmt: skip
+    assert np.allclose([moment for _, moment in rows], arms, rtol=1e-12, atol=1e-9)
+    assert np.allclose(np.sum([momentum for momentum, _ in rows], axis=1), crane.jib_mass[-6:], rtol=1e-12)

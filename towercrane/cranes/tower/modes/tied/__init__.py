@@ -1,0 +1,1 @@
+"""Jibs on tie bars: their data, shapes and sums. Never imports equations of motion, files or outputs."""

@@ -1,0 +1,161 @@
+"""Tower crane whose jibs hang on tie bars, with its load: its equations of motion, and what a run shows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from towercrane.cranes.tower.equations.constants import Constants, constants_of
+from towercrane.cranes.tower.equations.tied.constants import Fields, Tied
+from towercrane.cranes.tower.equations.tied.ties import pull_ties, span_of
+from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.simulation.differences import jacobian
+from towercrane.simulation.outcomes import SLACK_TIE
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
+    from towercrane.cranes.tower.modes.tied.head import TiedHead
+    from towercrane.simulation.system import System
+
+    Floats = NDArray[np.float64]
+
+MOST_STEPS = 30
+"""Of Newton's method for the pretension."""
+
+
+class NoPretension(ArithmeticError):
+    """The ties cannot hold the crane's own weight under tension."""
+
+
+def tied_of(crane: FlexibleCrane, gravity: float, stiffness: Floats) -> tuple[Tied, Floats]:
+    """Ties as the equations know them, and the coordinates on the head under the crane's own weight alone.
+
+    A tie whose pretension is not stated pulls so that its member is level there.
+
+    Parameters
+    ----------
+    crane : FlexibleCrane
+    gravity : float
+        [m/s^2]
+    stiffness : ndarray, shape (n, n)
+        Of the coordinates on the head.
+
+    Raises
+    ------
+    NoPretension
+        If a tension comes out zero or less, or none is found.
+    """
+    head, sums = _head_of(crane), crane.tied_sums
+    upper, lower = head.ends()
+    along, across = head.bowing()
+    bars, count = head.bars.ties, len(head.bars.ties)
+    stated = np.array([np.nan if tie.pretension is None else tie.pretension for tie in bars])
+    found = Tied(
+        sags=head.part(5).start,
+        fields=Fields(sums.mass, sums.first, sums.inertia, sums.momentum, sums.moved, sums.products, sums.spun),
+        spans=head.bars.spans, ends=lower - upper, along=along, across=across, lengths=head.lengths,
+        reference=np.zeros(count), pretension=np.zeros(count), slack=np.zeros(count),
+        stiffness=np.asarray(np.linalg.inv(head.bars.compliance)),
+    )  # fmt: skip
+    # What weight takes from a tie's sag is what the tension in that sag resists.
+    weight = -gravity * sums.momentum[:, 2]
+    sagging = weight[head.part(5)]
+    level = lower[np.arange(count), :, 2]
+    q, tensions = np.zeros(head.count), np.where(np.isnan(stated), 0.0, stated)
+    free = np.flatnonzero(np.isnan(stated))
+    bent = slice(0, head.part(5).start)
+    for _ in range(MOST_STEPS):
+        spans = [span_of(found, k, q) for k in range(count)]
+        slopes = np.array([span.slopes for span in spans])
+        rest = weight - stiffness @ q - tensions @ slopes
+        curved = np.array([curvature(found, k, q) for k in range(count)])
+        tangent = stiffness + np.einsum("k,kij->ij", tensions, curved)
+        size, many = bent.stop, len(free)
+        matrix = np.zeros((size + many, size + many))
+        matrix[:size, :size] = tangent[bent, bent]
+        matrix[:size, size:], matrix[size:, :size] = slopes[free][:, bent].T, level[free][:, bent]
+        step = np.linalg.solve(matrix, np.concatenate([rest[bent], -(level @ q)[free]]))
+        q[bent] += step[:size]
+        tensions[free] += step[size:]
+        if np.max(abs(step[size:]), initial=0.0) < 1e-9 * np.max(tensions) and np.max(abs(step[:size])) < 1e-9:
+            break
+    else:
+        raise NoPretension("no tensions were found that hold the crane's own weight")
+    if np.any(tensions <= 0.0):
+        raise NoPretension(f"the ties would pull with {', '.join(f'{1e-3 * t:.4g}' for t in tensions)} kN")
+    reference = np.array([span_of(found, k, q).length for k in range(count)])
+    return replace(found, reference=reference, pretension=tensions, slack=sagging / tensions), q
+
+
+def curvature(tied: Tied, k: int, q: Floats) -> Floats:
+    """Second derivatives of a tie's length, shape (n, n)."""
+    span = span_of(tied, k, q)
+    moved = np.array(tied.ends[k])
+    moved[:, 0] += tied.along[k] @ q
+    moved[:, 2] += tied.across[k] @ q
+    slopes, (u, _, w) = np.array(span.slopes), span.direction
+    return np.asarray(
+        (moved @ moved.T - np.outer(slopes, slopes)) / span.length + u * tied.along[k] + w * tied.across[k]
+    )
+
+
+def _head_of(crane: FlexibleCrane) -> TiedHead:
+    assert crane.tied is not None, "the crane has ties"
+    return crane.tied
+
+
+@dataclass(frozen=True, eq=False)
+class TiedModel(FlexibleModel):
+    """A tower crane whose jibs hang on tie bars, as a simulation asks for it."""
+
+    @cached_property
+    def _at_rest_alone(self) -> tuple[Tied, Floats]:
+        carried = slice(self.coordinates - _head_of(self.crane).count, self.coordinates)
+        return tied_of(self.crane, self.crane.gravity, np.diag(self.angular_frequencies[carried] ** 2))
+
+    @cached_property
+    def constants(self) -> Constants:
+        """Constants of the equations."""
+        return replace(constants_of(self), tied=self._at_rest_alone[0])
+
+    @cached_property
+    def system(self) -> System:
+        """The model as the solver sees it."""
+        fixed, ties = super().system, self.counts["tie"]
+        return replace(
+            fixed, guards=(*fixed.guards, *[SLACK_TIE] * ties), floors=np.append(fixed.floors, np.zeros(ties))
+        )
+
+    @cached_property
+    def fastest(self) -> float:
+        """Highest angular frequency of its small motions [rad/s], as it hangs in its ties without load."""
+        from scipy.linalg import eigh
+
+        inputs = np.zeros((len(self.channels), 3))
+        inputs[1, 0] = 1.0
+        there = self.undeformed(inputs)
+        held = self.constants.stiffness.copy()
+        carried = slice(self.coordinates - len(self._at_rest_alone[1]), self.coordinates)
+        tied, q = self._at_rest_alone
+
+        def forces(places: Floats) -> Floats:
+            return np.array([pull_ties(tied, own).forces for own in places.T]).T
+
+        slope, _ = jacobian(forces, q, self.system.scale[carried])
+        held[carried, carried] -= 0.5 * (slope + slope.T)
+        if self.drive is not None:
+            turned = self.parts["slewing"].start
+            held[turned, turned] += max(self.drive.soft, self.drive.stiff)
+        mass = self.at_rest(there, inputs).mass_matrix()
+        return float(np.sqrt(max(eigh(held, mass, eigvals_only=True)[-1], 0.0)))
+
+    def undeformed(self, inputs: Floats) -> Floats:
+        """Coordinates of the crane as its drives and ties hold its own weight, its tower straight."""
+        origin = super().undeformed(inputs)
+        origin[-len(self._at_rest_alone[1]) :] = self._at_rest_alone[1]
+        return origin
