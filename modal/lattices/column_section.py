@@ -1,18 +1,14 @@
-"""Square laced column as sections of chords and walls: in space, and in torsion as one shaft."""
+"""Square laced column as sections of chords and walls."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from modal.lattices.section import LatticeSection
 from modal.lattices.walls import Chord
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from modal.lattices.lattice import LacedColumn
     from modal.lattices.walls import Wall
 
@@ -59,20 +55,3 @@ def column_parts(
         (height / count, column_section(column, column.leg_spacing + change * (k + 0.5) / count, change / height))
         for k in range(count)
     ]
-
-
-def shaft_of(parts: Sequence[tuple[float, float, float]]) -> tuple[float, float]:
-    """Torsional stiffness [N m^2] and inertia per length [kg m] of the uniform shaft that stands for several.
-
-    It twists as they do by a torque at the end, and turning so it has their kinetic energy.
-
-    Parameters
-    ----------
-    parts : sequence of (float, float, float)
-        From the foot up: length [m], torsional stiffness [N m^2], inertia per length [kg m].
-    """
-    lengths, stiffnesses, inertias = np.array(parts).T
-    twists = np.concatenate([[0.0], np.cumsum(lengths / stiffnesses)])
-    total, (below, above) = lengths.sum(), (twists[:-1] / twists[-1], twists[1:] / twists[-1])
-    squares = (below**2 + below * above + above**2) / 3.0
-    return float(total / twists[-1]), float(3.0 * squares @ (inertias * lengths) / total)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.lattices.column_section import column_parts, shaft_of
+from modal.lattices.column_section import column_parts
 from modal.lattices.space import beam_of, frame_of_round
 
 if TYPE_CHECKING:
@@ -49,21 +49,6 @@ def column_beam(truss: ColumnTruss, elements: int = 24) -> SpaceBeam:
         factors += [1.0 if stated is None else stated * column.height / own] * elements
         last, column = column.column.panel_height, column.above
     return beam_of(sections, column_frame(truss), 0.5 * last, np.array(factors))
-
-
-def column_shaft(truss: ColumnTruss) -> tuple[float, float]:
-    """Torsional stiffness [N m^2] and inertia per length [kg m] of the uniform shaft that stands for a column.
-
-    See `modal.lattices.column_section.shaft_of`; diaphragms are taken to keep the column's levels square.
-    """
-    parts: list[tuple[float, float, float]] = []
-    column: ColumnTruss | None = truss
-    while column is not None:
-        for length, section in column_parts(column.column, column.height, column.top_ratio):
-            share = 1.0 if column.mass_per_length is None else column.mass_per_length / section.mass_per_length
-            parts.append((length, section.torsional_stiffness, share * section.rotary_inertias[2]))
-        column = column.above
-    return shaft_of(parts)
 
 
 def _masses(truss: ColumnTruss) -> Floats:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot, sqrt
+from math import sqrt
 from typing import Literal, get_args
 
 from modal.beams.segment import Segment
@@ -104,11 +104,6 @@ class LacedColumn:
     def lacing_area(self) -> float:
         """Area of all diagonals that a horizontal cut meets in the two faces along the shear, A_1 [m^2]."""
         return (4.0 if self.lacing == "X" else 2.0) * self.diagonal_area
-
-    @property
-    def diagonal_length(self) -> float:
-        """Length of a diagonal between nodes [m]."""
-        return hypot(self.panel_height, self.leg_spacing)
 
     @property
     def wall(self) -> Wall:
