@@ -13,6 +13,8 @@ from samples import luffing_crane as sample
 
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.luffing import motion as luffing
+from towercrane.cranes.tower.equations.luffing.pivot import pivot_at
+from towercrane.cranes.tower.equations.luffing.ropes import tied_at, way_to
 from towercrane.cranes.tower.equations.structure import structure
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
@@ -120,6 +122,20 @@ def test_accelerations_follow_from_positions_and_energies(name):
         expected, mass = at.cloud.accelerations(*at.drawn(), at.drives, at.columns, np.zeros(3), at.extra)
         size = np.sqrt(np.diag(mass))
         assert np.max(abs(at.found - expected) * size) < 1e-11 * np.max(abs(expected) * size)
+
+
+def test_ways_of_ropes_over_the_head_follow_from_places():
+    for at in states("whole"):
+        own, model = at.model.constants.luffing, at.model
+        moving = [Jet(q, rate) for q, rate in zip(at.q, at.rates, strict=True)]
+        expected = at.cloud.ways(at.cloud.split(moving), moving[-1])
+        part, pivot = slice(model.constants.movers, -1), pivot_at(at.q[-1], at.rates[-1])
+        for anchor, above, way in zip(
+            (own.frame_head, own.winch), (own.attachment, 0.0), expected, strict=True
+        ):  # fmt: skip
+            found = way_to(own, anchor, tied_at(own, at.q[part], at.rates[part], above), pivot)
+            assert_allclose([found.length, found.rate], [jet.item() for jet in way.c[:2]], rtol=1e-12, atol=1e-12)
+            assert abs(found.bias - 2.0 * way.c[2].item()) < 1e-11 * abs(found.bias)
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from modal.beams.beam import EndBody
 from towercrane.cranes.tower.modes.chord_shapes import ChordShapes
+from towercrane.cranes.tower.modes.collars import collars_of
 from towercrane.cranes.tower.modes.mass_sums import point_sums, rigid_sums
-from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane, torsion_of
+from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane, check_described, torsion_of
 from towercrane.cranes.tower.modes.parameters import modes_of
 
 if TYPE_CHECKING:
@@ -48,7 +49,13 @@ def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> Flexible
     modes : ModeCounts
     planes : {1, 2}
         Directions in which the tower bends.
+
+    Raises
+    ------
+    ValueError
+        If there are modes of a member that the crane does not describe.
     """
+    check_described(crane, modes)
     own = luffing_of(crane)
     jib, lateral_jib = crane.uniform_jib, crane.jib_lateral
     lateral = modes_of(lateral_jib or jib, modes.lateral, EndBody(own.tip_mass))
@@ -67,6 +74,8 @@ def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> Flexible
         tower_mass=crane.tower_mass,
         trolley_mass=0.0,
         planes=planes,
+        tower_moment=crane.tower_moment,
+        collars=collars_of(crane),
         gravity=crane.gravity,
         luffing=own,
         written=crane,

@@ -235,14 +235,7 @@ def flexible_crane(
     ValueError
         If there are modes of a member that the crane does not describe.
     """
-    described = {
-        "shaft": (modes.torsion, "torsion"), "jib_lateral": (modes.lateral, "lateral"),
-        "counter_jib_lateral": (modes.counter_lateral, "lateral"),
-        "counter_jib": (modes.counter_vertical, "vertical"),
-    }  # fmt: skip
-    for member, (count, wanted) in described.items():
-        if count and getattr(crane, member) is None:
-            raise ValueError(f"TowerCrane.{member}: wanted for {count} {wanted} modes, got None")
+    check_described(crane, modes)
     shapes = shapes_of(crane, modes, planes)
     tower = crane.tower_modes(modes.tower)
     jib_exposure, counter_exposure = None, None
@@ -273,6 +266,23 @@ def flexible_crane(
         tied=shapes.tied,
         written=crane,
     )
+
+
+def check_described(crane: TowerCrane, modes: ModeCounts) -> None:
+    """Refuse modes of a member that the crane does not describe.
+
+    Raises
+    ------
+    ValueError
+    """
+    described = {
+        "shaft": (modes.torsion, "torsion"), "jib_lateral": (modes.lateral, "lateral"),
+        "counter_jib_lateral": (modes.counter_lateral, "lateral"),
+        "counter_jib": (modes.counter_vertical, "vertical"),
+    }  # fmt: skip
+    for member, (count, wanted) in described.items():
+        if count and getattr(crane, member) is None:
+            raise ValueError(f"TowerCrane.{member}: wanted for {count} {wanted} modes, got None")
 
 
 def torsion_of(crane: TowerCrane, count: int) -> TorsionBasis:
