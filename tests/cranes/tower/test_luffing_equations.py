@@ -12,6 +12,7 @@ from oracles.luffing_points import LuffingCloud
 from samples import luffing_crane as sample
 
 from towercrane.cranes.slewing.description import Drive
+from towercrane.cranes.tower.equations.constants import SLIDE_X, SLIDE_Y
 from towercrane.cranes.tower.equations.luffing import motion as luffing
 from towercrane.cranes.tower.equations.luffing.pivot import pivot_at
 from towercrane.cranes.tower.equations.luffing.ropes import tied_at, way_to
@@ -177,6 +178,43 @@ def test_the_base_carries_what_moves_above_it(name):
         base = [seen[name].values[0] for name in names]
         expected = moments[[1]] if model.axes == 2 else moments
         assert np.max(abs(base + expected)) < 1e-11 * sizes
+
+
+def along(direction):
+    """Numbers of a list of Jets."""
+    return np.array([jet.c[0] for jet in direction]).ravel()
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_foot_carries_jib_load_and_both_ropes(name):
+    for at in states(name):
+        at.left_over()
+        felt, points, own = at.cloud.felt, at.cloud.now, at.cloud.own
+        part, angle = at.cloud.split([Jet(q) for q in at.q]), at.q[-1]
+        axes = np.array([along(row) for row in at.cloud.axes])
+        top = np.zeros(3)
+        top[:2] = at.model.constants.motions[[SLIDE_X, SLIDE_Y]] @ at.q
+
+        def fixed(x, z, axes=axes, top=top):
+            return top + axes @ [x, 0.0, z]
+
+        foot = fixed(*own.foot)
+        loads = [(cloud.derivative(0), -felt[k]) for k, cloud in points.items() if k in ("jib", "sheaves", "load")]
+        for anchor, above, tension in (
+            (own.winch, 0.0, at.guards[luffing.TENSION] / own.falls),
+            (own.frame_head, own.attachment, at.guards[luffing.HOLDING]),
+        ):
+            head = top + axes @ along(at.cloud.on_jib(Jet(angle), *at.cloud.tied(part, above)))
+            way = fixed(*anchor) - head
+            loads.append((head[None], tension * way[None] / np.linalg.norm(way)))
+        force = sum(pushed.sum(axis=0) for _, pushed in loads)
+        moment = sum(np.cross(place - foot, pushed).sum(axis=0) for place, pushed in loads)
+        sizes = sum(abs(np.cross(place - foot, pushed)).sum() for place, pushed in loads)
+        seen = at.observed()
+        chord, square = axes @ [np.cos(angle), 0.0, np.sin(angle)], axes @ [-np.sin(angle), 0.0, np.cos(angle)]
+        assert abs(seen["jib_compression"].values[0] + force @ chord) < 1e-11 * sizes
+        if "jib_root_moment_sideways" in seen:
+            assert abs(seen["jib_root_moment_sideways"].values[0] + moment @ square) < 1e-11 * sizes
 
 
 def test_a_jib_held_level_at_the_tower_is_one_with_its_trolley_at_the_end():

@@ -14,7 +14,7 @@ from towercrane.cranes.tower.modes.mass_sums import Straight
 from towercrane.cranes.tower.outputs import energy
 from towercrane.cranes.tower.outputs.observed import OUTPUTS, Outputs, Sight
 from towercrane.cranes.tower.outputs.sections import Sections
-from towercrane.kernels.algebra import cross, dot, form
+from towercrane.kernels.algebra import Vector, cross, dot, form
 from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.tower.equations.body import Body, Carried
     from towercrane.cranes.tower.equations.luffing.constants import Luffing
+    from towercrane.cranes.tower.equations.luffing.pivot import Coupled
     from towercrane.cranes.tower.outputs.kinematics import Pair
     from towercrane.cranes.tower.outputs.seen import Seen
     from towercrane.simulation.observed import Instant
@@ -99,23 +100,58 @@ class LuffingSections(Sections):
     at: LuffingSight
 
     @cached_property
+    def hinged(self) -> Hinged:
+        """Jib and head, the head with its whole angular acceleration."""
+        return hinge(self.at.seen.crane, self.head, self.at.state)
+
+    @cached_property
+    def top_acceleration(self) -> Vector:
+        """That of the tower's top, in the head's axes."""
+        along_x, along_y, *_ = self.top
+        return self.head.to_head((along_x, along_y, 0.0))
+
+    @cached_property
     def tower_top(self) -> Body:
         """What is beyond the top of the tower: all that turns, and the load."""
-        at, crane = self.at, self.at.seen.crane
-        hinged = hinge(crane, self.head, at.state)
-        body, place = hinged.body, hinged.end.place
-        along_x, along_y, *_ = self.top
-        top = self.head.to_head((along_x, along_y, 0.0))
-        force = tuple(own - body.mass * a for own, a in zip(body.force, top, strict=True))
-        moment = tuple(own - arm for own, arm in zip(body.moment, cross(body.first, top), strict=True))
+        body = self._moving(self.hinged.body, self.hinged.rows, self.top_acceleration)
         pull, couple = self.hung
-        moved = self.accelerations[crane.movers :]
-        momentum = (dot([row.momentum[k] for row in hinged.rows], moved) for k in range(3))
-        moment_of_it = (dot([row.moment[k] for row in hinged.rows], moved) for k in range(3))
-        x, y, z = (own + more - a for own, more, a in zip(force, pull, momentum, strict=True))
-        turns = zip(moment, couple, cross(place, pull), moment_of_it, strict=True)
-        rolling, pitching, turning = (own + more + arm - a for own, more, arm, a in turns)
-        return body._replace(force=(x, y, z), moment=(rolling, pitching, turning))
+        return body.pushed(pull, sum_of(cross(self.hinged.end.place, pull), couple))
+
+    @cached_property
+    def foot(self) -> Body:
+        """What is beyond the jib's foot, with both ropes: about the foot along the jib's axes."""
+        at, own, pivot = self.at, self.at.own, self.at.pivot
+        jib = self._moving(self.hinged.jib, self.hinged.jib_rows, pivot.to_jib(self.top_acceleration))
+        q, qd = jib_part(at.seen.crane, at.state)
+        pull, couple = self.hung
+        held = [(tied_at(own, q, qd, 0.0).place, pivot.to_jib(pull))]
+        for anchor, above, tension in (
+            (own.winch, 0.0, at.instant.guards[TENSION] / own.falls),
+            (own.frame_head, own.attachment, at.instant.guards[HOLDING]),
+        ):
+            tied = tied_at(own, q, qd, above)
+            x, y, z = way_to(own, anchor, tied, pivot).direction
+            held.append((tied.place, (-tension * x, -tension * y, -tension * z)))
+        for place, force in held:
+            jib = jib.pushed(force, cross(place, force))
+        return jib.pushed((0.0, 0.0, 0.0), pivot.to_jib(couple))
+
+    def _moving(self, body: Body, rows: list[Coupled], top: Vector) -> Body:
+        """A body with the inertia of all accelerations, that of the tower's top along its own axes."""
+        moved = self.accelerations[self.at.seen.crane.movers : self.at.seen.crane.coordinates]
+        (x, y, z), (u, v, w) = (
+            (dot([row[k][0] for row in rows], moved), dot([row[k][1] for row in rows], moved),
+             dot([row[k][2] for row in rows], moved))
+            for k in (0, 1)
+        )  # fmt: skip
+        arm, mass = cross(body.first, top), body.mass
+        force = -(x + mass * top[0]), -(y + mass * top[1]), -(z + mass * top[2])
+        return body.pushed(force, (-(u + arm[0]), -(v + arm[1]), -(w + arm[2])))
+
+
+def sum_of(one: Vector, other: Vector) -> Vector:
+    """Sum of two vectors."""
+    return one[0] + other[0], one[1] + other[1], one[2] + other[2]
 
 
 Read = dict[str, tuple["Callable[[Any], Any]", About]]
@@ -139,12 +175,20 @@ OWN: Read = {
         lambda at: at.deflection(at.own.middle, at.state.coordinates)[1],
         About("m", "deflection of the jib's middle from the chord, positive up"),
     ),
+    "jib_compression": (
+        lambda at: -at.sections.foot.force[0],
+        About("N", "force along the chord by which the jib presses on its foot"),
+    ),
+    "jib_root_moment_sideways": (
+        lambda at: -at.sections.foot.moment[2],
+        About("N m", "bending moment at the jib's foot, positive where it speeds the jib up in the turning sense"),
+    ),
     "total_energy": (lambda at: at.energies, About("J", "kinetic and potential energy")),
 }  # fmt: skip
 
 LEFT_OUT = (
     "trolley_position", "trolley_speed", "trolley_force", "jib_tip_deflection", "jib_root_moment",
-    "jib_root_moment_sideways", "wind_x", "wind_y", "wind_z",
+    "wind_x", "wind_y", "wind_z",
 )  # fmt: skip
 """Outputs of cranes with a trolley that these have not."""
 

@@ -82,6 +82,7 @@ PICTURES: Pictures = {
                 {"jib_tip_deflection": "up", "jib_tip_deflection_sideways": "in the turning sense"},
             ),
             Panel("jib's middle [mm]", 1e3, {"jib_deflection": "up from the chord"}),
+            Panel("compression [kN]", 1e-3, {"jib_compression": "of the jib at its foot"}),
             Panel(
                 "jib root [kN m]",
                 1e-3,

@@ -53,8 +53,10 @@ class Hinged(NamedTuple):
         All that turns, about the tower's top along the head's axes.
     end : Carried
         The sheave at the jib's head, where the rope hangs from; in the head's axes.
-    rows : list of Coupled
-        Of the jib's modes and of its angle, as the body.
+    jib : Body
+        The jib alone, about its foot along its axes.
+    rows, jib_rows : list of Coupled
+        Of the jib's modes and of its angle, as the body and as the jib.
     ends : list of tuple of 3
         What each of them moves the sheave.
     forces : list
@@ -65,7 +67,9 @@ class Hinged(NamedTuple):
 
     body: Body
     end: Carried
+    jib: Body
     rows: list[Coupled]
+    jib_rows: list[Coupled]
     ends: list[Vector]
     forces: list[Any]
     pitching: list[Any]
@@ -99,6 +103,8 @@ def hinge(crane: Constants, head: Head, state: State) -> Hinged:
     return Hinged(
         body=joined(rest, seen_from_head(jib, pivot, foot.place)),
         end=carried_at(head, frame, pivot, foot.place, foot.bias, sheave),
+        jib=jib,
+        jib_rows=rows,
         rows=[row.seen_from_head(pivot, foot.place) for row in rows],
         ends=[pivot.to_head(moved) for moved in (*sheave.moved, raised(sheave.place))],
         forces=[*left.forces, *up.forces, -jib.moment[1]],

@@ -32,13 +32,15 @@ class Tied(NamedTuple):
 class Way(NamedTuple):
     """Length of a rope's way over the head, its rate, its acceleration while no rate changes.
 
-    ``moved`` is what each of the jib's modes, then its angle, adds to the length.
+    ``moved`` is what each of the jib's modes, then its angle, adds to the length; ``direction`` is towards the jib's
+    head, along the jib's axes.
     """
 
     length: Any
     rate: Any
     bias: Any
     moved: list[Any]
+    direction: Vector
 
 
 def tied_at(own: Luffing, q: Row, qd: Row, above: Any) -> Tied:
@@ -75,7 +77,7 @@ def way_to(own: Luffing, anchor: Row, tied: Tied, pivot: Pivot) -> Way:
     ]
     rate = dot(direction, rates)
     bias = dot(direction, biases) + (dot(rates, rates) - rate * rate) / length
-    return Way(length, rate, bias, [dot(direction, moved) for moved in (*tied.moved, lifted)])
+    return Way(length, rate, bias, [dot(direction, moved) for moved in (*tied.moved, lifted)], direction)
 
 
 def from_anchor(own: Luffing, anchor: Row, pivot: Pivot) -> tuple[Any, Any]:
