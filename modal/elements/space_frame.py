@@ -132,7 +132,10 @@ class SpaceFrame:
     def _solve(self) -> Any:
         solve = factorised(self.matrices[0][self._free][:, self._free])
         if solve is None:
-            raise ValueError("frame: wanted members that hold every node, got a frame that moves without strain")
+            raise ValueError(
+                "frame: wanted members that hold every node, got one that moves without strain; "
+                "has a wall of zigzag lacing no posts?"
+            )
         return solve
 
     @cached_property

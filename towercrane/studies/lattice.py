@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from math import pi
+from math import isnan, pi
 from typing import TYPE_CHECKING, Any
 
 from modal.lattices.lattice_comparison import compare_truss
@@ -16,6 +16,9 @@ from towercrane.cranes.tower.file.members import tower_truss
 from towercrane.cranes.tower.file.requests import left_out_in_plane
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from modal.lattices.space_comparison import SpaceModel
     from towercrane.cases.case import Case
 
 TUBE = 10.0
@@ -32,7 +35,7 @@ def lattice_report(case: Case) -> dict[str, Any]:
         relative to the truss, seconds; empty where the tower has no lattice. ``lattices``, each with name, length,
         whether both planes are alike, and models: in space, pinned, with rigid joints and as a beam, of a jib also as
         the beams of each plane that results rest on. Models have deflections of the tip per force [m/N] and its twist
-        per torque [rad/(N m)], frequencies by kind [Hz], seconds; NaN is what a model does not say. ``tube``, the
+        per torque [rad/(N m)], frequencies by kind [Hz], seconds; None is what a model does not say. ``tube``, the
         diameter over wall of members with rigid joints; ``height_m`` of the tower's truss, which has whole panels and
         neither the tower's bodies nor its foundation; ``left_out``, ``assumed``.
 
@@ -59,17 +62,7 @@ def lattice_report(case: Case) -> dict[str, Any]:
                 "name": lattice.name,
                 "length_m": lattice.length,
                 "planes_alike": lattice.planes is None,
-                "models": [
-                    {
-                        "name": model.name,
-                        "deflections": dict(
-                            zip(("vertical", "lateral", "twist"), model.answers.deflections, strict=True)
-                        ),
-                        "frequencies_hz": model.answers.frequencies_hz,
-                        "seconds": model.seconds,
-                    }
-                    for model in in_space
-                ],
+                "models": [_in_space(model) for model in in_space],
             }
         )
     if not found:
@@ -86,4 +79,18 @@ def lattice_report(case: Case) -> dict[str, Any]:
         "assumed": as_entries(
             a for a in case.assumed if a.key.startswith(("crane.tower.", "crane.counter_jib.", "crane.jib."))
         ),
+    }
+
+
+def _in_space(model: SpaceModel) -> dict[str, Any]:
+    """A model in space, ready for JSON."""
+
+    def said(values: Iterable[float]) -> list[float | None]:
+        return [None if isnan(value) else value for value in values]
+
+    return {
+        "name": model.name,
+        "deflections": dict(zip(("vertical", "lateral", "twist"), said(model.answers.deflections), strict=True)),
+        "frequencies_hz": {kind: said(values) for kind, values in model.answers.frequencies_hz.items()},
+        "seconds": model.seconds,
     }

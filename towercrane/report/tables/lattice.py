@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import isnan
 from typing import TYPE_CHECKING, Any
 
 from towercrane.report.tables.layout import assumed_values, console_of_reports, report_table, said
@@ -78,9 +77,13 @@ def _space(console: Console, name: str, lattice: dict[str, Any]) -> None:
     )
     table = report_table(title, "", *(model["name"] for model in lattice["models"]))
 
-    def row(what: str, size: float, values: list[float]) -> None:
-        shown = [f"{100.0 * (value / values[0] - 1.0):+.2f}" if not isnan(value) else "none" for value in values[1:]]
-        table.add_row(what, "none" if isnan(values[0]) else f"{size * values[0]:.5g}", *shown)
+    def row(what: str, size: float, values: list[float | None]) -> None:
+        reference, *rest = values
+        if reference is None:
+            table.add_row(what, "none", *("" for _ in rest))
+            return
+        shown = ("none" if value is None else f"{100.0 * (value / reference - 1.0):+.2f}" for value in rest)
+        table.add_row(what, f"{size * reference:.5g}", *shown)
 
     alike = lattice["planes_alike"]
     for kind, (what, size) in DEFLECTIONS.items():
