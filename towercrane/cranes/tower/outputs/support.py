@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.outputs.sections import Sections
 
 
-class Load(NamedTuple):
+class Reaction(NamedTuple):
     """Force and moment by the crane, along the fixed axes."""
 
     force: Vector
@@ -65,13 +65,13 @@ class Support:
             found.append(Tied((x, y, height), force, moment))
         return found
 
-    def collar(self, number: int) -> Load:
+    def collar(self, number: int) -> Reaction:
         """What the crane does to a collar, counted from 0 and the lowest."""
         _, force, moment = self.tied[number]
         return self._fixed(force, moment)
 
     @cached_property
-    def base(self) -> Load:
+    def base(self) -> Reaction:
         """What the crane does to the ground, the moment about the place of its undeformed foot."""
         at, seen, crane, top = self.at, self.at.seen, self.at.seen.crane, self.sections.tower_top
         head, qdd = self.sections.head, self.sections.accelerations
@@ -108,10 +108,10 @@ class Support:
             force, moment = less(force, held), less(less(moment, couple), cross(place, held))
         return self._fixed(force, moment)
 
-    def _fixed(self, force: Vector, moment: Vector) -> Load:
+    def _fixed(self, force: Vector, moment: Vector) -> Reaction:
         """Along the fixed axes, of what is along the axes of the coordinates."""
         along, about = (self.at.from_plane(*vector[:2]) for vector in (force, moment))
-        return Load((*along, force[2]), (*about, moment[2]))
+        return Reaction((*along, force[2]), (*about, moment[2]))
 
 
 def added(first: Any, *others: Any) -> Any:
