@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from towercrane.accuracy.scene import scene_of
 from towercrane.cases.case import CaseError, case_folder, load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cases.table_notices import table_notices
@@ -149,6 +150,15 @@ def test_floors_are_read_in_their_units_one_for_each_collar(tied):
 def test_records_that_end_before_or_after_the_run_are_named(tied, record, duration, words):
     (said,) = table_notices(load_case(tied(HEADER + record), [f"run.duration={duration}"]))
     assert all(word in said for word in words), said
+
+
+def test_small_motions_in_the_plane_foretell_no_earthquake():
+    still, shaken = (
+        load_case(name, changes) for name, changes in (("towers/laced", []), (TIED, ['earthquake.axes=["x"]']))
+    )
+    assert scene_of(still).foretells({"sway_radial"})
+    assert scene_of(shaken).planar
+    assert not scene_of(shaken).foretells({"sway_radial"})
 
 
 def test_other_cranes_know_no_earthquake():
