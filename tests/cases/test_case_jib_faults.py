@@ -7,6 +7,7 @@ import pytest
 from samples.case_files import faults_of
 from samples.jib_files import JIB_LATTICE, SEGMENTS, UNIFORM
 
+from towercrane.cases.assumptions import idle_in_file
 from towercrane.cases.case import load_case
 
 SECTION = 'second_moment_of_area = "0.015 m^4"\n'
@@ -141,6 +142,39 @@ def test_a_rigid_counter_jib_has_no_modes(write_jib):
     (fault,) = faults_of(write_jib(UNIFORM), "model.counter_jib_vertical_modes=1")
     assert fault.key == "counter_jib.second_moment_of_area"
     assert "leaves it rigid" in fault.hint
+
+
+SIDES = ("second_moment_of_area", "shear_stiffness", "rotary_inertia_per_length")
+UP = ("second_moment_of_area", "shear_stiffness", "youngs_modulus")
+
+
+@pytest.mark.parametrize(
+    ("changes", "idle"),
+    [
+        ([], {f"crane.{key}.lateral_{name}" for key in (FIRST, COUNTER) for name in SIDES}),
+        (["model.counter_jib_vertical_modes=0"],
+         {f"crane.{key}.lateral_{name}" for key in (FIRST, COUNTER) for name in SIDES}
+         | {f"crane.{COUNTER}.{name}" for name in UP} | {"crane.counter_jib.youngs_modulus"}),
+        ([IN_SPACE, "model.torsion_modes=0"], set()),
+        ([IN_SPACE, "model.torsion_modes=0", "model.jib_lateral_modes=0", "model.counter_jib_lateral_modes=0"],
+         {f"crane.{key}.lateral_{name}" for key in (FIRST, COUNTER) for name in SIDES[:2]}),
+        ([IN_SPACE, "model.torsion_modes=0", "model.counter_jib_vertical_modes=0"],
+         {f"crane.{COUNTER}.{name}" for name in UP[:2]}),
+    ],
+)  # fmt: skip
+def test_a_run_says_which_keys_of_jibs_it_has_no_use_for(write_jib, changes, idle):
+    case = load_case(write_jib(SEGMENTS), changes)
+    written = {key for key in idle if not _missing(case, key)}
+    assert set(idle_in_file(case)) == written
+
+
+def _missing(case, key):
+    tree = case.as_written
+    for name in key.split("."):
+        tree = tree[int(name)] if isinstance(tree, list) else tree.get(name)
+        if tree is None:
+            return True
+    return False
 
 
 IMPLAUSIBLE = [
