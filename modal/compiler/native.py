@@ -67,16 +67,19 @@ class Native:
 
     def connect(self, address: int, kinds: dict[str, Any]) -> None:
         """Let Python in at an address."""
+        # Put in place at the end: another thread may be doing the same.
         types: list[Any] = []
+        given: list[Callable[[Any], tuple[Any, ...]]] = []
         gives = kinds.pop("return")
         for name, kind in kinds.items():
             if get_args(kind):
                 _, entry, axes = get_args(kind)
                 types += [ctypes.c_void_p] + [ctypes.c_int64] * axes
-                self.given.append(_array(f"{self.python.__name__}: {name}", entry, axes))
+                given.append(_array(f"{self.python.__name__}: {name}", entry, axes))
             else:
                 types.append(NUMBERS[kind])
-                self.given.append(partial(_number, kind))
+                given.append(partial(_number, kind))
+        self.given = given
         self.entry = ctypes.CFUNCTYPE(NUMBERS[gives], *types)(address)
 
 

@@ -1,6 +1,7 @@
 """Compiled functions do what they do as Python; what cannot be compiled is refused, what is damaged is made anew."""
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -170,6 +171,14 @@ def test_damaged_code_is_made_anew_and_said(folder, damage):
     with pytest.warns(CacheWarning, match="damaged machine code in .* is compiled anew"):
         assert native.native("doors", _outer)[0](1.0) == 4.0
     assert path.read_bytes() == whole
+
+
+def test_threads_may_be_the_first_together(folder):
+    del folder
+    outer, _ = native.native("doors", _outer, _inner)
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(outer, [1.0] * 8)) == [4.0] * 8
+    assert outer(2.0) == 7.0
 
 
 def test_code_from_disk_is_used_as_it_is(folder, monkeypatch):
