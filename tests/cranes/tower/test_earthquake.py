@@ -168,6 +168,27 @@ def test_floors_push_by_their_springs_and_keep_the_balance():
         assert_allclose(run[f"collar_{number}_force_x"], COLLARS[number].stiffness * moved, rtol=1e-10, atol=1e-6)
 
 
+def test_a_floor_pulls_the_tower_its_way():
+    model = space.model(3, 2, 0, 0, load=Load(HUNG), crane=replace(CRANE, jib_lateral=JIB), ground=True, floors=2)
+    n, state, inputs = model.coordinates, np.zeros(model.size), np.zeros((10, 3))
+    state[n + 2], inputs[:2, 0] = -1.0, (10.0, ROPE)
+    still, moved = model.system.slope(0.0, state, inputs)[0], []
+    for row in (6, 9):
+        pushed = inputs.copy()
+        pushed[row, 0] = 1e-3
+        moved.append((model.system.slope(0.0, state, pushed)[0] - still)[n + 3 : 2 * n + 3])
+    at_rest = model.at_rest(np.zeros(n), inputs)
+    along = -np.array(at_rest.jacobian[2], dtype=float)
+    mass = at_rest.mass_matrix() + HUNG * np.outer(along, along)
+    # The lowest floor along x, then the next along y.
+    for acceleration, part, height, collar in zip(
+        moved, ("tower_x", "tower_y"), np.cumsum(PIECES), COLLARS.values(), strict=False
+    ):
+        pull = np.zeros(n)
+        pull[model.parts[part]] = collar.stiffness * 1e-3 * model.crane.tower(height)
+        assert_allclose(acceleration, np.linalg.solve(mass, pull), atol=1e-9 * np.max(abs(acceleration)))
+
+
 def test_a_steady_wind_is_held_by_base_and_collars_together():
     areas = WindAreas(tower=1.5, jib=0.8, counter_jib=0.0, counterweight=3.0)
     crane = replace(CRANE, jib_lateral=JIB, shaft=Shaft(80.0, 900.0, 2.5e8, ((30.0, 6e7), (55.0, 6e7))))
