@@ -110,6 +110,8 @@ def test_a_jib_stands_where_its_rope_stretches_to(written):
         ((), [("[run]", '[motion.trolley]\nshape = "rest"\nstart = 3\n[run]')], "motion.trolley", "[motion.luffing]"),
         ((), [("[run]", "[accuracy]\ntarget = 1e-3\n[run]")], "accuracy", "[solver]"),
         ((), [("[run]", "[map]\nposition_count = 3\n[run]")], "map", "luffing_angles"),
+        ((), [('"5 t"', '"5 t"\ndrag_area = 3'), ("[run]", "[wind]\nspeed = 3\n[run]")], "wind", "with a trolley"),
+        ((), [("[run]", "[model]\ncounter_jib_lateral_modes = 1\n[run]")], "model.counter_jib_lateral_modes", ""),
         ((), [('"20 m"', '"90 m"')], "rope.length", "jib's head"),
     ],
 )  # fmt: skip

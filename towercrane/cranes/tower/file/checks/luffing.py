@@ -39,6 +39,10 @@ WITHOUT = {
         [f"crane.counter_jib.{key}" for key in ("segments", "bodies", "lattice", "second_moment_of_area")],
         "a counter-jib behind a jib that pivots is rigid; [[head.bodies]] are what else turns",
     ),
+    **dict.fromkeys(
+        ("model.counter_jib_vertical_modes", "model.counter_jib_lateral_modes"),
+        "a counter-jib behind a jib that pivots is rigid",
+    ),
     "wind": "runs in wind are for cranes with a trolley",
     "earthquake": "earthquakes are for cranes with a trolley",
     "accuracy": "errors are chosen for cranes with a trolley; state [model] and [solver]",
@@ -82,7 +86,7 @@ def check_luffing(tree: dict[str, Any]) -> Iterator[Fault]:
     if not pivots(tree):
         return
     for key, why in WITHOUT.items():
-        if (value := at(tree, key)) is not None:
+        if (value := at(tree, key)) not in (None, 0):
             got = f"the table [{key}]" if isinstance(value, dict) else shown(value)
             yield Fault("", key, "nothing for a jib that pivots", got, why)
     low, high = _ends(tree)
