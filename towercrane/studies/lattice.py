@@ -13,7 +13,6 @@ from towercrane.cranes.tower.file.build import crane_of
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.lattices.in_space import lattices_of
 from towercrane.cranes.tower.file.members import tower_truss
-from towercrane.cranes.tower.file.requests import left_out_in_plane
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -37,7 +36,7 @@ def lattice_report(case: Case) -> dict[str, Any]:
         the beams of each plane that results rest on. Models have deflections of the tip per force [m/N] and its twist
         per torque [rad/(N m)], frequencies by kind [Hz], seconds; None is what a model does not say. ``tube``, the
         diameter over wall of members with rigid joints; ``height_m`` of the tower's truss, which has whole panels and
-        neither the tower's bodies nor its foundation; ``left_out``, ``assumed``.
+        neither the tower's bodies nor its foundation; ``assumed``.
 
     Raises
     ------
@@ -75,7 +74,6 @@ def lattice_report(case: Case) -> dict[str, Any]:
         "models": [asdict(model) for model in models],
         "lattices": found,
         "tube": TUBE,
-        "left_out": left_out_in_plane(tables),
         "assumed": as_entries(
             a for a in case.assumed if a.key.startswith(("crane.tower.", "crane.counter_jib.", "crane.jib."))
         ),

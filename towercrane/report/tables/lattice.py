@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from towercrane.report.tables.layout import assumed_values, console_of_reports, report_table, said
+from towercrane.report.tables.layout import assumed_values, console_of_reports, report_table
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -41,7 +41,6 @@ def lattice_tables(report: dict[str, Any]) -> None:
             "a jib's truss ends with its last nodes, as the beam in space does; those of each plane reach to the tip"
         )
     console.print("loads act on the tip, a force to the side of a jib on its rail; the root is clamped, the tip bare")
-    said(console, report["left_out"])
     assumed_values(console, report["assumed"])
 
 
