@@ -112,6 +112,7 @@ def test_a_jib_stands_where_its_rope_stretches_to(written):
         ((), [("[run]", "[map]\nposition_count = 3\n[run]")], "map", "luffing_angles"),
         ((), [('"5 t"', '"5 t"\ndrag_area = 3'), ("[run]", "[wind]\nspeed = 3\n[run]")], "wind", "with a trolley"),
         ((), [("[run]", "[model]\ncounter_jib_lateral_modes = 1\n[run]")], "model.counter_jib_lateral_modes", ""),
+        ((), [("[run]", "[modes]\nluffing_angles = [0.7, 1.5]\n[run]")], "modes.luffing_angles.1", "15 to 85"),
         ((), [('"20 m"', '"90 m"')], "rope.length", "jib's head"),
     ],
 )  # fmt: skip
@@ -134,6 +135,10 @@ def test_a_rope_that_would_push_ends_the_run(written):
     run = run_case(load_case(path))
     assert run.attrs["outcome"] == "jib over backwards"
     assert float(run.attrs["end_time"]) == 0.0
+    assert "would push by" in run.attrs["message"]
+    report = space_frequencies(load_case(path))
+    assert report["outcome"] == "jib over backwards"
+    assert report["modes"] == []
 
 
 def test_a_jib_that_swings_beyond_its_stop_ends_the_run(written):

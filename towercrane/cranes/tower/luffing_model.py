@@ -112,6 +112,21 @@ class LuffingModel(FlexibleModel):
         origin[-1] = inputs[luffing.COMMANDED, 0]
         return origin
 
+    def equilibrium(self, inputs: Floats) -> Floats:
+        """Coordinates at rest under all weights; shape (coordinates,).
+
+        Raises
+        ------
+        NoEquilibrium
+            If the stiffness is not positive definite, no equilibrium is found, or the luffing rope would push.
+        """
+        q = super().equilibrium(inputs)
+        tension = float(self._resting(q, inputs).held.tension)
+        if tension < SLACK:
+            message = f"the luffing rope would push by {-tension:.4g} N: the hoist rope pulls the jib back"
+            raise NoEquilibrium(JIB_OVER, message)
+        return q
+
     def gives_way(self, why: str = "") -> NoEquilibrium:
         """What is said of a crane that cannot stand."""
         jib = "a jib buckles that is pressed too hard, or swings down where its rope is too soft"

@@ -97,6 +97,7 @@ def check_luffing(tree: dict[str, Any]) -> Iterator[Fault]:
             yield Fault("", f"{JIB}.highest_angle", wanted, shown(at(tree, f"{JIB}.highest_angle")), hint)
         else:
             yield from _check_lever(tree, low, high)
+            yield from _check_modes(tree, low, high)
     yield from _check_motion(tree, low, high)
 
 
@@ -126,6 +127,14 @@ def _check_lever(tree: dict[str, Any], low: float, high: float) -> Iterator[Faul
             hint = f"at {degrees(angle):.3g} deg it would not: forward and up from the tower's top; sign?"
             yield Fault("", f"{JIB}.frame_head", wanted, shown(written), hint)
             return
+
+
+def _check_modes(tree: dict[str, Any], low: float, high: float) -> Iterator[Fault]:
+    """Modes that are asked for at angles at which the jib does not stand."""
+    for key, written in leaves(at(tree, "modes.luffing_angles") or [], "modes.luffing_angles"):
+        angle = si(written, "rad")
+        if angle is not None and not low <= angle <= high:
+            yield Fault("", key, f"angles from {degrees(low):g} to {degrees(high):g} deg", shown(written))
 
 
 def _check_motion(tree: dict[str, Any], low: float | None, high: float | None) -> Iterator[Fault]:
