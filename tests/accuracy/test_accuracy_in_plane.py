@@ -7,15 +7,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from samples import jointed_jib
 from samples.qtz5613 import CRANE, motions, plane_setting, standing
 
 from towercrane import load_case
 from towercrane.accuracy.choice import choose
-from towercrane.accuracy.instants import OUTPUTS
+from towercrane.accuracy.instants import OUTPUTS, nodes_of
 from towercrane.accuracy.mode_choice import measured_choice
 from towercrane.accuracy.promise import KEPT, finer, verification
 from towercrane.accuracy.scene import Scene, scene_of
 from towercrane.cranes.parts.wind import WindAreas, steady
+from towercrane.cranes.tower.equations.small_motions import linear_matrices
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.targets import ALL, FORETOLD, absent
 from towercrane.kernels.payload import Load
@@ -53,6 +55,22 @@ def test_small_motions_foretell_four_outputs_of_a_plane_in_still_air():
     assert not BLOWN.foretells(["sway_radial"])
     assert not replace(SCENE, planar=False).foretells(["sway_radial"])
     assert set(SCENE.outputs) == set(ALL) - set(absent(0.0))
+
+
+def test_small_motions_of_a_jib_of_segments_are_those_of_its_equations():
+    written = jointed_jib.CRANE
+    rigid = replace(
+        written, counter_jib=None, counter_jib_lateral=None, counter_jib_mass_per_length=159.3, counterweight=15130.0
+    )
+    scene = replace(SHORT, crane=rigid)
+    assert scene.foretells(FORETOLD)
+    # What knows of tower and jib alone says nothing of a counter-jib that bends.
+    assert not replace(scene, crane=written).foretells(FORETOLD)
+    nodes = nodes_of(scene)
+    model = scene.model(nodes.richest)
+    for place, drives in ((0, [20.0, 12.0]), (-1, [35.0, 12.0])):
+        mass, _ = linear_matrices(model, np.array(drives))
+        assert nodes.mass[place] == pytest.approx(mass, rel=1e-11, abs=1e-11 * abs(mass).max())
 
 
 @pytest.mark.parametrize(

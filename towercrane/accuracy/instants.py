@@ -215,7 +215,7 @@ def _own_mass(model: FlexibleModel) -> Floats:
     tip, slope, sums = crane.tower(crane.tower_height), crane.top_slope, crane.slewing
     mass = np.zeros((n, n))
     mass[:a, :a] = crane.tower.mass_matrix() + sums.mass * np.outer(tip, tip) + sums.pitch * np.outer(slope, slope)
-    mass[a:-1, a:-1] = sums.products
-    mass[a:-1, :a] = -np.outer(sums.second, slope)
+    mass[a:-1, a:-1] = sums.products + sums.turned_products
+    mass[a:-1, :a] = -np.outer(sums.second + sums.turned, slope)
     mass[:a, a:-1] = mass[a:-1, :a].T
     return mass

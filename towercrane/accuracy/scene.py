@@ -92,8 +92,13 @@ class Scene:
         return described(self.crane)
 
     def foretells(self, outputs: Iterable[str]) -> bool:
-        """Whether small motions foretell the error of these outputs, so that nothing is run to choose a setting."""
-        return self.planar and self.areas is None and not self.ground and set(outputs) <= set(FORETOLD)
+        """Whether small motions foretell the error of these outputs, so that nothing is run to choose a setting.
+
+        They know bending of tower and jib: where the counter-jib bends too, a run is asked.
+        """
+        bends = self.crane.counter_jib is not None
+        told = self.planar and not bends and self.areas is None and not self.ground
+        return told and set(outputs) <= set(FORETOLD)
 
     def model(self, setting: Setting) -> FlexibleModel:
         """The crane in the setting's coordinates."""
