@@ -16,7 +16,8 @@ from towercrane.cranes.parts.poses import SHOWN, Poses
 from towercrane.cranes.slewing.build import parameters_of
 from towercrane.cranes.tower.file.members import jib_of, tower_of
 from towercrane.results import files as results
-from towercrane.runs.run import run_case
+from towercrane.runs.run import record_case, run_case
+from towercrane.runs.summary import summarise
 
 CASES = {
     "radial": ("qtz5613/condition-3", "run.duration=12 s"),
@@ -136,6 +137,22 @@ def test_a_counter_jib_that_bends_is_drawn_bent_and_its_ballast_hangs_on_it():
             for axis in (1, 2):
                 on_line = np.interp(places[:, 0], along[order, 0], along[order, axis])
                 assert_allclose(places[:, axis], on_line, rtol=0, atol=1e-3)
+
+
+@pytest.mark.parametrize("counts", [(0, 0), (1, 0), (0, 1)])
+def test_a_counter_jib_has_outputs_where_a_model_has_modes_of_it(counts):
+    ways = ("lateral", "vertical")
+    changes = [f"model.counter_jib_{way}_modes={count}" for way, count in zip(ways, counts, strict=True)]
+    others = ["model.tower_modes=0", "model.torsion_modes=0", "model.jib_lateral_modes=0", "run.duration=0.5 s"]
+    case = load_case("flat-top/manoeuvre", [*changes, *others])
+    recording = record_case(case)
+    # Its report, too, asks for what is there.
+    peaks = summarise(case, recording)["peaks"]
+    expected = {f"counter_jib_{what}{way}" for what in ("tip_deflection", "root_moment") for way in ("", "_sideways")}
+    assert {name for name in peaks if name.startswith("counter_jib")} == (expected if any(counts) else set())
+    poses = poses_of(case, recording.dataset(), np.zeros(1))
+    bent = poses.members["counter-jib"] - poses.undeformed["counter-jib"]
+    assert (abs(bent[..., 2]).max() > 0.2) == bool(counts[1])
 
 
 def test_multi_mass_crane_hangs_on_its_points(posed):

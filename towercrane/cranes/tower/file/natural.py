@@ -42,8 +42,8 @@ def lengths(model: FlexibleModel) -> dict[str, float]:
     """Length of the member that each deflection is of [m]."""
     crane = model.crane
     found = {"tower_tip_displacement": crane.tower_height, "jib_tip_deflection": crane.jib_length}
-    if crane.counter_vertical is not None:
-        found["counter_jib_tip_deflection"] = crane.counter_vertical.length
+    if crane.counter_bends and crane.written is not None:
+        found["counter_jib_tip_deflection"] = crane.written.counter_jib_length
     found |= {f"{name}_sideways": length for name, length in found.items()} if model.axes == 3 else {}
     if crane.luffing is not None:
         found["jib_deflection"] = found.pop("jib_tip_deflection")

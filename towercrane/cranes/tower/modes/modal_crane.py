@@ -176,6 +176,11 @@ class FlexibleCrane:
         return lateral, counter_lateral, vertical, counter_vertical
 
     @property
+    def counter_bends(self) -> bool:
+        """Whether there are shapes of the counter-jib."""
+        return any(self.groups[1::2])
+
+    @property
     def carrying(self) -> NDArray[np.int64]:
         """Which of the shapes are the jib's, that the trolley runs on."""
         lateral, aside, vertical, _ = self.groups

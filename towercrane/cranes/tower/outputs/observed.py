@@ -255,12 +255,11 @@ def about(
     crane, counts = model.constants, dict(model.counts)
     if model.axes == 2:
         counts["tower_y"] = counts["tower_x"]
-    _, aside, _, behind = model.crane.groups
     there = {
         "shaft": crane.drive is not None,
         "wind": crane.wind,
         "ground": bool(crane.ground),
-        "counter": bool(aside + behind),
+        "counter": model.crane.counter_bends,
     }
     found = {name: shown for name, (_, shown) in read.items() if there.get(name.partition("_")[0], True)}
     springs = [(1.0, own.rotation_stiffness, own.torsional_stiffness) for own in model.crane.collars]
