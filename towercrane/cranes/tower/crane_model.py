@@ -12,6 +12,7 @@ from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.luffing_crane import luffing_crane
 from towercrane.cranes.tower.modes.modal_crane import flexible_crane
+from towercrane.cranes.tower.tied_model import TiedModel
 
 if TYPE_CHECKING:
     from towercrane.cranes.parts.wind import WindAreas
@@ -96,7 +97,8 @@ def tower_crane_model(
         modes, drive, drive_inertia = replace(modes, torsion=0, lateral=0, counter_lateral=0), None, 0.0
     planes = 1 if planar else 2
     pivots = crane.luffing is not None
-    return (LuffingModel if pivots else FlexibleModel)(
+    kind = LuffingModel if pivots else FlexibleModel if crane.tie_bars is None else TiedModel
+    return kind(
         luffing_crane(crane, modes, planes) if pivots else flexible_crane(crane, modes, areas, planes),
         load,
         slewing="fixed" if planar else drive or "prescribed",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,14 +12,20 @@ from towercrane.cranes.tower.equations.constants import Constants, constants_of
 from towercrane.cranes.tower.equations.tied.constants import Fields, Tied
 from towercrane.cranes.tower.equations.tied.ties import pull_ties, span_of
 from towercrane.cranes.tower.model import FlexibleModel
+from towercrane.cranes.tower.outputs import tied as shown
+from towercrane.cranes.tower.outputs.observed import about
 from towercrane.simulation.differences import jacobian
 from towercrane.simulation.outcomes import SLACK_TIE
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from numpy.typing import NDArray
 
     from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
     from towercrane.cranes.tower.modes.tied.head import TiedHead
+    from towercrane.cranes.tower.outputs.seen import Seen
+    from towercrane.simulation.observed import About, Instant
     from towercrane.simulation.system import System
 
     Floats = NDArray[np.float64]
@@ -56,6 +62,7 @@ def tied_of(crane: FlexibleCrane, gravity: float, stiffness: Floats) -> tuple[Ti
     bars, count = head.bars.ties, len(head.bars.ties)
     stated = np.array([np.nan if tie.pretension is None else tie.pretension for tie in bars])
     found = Tied(
+        ahead=len(head.bars.jib),
         sags=head.part(5).start,
         fields=Fields(sums.mass, sums.first, sums.inertia, sums.momentum, sums.moved, sums.products, sums.spun),
         spans=head.bars.spans, ends=lower - upper, along=along, across=across, lengths=head.lengths,
@@ -153,6 +160,18 @@ class TiedModel(FlexibleModel):
             held[turned, turned] += max(self.drive.soft, self.drive.stiff)
         mass = self.at_rest(there, inputs).mass_matrix()
         return float(np.sqrt(max(eigh(held, mass, eigvals_only=True)[-1], 0.0)))
+
+    @property
+    def outputs(self) -> Callable[[Seen, Instant], Mapping[str, Any]]:
+        """See :mod:`towercrane.cranes.tower.outputs.tied`."""
+        return shown.outputs
+
+    @cached_property
+    def about(self) -> Mapping[str, About]:
+        """What the outputs are."""
+        bars = _head_of(self.crane).bars
+        known = shown.tensions(len(bars.jib), len(bars.counter_jib)).keys()
+        return about(self, {name: read for name, read in shown.READ.items() if not shown.tie(name) or name in known})
 
     def undeformed(self, inputs: Floats) -> Floats:
         """Coordinates of the crane as its drives and ties hold its own weight, its tower straight."""

@@ -11,7 +11,7 @@ from towercrane.cranes.tower.equations.luffing.motion import COMMANDED, HOLDING,
 from towercrane.cranes.tower.equations.luffing.pivot import Pivot, foot_of
 from towercrane.cranes.tower.equations.luffing.ropes import Held, hold, tied_at, way_to
 from towercrane.cranes.tower.modes.mass_sums import Straight
-from towercrane.cranes.tower.outputs import energy
+from towercrane.cranes.tower.outputs import energy, tied
 from towercrane.cranes.tower.outputs.observed import OUTPUTS, Outputs, Sight
 from towercrane.cranes.tower.outputs.sections import Sections
 from towercrane.kernels.algebra import Vector, cross, dot, form
@@ -203,4 +203,4 @@ def outputs(seen: Seen, instant: Instant) -> Outputs:
 
 def names() -> Collection[str]:
     """Names of all outputs that runs of tower cranes may have."""
-    return {**OUTPUTS, **OWN}.keys()
+    return {**OUTPUTS, **OWN, **tied.OWN}.keys()

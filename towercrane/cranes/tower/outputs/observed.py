@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
-from towercrane.cranes.tower.equations.coordinates import ANGLES
+from towercrane.cranes.tower.equations.coordinates import ANGLES, BOWS
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
 from towercrane.cranes.tower.modes.collars import MOST_COLLARS
 from towercrane.cranes.tower.outputs.energy import total_energy
@@ -101,6 +101,11 @@ def collar_outputs() -> dict[str, tuple[Callable[[Sight], Any], About]]:
         for name, (load, axis, units, said) in parts.items()
     }
 
+
+BOW_NAMES = {
+    "tie": "sag of a tie bar's middle beyond that under the crane's own weight",
+    "tie_sideways": "bow of a tie bar's middle to the left",
+}
 
 ORIGIN, TURNING_AXES = "the undeformed tower top", "outward along its jib, sideways, up"
 
@@ -269,7 +274,9 @@ def about(
         if not held[("force", "moment", "torque").index(what)]:
             del found[name]
     for kind, count in counts.items():
-        if count and kind not in ANGLES:
+        if count and kind in BOWS:
+            found[f"{kind}_coordinate"] = About("m", BOW_NAMES[kind], (f"{kind}_number",), count)
+        elif count and kind not in ANGLES:
             name = f"amplitude of the mass-normalised modes: {kind.replace('_', ' ')}"
             found[f"{kind}_coordinate"] = About("kg^0.5 m", name, (f"{kind}_mode",), count)
     missing = absent(model.heading) if model.axes == 2 else ()

@@ -99,12 +99,14 @@ class Sections:
         body = body_of(part.straight, self.head, self.felt(crane.self_gravity), *sums)
         turned = left.other - up.other, up.first + up.turned, -left.first - left.turned
         body = body.pushed((0.0, -left.zeroth, -up.zeroth), turned)
-        if exposure is None:
-            return body
+        return body if exposure is None else body.pushed(*self.pressed(exposure))
+
+    def pressed(self, exposure: MassSums) -> tuple[Vector, Vector]:
+        """Force and moment of the wind on a part of what turns."""
         normal = dot(self.at.wind, self.head.rotation[1::3])
         press = abs(normal) * normal
-        _, rise = self.at.deflection(exposure.first, state.coordinates)
-        return body.pushed((0.0, exposure.mass * press, 0.0), (-rise * press, 0.0, exposure.moment * press))
+        _, rise = self.at.deflection(exposure.first, self.at.state.coordinates)
+        return (0.0, exposure.mass * press, 0.0), (-rise * press, 0.0, exposure.moment * press)
 
     @cached_property
     def hung(self) -> tuple[Vector, Vector]:
@@ -119,17 +121,20 @@ class Sections:
         x, y, z = (load.rope_damping * own for own in self.head.to_head(cross(at.rope, across)))
         return force, (x, y, z)
 
-    @cached_property
-    def jib_root(self) -> Body:
-        """What is beyond the root of the jib: jib, trolley and load."""
+    def loaded(self, body: Body) -> Body:
+        """A part of what turns with trolley and load."""
         at, head, crane = self.at, self.head, self.at.seen.crane
         (left, up), end = at.paths, at.carry(head)
         moved = 0.0, *at.deflection(left.shapes + up.shapes, self.accelerations)
         hung, couple = self.hung
         inertia = zip(self.felt(crane.gravity), end.bias, moved, hung, strict=True)
         pull = tuple(force - crane.trolley_mass * (top + bias + own) for top, bias, own, force in inertia)
-        body = self.turning(at.seen.jib, at.seen.jib_exposure)
         return body.with_trolley(crane.trolley_mass, end.place, pull).pushed(NONE, couple)
+
+    @cached_property
+    def jib_root(self) -> Body:
+        """What is beyond the root of the jib: jib, trolley and load."""
+        return self.loaded(self.turning(self.at.seen.jib, self.at.seen.jib_exposure))
 
     @cached_property
     def counter_root(self) -> Body:

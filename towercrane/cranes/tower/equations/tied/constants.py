@@ -49,6 +49,8 @@ class Tied:
 
     Parameters
     ----------
+    ahead : int
+        How many ties hold the jib: the first.
     sags : int
         Where the sags of the ties begin, the last coordinates but for their bows to the left.
     fields : Fields
@@ -66,6 +68,7 @@ class Tied:
         Tension of each per lengthening of each [N/m].
     """
 
+    ahead: int
     sags: int
     fields: Fields
     spans: Floats

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from towercrane.cranes.tower.equations.body import Body
-from towercrane.kernels.algebra import Row, Vector, cross, dot
+from towercrane.kernels.algebra import Row, Vector, cross, dot, form
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.head import Head
@@ -66,6 +66,23 @@ def move_fields(own: Fields, head: Head, felt: Vector, q: Row, rates: Row) -> Mo
     )
     tensor = tuple(inertia[k][m] for k in AXES for m in range(k, 3))
     return Moved(Body(own.mass, s, tensor, force, moment), forces, rows, rate)
+
+
+def kinetic_energy(own: Fields, head: Head, q: Row, rates: Row) -> Any:
+    """Energy of points on a head that moves so [J], but for sections that turn about their own axes together."""
+    spin, top = head.spin, head.top
+    met = [_sum(own.products[i], q, own.moved[i]) for i in range(len(own.momentum))]
+    first, rate, spun = (
+        _vector(start[k] + dot(per[:, k], values) for k in AXES)
+        for start, per, values in (
+            (own.first, own.momentum, q), ((0.0, 0.0, 0.0), own.momentum, rates), ((0.0, 0.0, 0.0), own.spun, rates)
+        )
+    )  # fmt: skip
+    inertia, swept = _inertia(own, q, met), cross(spin, first)
+    turned = (a + b for a, b in zip(moment_of(_sum(met, rates)), spun, strict=True))
+    bent = dot(rates, [dot([trace(other) for other in row], rates) for row in own.products])
+    straight = own.mass * dot(top, top) + form(spin, inertia, spin) + bent
+    return 0.5 * straight + dot(top, [a + b for a, b in zip(swept, rate, strict=True)]) + dot(spin, list(turned))
 
 
 def moment_of(sums: Tensor) -> Vector:
