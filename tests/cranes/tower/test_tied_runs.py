@@ -1,13 +1,11 @@
 """A hammerhead on tie bars over time: energy, sections, and what happens where a tie goes slack."""
 
 import numpy as np
-import pytest
 from samples import hammerhead as sample
 
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.motions.profiles import trapezoid
-from towercrane.simulation.outcomes import SLACK_TIE
 from towercrane.simulation.simulate import simulate
 
 MOTIONS = {

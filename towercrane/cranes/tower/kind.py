@@ -7,6 +7,8 @@ from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.checks.jib import check_jibs, jib_length
 from towercrane.cranes.tower.file.checks.luffing import check_luffing, head_height, limits, pivots, refused
 from towercrane.cranes.tower.file.checks.scene import check_scene
+from towercrane.cranes.tower.file.checks.ties import check_ties
+from towercrane.cranes.tower.file.checks.ties import refused as refused_on_ties
 from towercrane.cranes.tower.file.checks.tower import check_tower, tower_height
 
 TRACKS = (Track("trolley", jib_length, "jib"),)
@@ -30,7 +32,7 @@ TOWER = Kind(
     tables=TowerCase,
     drives=FIXED,
     drives_in=lambda tree: PIVOTING if pivots(tree) else FIXED,
-    checks=(check_tower, check_jibs, check_luffing, check_scene),
+    checks=(check_tower, check_jibs, check_luffing, check_ties, check_scene),
     build=later("towercrane.cranes.tower.file.build", "tower_model"),
     poses=later("towercrane.cranes.tower.poses", "tower_poses"),
     computed=later("towercrane.cranes.tower.file.lattices.torsion", "computed"),
@@ -47,6 +49,6 @@ TOWER = Kind(
     left_out=later("towercrane.cranes.tower.file.requests", "left_out"),
     notices=later("towercrane.cranes.tower.file.requests", "notices"),
     sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},
-    refuses=refused,
+    refuses=lambda tables: refused(tables) | refused_on_ties(tables),
     serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members"}),
 )  # fmt: skip

@@ -139,9 +139,9 @@ def plane_matrices(model: Equations, place: float, rope_length: float) -> tuple[
     """
     drives = np.zeros(len(model.channels))
     drives[:2] = place, rope_length
-    if model.crane.luffing is None:
+    if model.crane.luffing is None and model.crane.tied is None:
         return linear_matrices(model, drives)
-    # A jib that pivots stands in no state but that of equilibrium.
+    # A jib that pivots or hangs on ties stands in no state but that of equilibrium.
     return linear_matrices(model, drives, about=model.equilibrium(np.column_stack([drives, 0.0 * drives])))
 
 
@@ -208,9 +208,10 @@ def _head_frame(model: Equations, heading: float) -> Floats:
 def _rows(model: Equations) -> dict[str, list[int]]:
     n = model.coordinates
     at = {kind: list(range(*rows.indices(n))) for kind, rows in model.parts.items()}
+    upright = "tower_x", "jib_vertical", "counter_jib_vertical", "luffing", "tower_head", "tie"
+    sideways = "tower_y", "jib_lateral", "counter_jib_lateral", "tie_sideways"
     groups = (
-        at["tower_x"] + at["jib_vertical"] + at["counter_jib_vertical"] + at.get("luffing", []),
-        at["tower_y"] + at["jib_lateral"] + at["counter_jib_lateral"],
+        *([row for kind in kinds for row in at.get(kind, [])] for kinds in (upright, sideways)),
         at["torsion"] + at["slewing"],
         [n],
         [n + 1],

@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Any
 from modal import CraneFrame, EndBody
 from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.tower.file.effects import kept_tower, softened
-from towercrane.cranes.tower.file.members import counter_jib_of, crane_on, jib_of, luffing_of, with_end_body
+from towercrane.cranes.tower.file.members import (
+    counter_jib_of,
+    crane_on,
+    jib_of,
+    luffing_of,
+    tie_bars_of,
+    with_end_body,
+)
 from towercrane.cranes.tower.file.plane import heading_of
 from towercrane.cranes.tower.modes.parameters import as_chain
 
@@ -30,6 +37,7 @@ def crane_of(tables: TowerCase) -> TowerCrane:
     return crane_on(
         standing, crane, jib_lateral=jib_of(crane, "lateral"), shaft=shaft, roll_inertia=crane.roll_inertia,
         counter_jib_lateral=counter_jib_of(crane, "lateral"), luffing=luffing_of(tables),
+        tie_bars=tie_bars_of(crane),
     )  # fmt: skip
 
 
@@ -48,8 +56,10 @@ def crane_frame(tables: TowerCase, *, weight: bool = False) -> CraneFrame:
     Raises
     ------
     ValueError
-        If the jib pivots.
+        If the jib pivots or hangs on ties.
     """
+    if tables.crane.tower_head is not None:
+        raise ValueError("crane.tower_head: wanted jibs that are clamped; a frame of beams is of such alone")
     if tables.crane.jib.luffing is not None:
         raise ValueError("crane.jib.luffing: wanted a jib that does not pivot; a frame of beams is of such alone")
     return frame_of(crane_of(tables), tables.payload.mass, tables.rope.length, weight=weight)
@@ -101,7 +111,8 @@ def asked_modes(tables: TowerCase) -> dict[str, int]:
 
     jib = tables.crane.counter_jib
     bends = {
-        "counter_jib_vertical_modes": jib.bends,
+        # Its turning on a hinge and its bending under the ties are there beside modes.
+        "counter_jib_vertical_modes": jib.bends and not jib.ties,
         "counter_jib_lateral_modes": jib.bends and counter_jib_of(tables.crane, "lateral") is not None,
     }
     stated = {kind: getattr(tables.model, kind) for kind in MODE_KINDS}

@@ -57,7 +57,8 @@ def _idle_of_jibs(tables: TowerCase, planar: bool, *, bending: bool) -> Iterator
     counts = asked_modes(tables)
     for name, jib in (("jib", tables.crane.jib), ("counter_jib", tables.crane.counter_jib)):
         upright, sideways = (bending or bool(counts[f"{name}_{way}_modes"]) for way in ("vertical", "lateral"))
-        sideways = sideways and not planar
+        # On ties a jib bends up and down whatever modes it has.
+        upright, sideways = upright or bool(jib.ties), sideways and not planar
         pieces = [f"crane.{name}.segments.{number}." for number, _ in enumerate(jib.segments)]
         if jib.lattice is not None and jib.laced is None:
             yield f"crane.{name}.lattice."

@@ -8,10 +8,12 @@ from math import inf
 from modal.lattices.jib import Shape, Side  # noqa: TC001 - pydantic reads annotations when the class is made
 from modal.lattices.walls import Lacing  # noqa: TC001
 from towercrane.cranes.tower.file.luffing_tables import Luffing  # noqa: TC001
+from towercrane.cranes.tower.file.tie_tables import Tie  # noqa: TC001
 from towercrane.schema.fields import (
     Area,
     AreaIfAny,
     AreaOrNone,
+    AxialStiffnessIfAny,
     Density,
     InertiaOrNone,
     Length,
@@ -67,6 +69,7 @@ class JibSection(Table):
     lateral_shear_stiffness: ShearStiffness = inf
     rotary_inertia_per_length: RotaryInertiaPerLength = 0.0
     lateral_rotary_inertia_per_length: RotaryInertiaPerLength = 0.0
+    axial_stiffness: AxialStiffnessIfAny = None
 
     @property
     def laced(self) -> JibLattice | None:
@@ -92,12 +95,15 @@ class JibBody(Table):
 class Arm(JibSection):
     """Jib or counter-jib, uniform or of segments.
 
+    With ties it hinges at its foot, free up and down, clamped to its sides.
+
     Which keys belong together is for :mod:`towercrane.cranes.tower.file.checks.jib`.
     """
 
     length: LengthIfAny = None
     segments: tuple[JibSegment, ...] = ()
     bodies: tuple[JibBody, ...] = ()
+    ties: tuple[Tie, ...] = ()
 
     @property
     def pieces(self) -> tuple[JibSegment, ...]:

@@ -11,6 +11,7 @@ from modal.lattices.jib import JibLattice
 from modal.lattices.lattice_taper import column_segments
 from towercrane.cranes.tower.modes.luffing_jib import HeadBody, LuffingJib
 from towercrane.cranes.tower.modes.parameters import TowerCrane
+from towercrane.cranes.tower.modes.tied.bars import CatHead, Tie, TieBars
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.file.case_tables import TowerCase
@@ -242,6 +243,28 @@ def lattice_of(crane: Crane) -> LacedColumn | None:
     if tower.lattice is None or tower.youngs_modulus is None:
         return None
     return laced_column(tower.lattice, tower.youngs_modulus)
+
+
+def tie_bars_of(crane: Crane) -> TieBars | None:
+    """Cat-head and ties of a checked crane file; None where it has none."""
+    head = crane.tower_head
+    if head is None:
+        return None
+    column = CatHead(
+        head.height, head.mass_per_length, head.youngs_modulus * head.second_moment_of_area, head.axial_stiffness
+    )
+    jib, back = crane.jib, crane.counter_jib
+    return TieBars(column, _ties(jib), _ties(back), _axial(jib), _axial(back))
+
+
+def _ties(jib: Arm) -> tuple[Tie, ...]:
+    return tuple(Tie(**dict(tie)) for tie in sorted(jib.ties, key=lambda tie: tie.position))
+
+
+def _axial(jib: Arm) -> tuple[tuple[float, float], ...]:
+    """Where each section ends [m] and its E A [N]."""
+    pieces = zip((*jib.joints, jib.reach), jib.pieces, strict=True)
+    return tuple((end, piece.axial_stiffness or 0.0) for end, piece in pieces)
 
 
 def luffing_of(tables: TowerCase) -> LuffingJib | None:

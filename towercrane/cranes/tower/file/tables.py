@@ -9,6 +9,7 @@ from pydantic import Field
 from towercrane.cranes.parts.tables import CraneTable, Drive, Friction
 from towercrane.cranes.tower.file.jib_tables import CounterJib, Jib  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.file.luffing_tables import Head
+from towercrane.cranes.tower.file.tie_tables import TowerHead  # noqa: TC001
 from towercrane.cranes.tower.file.tower_tables import Foundation, Tower
 from towercrane.schema.fields import (
     AreaOrNone,
@@ -57,6 +58,7 @@ class Crane(CraneTable):
     tower: Tower
     foundation: Foundation = Field(default_factory=Foundation)
     jib: Jib
+    tower_head: TowerHead | None = None
     head: Head = Field(default_factory=Head)
     counter_jib: CounterJib
     trolley: Trolley
