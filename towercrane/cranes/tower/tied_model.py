@@ -16,6 +16,7 @@ from towercrane.cranes.tower.outputs import tied as shown
 from towercrane.cranes.tower.outputs.observed import about
 from towercrane.simulation.differences import jacobian
 from towercrane.simulation.outcomes import SLACK_TIE
+from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -34,14 +35,11 @@ MOST_STEPS = 30
 """Of Newton's method for the pretension."""
 
 
-class NoPretension(ArithmeticError):
-    """The ties cannot hold the crane's own weight under tension."""
-
-
 def tied_of(crane: FlexibleCrane, gravity: float, stiffness: Floats) -> tuple[Tied, Floats]:
     """Ties as the equations know them, and the coordinates on the head under the crane's own weight alone.
 
-    A tie whose pretension is not stated pulls so that its member is level there.
+    A tie whose pretension is not stated pulls so that its member is level there. Tensions that are not positive are
+    those of ties that could not hold the crane.
 
     Parameters
     ----------
@@ -50,11 +48,6 @@ def tied_of(crane: FlexibleCrane, gravity: float, stiffness: Floats) -> tuple[Ti
         [m/s^2]
     stiffness : ndarray, shape (n, n)
         Of the coordinates on the head.
-
-    Raises
-    ------
-    NoPretension
-        If a tension comes out zero or less, or none is found.
     """
     head, sums = _head_of(crane), crane.tied_sums
     upper, lower = head.ends()
@@ -92,9 +85,7 @@ def tied_of(crane: FlexibleCrane, gravity: float, stiffness: Floats) -> tuple[Ti
         if np.max(abs(step[size:]), initial=0.0) < 1e-9 * np.max(tensions) and np.max(abs(step[:size])) < 1e-9:
             break
     else:
-        raise NoPretension("no tensions were found that hold the crane's own weight")
-    if np.any(tensions <= 0.0):
-        raise NoPretension(f"the ties would pull with {', '.join(f'{1e-3 * t:.4g}' for t in tensions)} kN")
+        tensions = -abs(tensions)
     reference = np.array([span_of(found, k, q).length for k in range(count)])
     return replace(found, reference=reference, pretension=tensions, slack=sagging / tensions), q
 
@@ -172,6 +163,31 @@ class TiedModel(FlexibleModel):
         bars = _head_of(self.crane).bars
         known = shown.tensions(len(bars.jib), len(bars.counter_jib)).keys()
         return about(self, {name: read for name, read in shown.READ.items() if not shown.tie(name) or name in known})
+
+    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+        """State at rest at the start, see :meth:`towercrane.cranes.tower.equations.flexible.Equations.start`."""
+        self._check_taut()
+        return super().start(inputs, state, swing_angle)
+
+    def equilibrium(self, inputs: Floats) -> Floats:
+        """Coordinates at rest under all weights and the wind; shape (coordinates,).
+
+        Raises
+        ------
+        NoEquilibrium
+            If the ties do not hold the crane's own weight, or it has no stable equilibrium.
+        """
+        self._check_taut()
+        return super().equilibrium(inputs)
+
+    def _check_taut(self) -> None:
+        tensions = self._at_rest_alone[0].pretension
+        if np.any(tensions <= 0.0):
+            pulled = ", ".join(f"{1e-3 * tension:.4g}" for tension in tensions)
+            message = (
+                f"under the crane's own weight the ties would pull with {pulled} kN, from the jib's first outward"
+            )
+            raise NoEquilibrium(SLACK_TIE, message)
 
     def undeformed(self, inputs: Floats) -> Floats:
         """Coordinates of the crane as its drives and ties hold its own weight, its tower straight."""
