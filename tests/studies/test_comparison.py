@@ -40,6 +40,15 @@ def test_variants_are_every_choice_of_kinds():
     assert model.counts["jib_lateral"] == model.counts["jib_vertical"] == 0
 
 
+def test_a_counter_jib_bends_in_the_models_whose_jib_does():
+    case = load_case("flat-top/travel")
+    for variant in variants(case):
+        model = variant.model(case)
+        assert bool(model.counts["counter_jib_vertical"]) == ("jib_vertical_modes" in variant.kinds)
+    assert model.counts["counter_jib_vertical"] == 2
+    assert sum(variants(case)[0].model(case).counts.values()) == 0
+
+
 def test_variants_leave_out_what_the_case_does():
     names = [v.name for v in variants(load_case(NAME, ["model.torsion_modes=0", "model.tower_modes=14"]))]
     assert len(names) == 8 + 2

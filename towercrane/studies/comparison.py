@@ -31,7 +31,12 @@ TARGET = 1e-2
 """Error that is asked for where neither the case nor the user does."""
 
 RICHER = {"tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2}
-"""More modes of each kind in the richest model."""
+"""More modes of each kind in the richest model; of the counter-jib, where it bends, one."""
+
+ALIKE = {
+    "jib_lateral_modes": "counter_jib_lateral_modes", "jib_vertical_modes": "counter_jib_vertical_modes",
+}  # fmt: skip
+"""Kinds of the counter-jib's modes, which bends where the jib does."""
 
 MOST = 14
 """Modes of a kind that a case may have."""
@@ -48,10 +53,13 @@ class Variant:
     name : str
     counts : dict of str to int
         Number of modes by the case's key.
+    counter : dict of str to int
+        Of the counter-jib.
     """
 
     name: str
     counts: dict[str, int]
+    counter: dict[str, int]
 
     @property
     def kinds(self) -> frozenset[str]:
@@ -60,7 +68,7 @@ class Variant:
 
     def model(self, case: Case) -> Model:
         """The model."""
-        return model_of(case, **self.counts)
+        return model_of(case, **self.counts, **self.counter)
 
 
 def modes_of(case: Case) -> Mapping[str, str]:
@@ -71,20 +79,29 @@ def modes_of(case: Case) -> Mapping[str, str]:
 
 def variants(case: Case) -> list[Variant]:
     """Models from rigid to rich: every choice of the kinds that the case includes, the richest last."""
+    from towercrane.cranes.tower.file.build import asked_modes
+    from towercrane.cranes.tower.file.case_tables import TowerCase
+
     names = modes_of(case)
     own = {key: int(getattr(case.checked.model, key)) for key in names}  # type: ignore[union-attr]
     kept = [key for key, count in own.items() if count]
     rigid = dict.fromkeys(own, 0)
+    asked = asked_modes(case.tables(TowerCase)) if own.keys() & ALIKE.keys() else {}
+    bends = {key: other for key, other in ALIKE.items() if asked.get(other, 0)}
+
+    def variant(name: str, counts: dict[str, int], more: int = 0) -> Variant:
+        return Variant(name, counts, {o: (asked[o] + more) * bool(counts.get(k)) for k, o in bends.items()})
+
     found = []
     for size in range(len(kept) + 1):
         for chosen in combinations(kept, size):
             name = " + ".join(names[key] for key in chosen) or "rigid"
             whole = OWN if size == len(kept) and kept else name
-            found.append(Variant(whole, rigid | {key: own[key] for key in chosen}))
+            found.append(variant(whole, rigid | {key: own[key] for key in chosen}))
     single = rigid | dict.fromkeys(kept, 1)
     if kept and single != own:
-        found.insert(-1, Variant(ONE_OF_EACH, single))
-    return [*found, Variant(RICHEST, rigid | {key: min(own[key] + RICHER[key], MOST) for key in kept})]
+        found.insert(-1, variant(ONE_OF_EACH, single))
+    return [*found, variant(RICHEST, rigid | {key: min(own[key] + RICHER[key], MOST) for key in kept}, 1)]
 
 
 def compare(
