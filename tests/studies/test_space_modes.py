@@ -140,7 +140,7 @@ def test_lines_of_the_undeformed_crane(case):
     lines = crane_lines(model, mode, place, 12.3)
     assert_allclose(lines["tower"][[0, -1]], [[0, 0, 0], [0, 0, 23.8]], atol=1e-12)
     assert_allclose(lines["jib"][[0, -1]], [[0, 0, 23.8], [55.6, 0, 23.8]], atol=1e-12)
-    assert_allclose(lines["counter-jib"], [[-12.3, 0, 23.8], [0, 0, 23.8]], atol=1e-12)
+    assert_allclose(lines["counter-jib"][[0, -1]], [[-12.3, 0, 23.8], [0, 0, 23.8]], atol=1e-12)
     assert_allclose(lines["rope"], [[30, 0, 23.8], [30, 0, 8.8]], atol=1e-12)
 
 
@@ -175,7 +175,7 @@ def test_jib_leaves_the_head_along_its_slope(case):
         lines = crane_lines(model, mode, place, 12.3, 1.0)
         jib, counter = lines["jib"], lines["counter-jib"]
         still = crane_lines(model, mode, place, 12.3)
-        behind = (counter[1] - counter[0] - (still["counter-jib"][1] - still["counter-jib"][0])) / 12.3
+        behind = (counter[-1] - counter[0] - (still["counter-jib"][-1] - still["counter-jib"][0])) / 12.3
         step = still["jib"][1, 0]
         ahead = (jib[1] - jib[0] - (still["jib"][1] - still["jib"][0])) / step
         size = abs(jib - still["jib"]).max() / 55.6

@@ -39,10 +39,10 @@ class Case:
     checked : towercrane.cranes.registry.AnyCase
         All tables; the properties below are its parts.
     plans : dict of str to Plan
-        What the drives are told, by channel: "rope" (its length), for a tower crane "trolley" (its position) [m], in
-        space also "slewing" (the head's angle) or "shaft" (its drive's) [rad] and the wind's components [m/s]; for a
-        slewing crane "shaft", for a jib crane "slew", "luff" and "fold" [rad]; for an overhead crane
-        "bridge" and "trolley" [m].
+        What the drives are told, by channel: "rope" (its length), for a tower crane "trolley" (its position) [m] or
+        "luffing" (the angle of a jib that pivots) [rad], in space also "slewing" (the head's angle) or "shaft" (its
+        drive's) [rad] and the wind's components [m/s]; for a slewing crane "shaft", for a jib crane "slew", "luff"
+        and "fold" [rad]; for an overhead crane "bridge" and "trolley" [m].
     assumed : tuple of Assumption
         Values that no source gives, the crane's first.
     as_written : dict
