@@ -14,11 +14,11 @@ WIDTH_OF_A_PIPE = 120
 """Columns where no terminal tells its width."""
 
 
-def console_of_reports(width: int = WIDTH_OF_A_PIPE) -> Console:
+def console_of_reports(width: int | None = None) -> Console:
     """Console as wide as the terminal, or as a pipe should be."""
     from towercrane.report.tables.console import ReportConsole
 
-    return ReportConsole(width=None if ReportConsole().is_terminal else width)
+    return ReportConsole(width=None if ReportConsole().is_terminal else width or WIDTH_OF_A_PIPE)
 
 
 def report_table(title: str, *columns: str, left: int = 1) -> Table:

@@ -98,7 +98,8 @@ def _check_lattice(key: str, lattice: object) -> Iterator[Fault]:
     for wall in ("side", "base", "opposite"):
         if lattice.get(f"{wall}_lacing") == "N" and not si_at(lattice, f"{wall}_post_area", "m^2", 0.0):
             what = 'an area above 0, such as "6 cm^2": the lacing "N" needs posts'
-            yield Fault("", f"{key}.{wall}_post_area", what, shown(lattice.get(f"{wall}_post_area", "nothing")))
+            given = lattice.get(f"{wall}_post_area")
+            yield Fault("", f"{key}.{wall}_post_area", what, MISSING if given is None else shown(given))
     if triangle and lattice.get("side_lacing", "zigzag") == "zigzag" and si_at(lattice, "side_post_area", "m^2"):
         what = "no posts in zigzag sides of a triangle, whose nodes face no other"
         yield Fault("", f"{key}.side_post_area", what, shown(lattice["side_post_area"]), "leave it out")
@@ -146,6 +147,6 @@ def _check_bodies(tree: dict[str, Any], key: str, jib: dict[str, Any]) -> Iterat
     for number, body in enumerate(tables_in(jib.get("bodies"))):
         place = si_at(body, "position", "m")
         if total and place is not None and place > total * (1.0 + ROUNDING):
-            what = f"a position from 0 to {total:g} m (the length of the jib)"
+            what = f"a position from 0 to {total:g} m (the length of the {'jib' if key == JIB else 'counter-jib'})"
             hint = "counted from the tower's axis outward"
             yield Fault("", f"{key}.bodies.{number}.position", what, shown(body["position"]), hint)

@@ -136,7 +136,8 @@ def _check_lattice(key: str, lattice: object) -> Iterator[Fault]:
         return
     if not si_at(lattice, "horizontal_area", "m^2", 0.0):
         what = 'an area above 0, such as "8 cm^2": the lacing "N" needs horizontals'
-        yield Fault("", f"{key}.horizontal_area", what, shown(lattice.get("horizontal_area", "nothing")))
+        given = lattice.get("horizontal_area")
+        yield Fault("", f"{key}.horizontal_area", what, MISSING if given is None else shown(given))
 
 
 HINTS = {
