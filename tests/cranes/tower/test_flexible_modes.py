@@ -6,9 +6,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from oracles import space_frame
+from samples import flat_top_crane as flat_top
 from samples import space_crane as space
 
-from towercrane.cranes.tower.equations.small_motions import MOTION_KINDS, linear_matrices, natural_modes
+from modal import crane_structure
+from towercrane.cranes.tower.crane_model import tower_crane_model
+from towercrane.cranes.tower.equations.small_motions import MOTION_KINDS, linear_matrices, natural_modes, plane_modes
+from towercrane.cranes.tower.modes.mode_counts import ModeCounts
+from towercrane.cranes.tower.modes.parameters import TowerCrane
+from towercrane.kernels.payload import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.simulation.system import NoEquilibrium
@@ -90,3 +96,17 @@ def test_buckling_in_space_is_named():
         natural_modes(scene, 30.0, 15.0)
     with pytest.raises(ValueError, match="wanted 3, a load in space, got 2"):
         natural_modes(space.model(1, 0, 0, 1, planes=1, slewing="fixed", axes=2), 30.0, 15.0)
+
+
+@pytest.mark.parametrize(("modes", "errors"), [(1, (1.1e-4, 1.2e-3)), (2, (1.7e-5, 4e-4)), (10, (2.6e-6, 3e-5))])
+def test_modes_of_a_jib_of_segments_tend_to_the_exact_crane(modes, errors):
+    written = TowerCrane(
+        "flat-top", flat_top.TOWER, flat_top.JIB, 15.0, 0.0, 0.0, 420.0, counter_jib=flat_top.COUNTER_JIB
+    )
+    counts = ModeCounts(10, 0, 0, modes, 0, 4)
+    found, _ = plane_modes(tower_crane_model(written, Load(2000.0), counts, planar=True), 40.0, 20.0)
+    exact = crane_structure(flat_top.FRAME, 40.0).angular_frequencies(3)
+    gaps = found[1:3] / exact[1:3] - 1.0
+    # Modes left out stiffen; ten of the tower leave less than these.
+    assert np.all(gaps > 0.35 * np.array(errors))
+    assert np.all(gaps < errors)

@@ -5,25 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracles.crane_transfer import determinant
-from samples.flat_top import FLAT_TOP
+from samples.flat_top_crane import COUNTER_JIB, FRAME, JIB, PIECES, TOP, TOWER
 
-from modal import Chain, CraneFrame, EndBody, Segment, crane_structure
+from modal import Chain, EndBody, Segment, crane_structure
+from modal.structures.chain_modes import chain_modes
 
-PIECES = tuple(
-    replace(lattice, height=height, end_height=height).segments(2.5, "vertical")[0]
-    for lattice in FLAT_TOP
-    for height in lattice.height + (lattice.end_height - lattice.height) * (np.arange(4) + 0.5) / 4.0
-)
-JIB = Chain(PIECES)
-INNER = Segment(1.0, 230.0, 1.1e9, shear_stiffness=2e8, rotary_inertia=120.0)
-OUTER = Segment(1.0, 200.0, 0.7e9, shear_stiffness=1.5e8, rotary_inertia=100.0)
-WINCH, BALLAST = EndBody(3500.0, 1500.0), EndBody(21000.0, 15000.0)
-COUNTER_JIB = Chain(
-    (replace(INNER, length=9.0), INNER, replace(OUTER, length=4.0), OUTER), {1: WINCH, 3: BALLAST}
-)  # fmt: skip
-TOP = EndBody(9000.0, 2e4, 1.2)
-TOWER = Chain((Segment(48.0, 520.0, 5.356e9, shear_stiffness=1.6e8, rotary_inertia=420.0),), {1: TOP})
-FRAME = CraneFrame(TOWER, JIB, COUNTER_JIB, trolley_mass=420.0, payload_mass=2000.0, rope_length=20.0)
 EXACT = {
     20.0: (0.11095, 0.22474, 0.62716, 0.97790, 2.40045),
     58.0: (0.11093, 0.20939, 0.47409, 0.93956, 2.14839),
@@ -37,10 +23,9 @@ def frequencies(frame, place, count=5):
 
 def uniform():
     """A jib of one piece with the mass of all and the first frequency of the jib by itself."""
-    mass, mean = JIB.inertia[0], Chain((Segment(60.0, JIB.inertia[0] / 60.0, 1e9),))
-    own, first = (crane_structure(CraneFrame(Chain((replace(TOWER.segments[0], bending_stiffness=1e20,
-        shear_stiffness=np.inf),)), chain), 0.0).angular_frequencies(1)[0] for chain in (JIB, mean))  # fmt: skip
-    return Chain((Segment(60.0, mass / 60.0, 1e9 * (own / first) ** 2),))
+    mean = Segment(60.0, JIB.inertia[0] / 60.0, 1e9)
+    own, first = (chain_modes(chain, 1).angular_frequencies[0] for chain in (JIB, Chain((mean,))))
+    return Chain((replace(mean, bending_stiffness=1e9 * (own / first) ** 2),))
 
 
 @PLACES
