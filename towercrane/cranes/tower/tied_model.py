@@ -164,11 +164,6 @@ class TiedModel(FlexibleModel):
         known = shown.tensions(len(bars.jib), len(bars.counter_jib)).keys()
         return about(self, {name: read for name, read in shown.READ.items() if not shown.tie(name) or name in known})
 
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
-        """State at rest at the start, see :meth:`towercrane.cranes.tower.equations.flexible.Equations.start`."""
-        self._check_taut()
-        return super().start(inputs, state, swing_angle)
-
     def equilibrium(self, inputs: Floats) -> Floats:
         """Coordinates at rest under all weights and the wind; shape (coordinates,).
 
@@ -177,17 +172,11 @@ class TiedModel(FlexibleModel):
         NoEquilibrium
             If the ties do not hold the crane's own weight, or it has no stable equilibrium.
         """
-        self._check_taut()
-        return super().equilibrium(inputs)
-
-    def _check_taut(self) -> None:
         tensions = self._at_rest_alone[0].pretension
         if np.any(tensions <= 0.0):
             pulled = ", ".join(f"{1e-3 * tension:.4g}" for tension in tensions)
-            message = (
-                f"under the crane's own weight the ties would pull with {pulled} kN, from the jib's first outward"
-            )
-            raise NoEquilibrium(SLACK_TIE, message)
+            raise NoEquilibrium(SLACK_TIE, f"under the crane's own weight the ties would pull with {pulled} kN")
+        return super().equilibrium(inputs)
 
     def undeformed(self, inputs: Floats) -> Floats:
         """Coordinates of the crane as its drives and ties hold its own weight, its tower straight."""
