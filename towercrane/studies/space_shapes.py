@@ -40,8 +40,8 @@ def crane_lines(
     Returns
     -------
     dict of str to ndarray, shape (points, 3)
-        "tower", "jib", "counter-jib" and "rope" down to the load, of a jib that pivots also what holds it; along
-        the jib, across it in the turning sense,
+        "tower", "jib", "counter-jib" and "rope" down to the load, of a jib that pivots or hangs on ties also what
+        holds it; along the jib, across it in the turning sense,
         and up from the ground [m].
     """
     crane, parts = model.crane, model.parts
@@ -60,13 +60,19 @@ def crane_lines(
     def on_head(along: Floats) -> Floats:
         """Displacement of points of the head on the line of jib and counter-jib."""
         shapes = crane.jib_shapes(np.maximum(along, 0.0)) + crane.counter_shapes(np.maximum(-along, 0.0))
-        across, up = jib[:middle] @ shapes[:middle], jib[middle:] @ shapes[middle:]
+        across, up = jib[:middle] @ shapes[:middle], jib[middle : len(shapes)] @ shapes[middle:]
         moved = [np.full_like(along, top[0]), top[1] + twist * along + across, -slope[0] * along + up]
         return np.stack(moved, axis=1)
 
     def line(along: Floats) -> Floats:
         still = np.stack([along, np.zeros_like(along), np.full_like(along, height)], axis=1)
         return still + scale * on_head(along)
+
+    def swayed(moved: Floats, still: Floats) -> Floats:
+        """Points of the head that have moved in its axes, as these move."""
+        x, _, z = still.T
+        sway = np.stack([top[0] + slope[0] * z, top[1] + twist * x + slope[1] * z, -slope[0] * x], axis=1)
+        return np.asarray(moved + scale * sway + np.array([0.0, 0.0, height]))
 
     z = np.linspace(0.0, height, POINTS)
     tower = np.stack([np.zeros_like(z), np.zeros_like(z), z], axis=1)
@@ -80,9 +86,7 @@ def crane_lines(
         for name, (moved, still) in luffing_lines(
             crane.luffing, points, scale * bends, (angle + scale * jib[-1], angle)
         ).items():
-            x, _, z = still[0].T
-            swayed = np.stack([top[0] + slope[0] * z, top[1] + twist * x + slope[1] * z, -slope[0] * x], axis=1)
-            found[name] = moved[0] + scale * swayed + np.array([0.0, 0.0, height])
+            found[name] = swayed(moved[0], still[0])
         hung = found.pop("suspension")[0]
         del found["ballast"]
     else:
@@ -91,6 +95,9 @@ def crane_lines(
             "jib": line(np.linspace(0.0, crane.jib_length, POINTS)),
             "counter-jib": line(np.linspace(-counter_jib, 0.0, POINTS)),
         }
+    if crane.tied is not None:
+        for name, (moved, still) in crane.tied.lines(scale * jib[None]).items():
+            found[name] = swayed(moved[0], still[0])
     load = hung - [0.0, 0.0, place.rope_length]
     load[:2] += scale * (turn @ mode.shape[n:])
     return {"tower": tower, **found, "rope": np.stack([hung, load])}

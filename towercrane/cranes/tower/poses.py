@@ -109,6 +109,11 @@ def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, tim
         pairs["joints"] = on_head(joints[None], bent(crane.jib_shapes(joints)))
     if hung.size:
         pairs["ballast"] = on_head(-hung[None], bent(crane.counter_shapes(hung)))
+    if crane.tied is not None:
+        kinds = "jib_lateral", "counter_jib_lateral", "jib_vertical", "counter_jib_vertical", "tower_head"
+        bows = [_coordinates(result, kind, times) for kind in (*kinds, "tie", "tie_sideways")]
+        for name, (moved, straight) in crane.tied.lines(np.concatenate(bows, axis=1)).items():
+            pairs[name] = placed(moved, np.broadcast_to(straight, moved.shape))
     return _poses(result, times, heading, pairs, height)
 
 

@@ -187,6 +187,29 @@ class TiedHead:
             found = found + sums_of_points(places, fields, self.masses[k] * weights)
         return found
 
+    def lines(self, moved: Floats) -> dict[str, tuple[Floats, Floats]]:
+        """Cat-head and ties in the head's axes, moved and straight, shapes (f, p, 3) and (1, p, 3).
+
+        Parameters
+        ----------
+        moved : ndarray, shape (f, n)
+            Coordinates.
+        """
+        part, height = np.linspace(0.0, 1.0, POINTS), self.bars.head.height
+        up = np.stack([0.0 * part, 0.0 * part, height * part], axis=1)
+        forward = moved[:, self.part(4)] @ self.column(height * part)
+        found = {"cat-head": (up + forward[..., None] * [1.0, 0.0, 0.0], up[None])}
+        for k, (upper, lower) in enumerate(zip(*self.ends(), strict=True)):
+            x, z = self.bars.spans[k]
+            straight = np.stack([part * x, 0.0 * part, height + part * z], axis=1)
+            ends = (moved @ upper)[:, None] * (1.0 - part)[:, None] + (moved @ lower)[:, None] * part[:, None]
+            for group, direction in ((5, self.sagging[k]), (6, np.array([0.0, 1.0, 0.0]))):
+                if self.counts[group]:
+                    bow = moved[:, self.part(group).start + k]
+                    ends = ends + bow[:, None, None] * np.outer(np.sin(np.pi * part), direction)
+            found[f"tie {k + 1}"] = straight + ends, straight[None]
+        return found
+
     @staticmethod
     def _members(side: float) -> tuple[int, int]:
         """Groups of the member on a side: to the left, up."""
