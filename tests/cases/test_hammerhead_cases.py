@@ -1,0 +1,146 @@
+"""Case files of cranes on tie bars: what they say, what is refused, and how their runs end."""
+
+import re
+
+import numpy as np
+import pytest
+from samples import hammerhead as sample
+from samples.program import towercrane
+
+from towercrane.cases.case import CaseError, case_folder, load_case
+from towercrane.cases.models import model_of
+from towercrane.cranes.tower.tied_model import TiedModel
+from towercrane.runs.run import run_case
+from towercrane.simulation.outcomes import SLACK_TIE
+
+SHIPPED = case_folder() / "hammerhead"
+
+REST = """
+title = "At rest"
+crane = "crane.toml"
+[payload]
+mass = "2.6 t"
+[rope]
+length = "20 m"
+[motion.trolley]
+shape = "rest"
+start = "50 m"
+[model]
+tower_modes = 0
+jib_vertical_modes = 1
+[run]
+duration = "2 s"
+"""
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Write the crane and a case at rest, with replacements, and give the case's path."""
+
+    def write(*crane, case=()):
+        text = (SHIPPED / "crane.toml").read_text("utf-8")
+        body = REST
+        for old, new in crane:
+            assert re.search(old, text, flags=re.DOTALL), old
+            text = re.sub(old, new, text, count=1, flags=re.DOTALL)
+        for old, new in case:
+            assert old in body, old
+            body = body.replace(old, new, 1)
+        (tmp_path / "crane.toml").write_text(text, "utf-8")
+        (tmp_path / "case.toml").write_text(body, "utf-8")
+        return tmp_path / "case.toml"
+
+    return write
+
+
+def faults(path):
+    with pytest.raises(CaseError) as refused:
+        load_case(path)
+    return [(f.key, f.wanted, f.got, f.hint) for f in refused.value.faults]
+
+
+def test_the_shipped_crane_is_that_of_the_tests():
+    case = load_case("hammerhead/manoeuvre")
+    model = model_of(case)
+    assert isinstance(model, TiedModel)
+    assert len(case.assumed) == 57
+    assert model.crane.written.tie_bars == sample.BARS
+    assert model.counts["counter_jib_vertical"] == 2
+    assert model.counts["tie_sideways"] == 3
+
+
+def test_a_load_at_rest_is_held_by_the_ties(written):
+    """The base bears all weights; the back tie what the ballast needs."""
+    run = run_case(load_case(written()))
+    assert run.attrs["outcome"] == "finished"
+    tensions = [float(run[f"jib_tie_{k}_tension"][-1]) for k in (1, 2)]
+    assert tensions == pytest.approx([134e3, 319e3], rel=5e-3)
+    weights = 45 * 700 + 7000 + 8.5 * 220 + 40 * 130 + 20 * 100 + 14 * 200 + 12e3 + 400 + 2600
+    bars = sum(
+        rate * np.hypot(place, 8.5 - height) for rate, place, height in ((23, 18, 1.2), (23, 44, 1.2), (46, 12.5, 0.6))
+    )
+    assert float(run["base_force_z"][-1]) == pytest.approx(-9.81 * (weights + bars), rel=1e-9)
+    assert "jib_root_moment" not in run
+    drift = abs(run["total_energy"].values - float(run["total_energy"][0]))
+    assert np.max(drift) < 1e-9 * abs(float(run["total_energy"][0]))
+
+
+@pytest.mark.parametrize(
+    ("crane", "key", "said"),
+    [
+        ((r'\[tower_head\].*?\[jib\]', "[jib]"), "tower_head", "ties in [jib] without it"),
+        ((r'axial_stiffness = \{ value = "1100 MN"[^\n]*\n', ""), "jib.segments.1.axial_stiffness", "compress it"),
+        ((r'axial_stiffness = \{ value = "1500 MN"[^\n]*\n', ""), "counter_jib.axial_stiffness", "compress it"),
+        ((r'\[\[counter_jib.ties\]\].*?\[trolley\]', "[trolley]"), "counter_jib.ties", "holds jib and counter-jib"),
+        ((r'value = "44 m"', 'value = "61 m"'), "jib.ties.1.position", "outward"),
+        ((r'value = "44 m"', 'value = "18 m"'), "jib.ties.1.position", "one tie twice"),
+        ((r'value = "0.6 m"', 'value = "8.5 m"'), "counter_jib.ties.0.height", "lower end"),
+        ((r'value = "1.2 m"', 'value = "1200 m"'), "jib.ties.0.height", "lower end"),
+        ((r'value = "580 MN"', 'value = "580 N"'), "jib.ties.0.axial_stiffness", "MN meant?"),
+        ((r'value = "580 MN"', 'value = "-580 MN"'), "jib.ties.0.axial_stiffness", "-580 MN"),
+        ((r'value = "23 kg/m"', 'value = "23 kg"'), "jib.ties.0.mass_per_length", "23 kg"),
+        ((r"\[\[jib.ties\]\]\nposition", "[[jib.ties]]\npretention = \"9 kN\"\nposition"), "jib.ties.0.pretention",
+         "pretension"),
+        ((r"\[tower_head\]\nheight", "[tower_head]\nhight"), "tower_head.hight", "height"),
+    ],
+)  # fmt: skip
+def test_each_slip_in_the_crane_is_named(written, crane, key, said):
+    found = faults(written(crane))
+    assert any(name.removeprefix("crane.") == key and said in " ".join(map(str, rest)) for name, *rest in found), found
+
+
+@pytest.mark.parametrize(
+    ("case", "key"),
+    [
+        (("[run]", '[start]\nstate = "zero-no-self-weight"\n[run]'), "start.state"),
+        (("[run]", '[accuracy]\ntarget = "1 %"\n[run]'), "accuracy"),
+        (("[run]", "[map]\nposition_count = 5\n[run]"), "map"),
+    ],
+)
+def test_what_is_for_clamped_jibs_is_refused(written, case, key):
+    assert [name for name, *_ in faults(written(case=[case]))] == [key]
+
+
+def test_a_jib_without_ties_has_no_axial_stiffness(written):
+    without = (r"\[\[jib.ties\]\].*?\[counter_jib\]", "[counter_jib]")
+    back = (r"\[\[counter_jib.ties\]\].*?\[trolley\]", "[trolley]")
+    found = faults(written((r"\[tower_head\].*?\[jib\]", "[jib]"), without, back))
+    assert {name for name, *_ in found} == {
+        "jib.segments.0.axial_stiffness", "jib.segments.1.axial_stiffness", "counter_jib.axial_stiffness",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("command", ["map", "compare", "shape", "modes"])
+def test_commands_for_clamped_jibs_refuse(command, tmp_path):
+    done = towercrane(command, "hammerhead/travel", "--out", tmp_path / "there")
+    assert done.returncode == 2
+    assert "the jibs hang on tie bars" in done.stderr
+    assert not (tmp_path / "there").exists()
+
+
+def test_ties_that_would_push_end_a_run_by_name(written):
+    """A tie that is pulled too hard leaves nothing to the other."""
+    strained = (r"(position = \{ value = \"44 m\")", r'pretension = "600 kN"\n\1')
+    run = run_case(load_case(written(strained)))
+    assert run.attrs["outcome"] == SLACK_TIE
+    assert "600" in run.attrs["message"]
