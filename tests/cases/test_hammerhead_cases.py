@@ -76,9 +76,8 @@ def test_a_load_at_rest_is_held_by_the_ties(written):
     tensions = [float(run[f"jib_tie_{k}_tension"][-1]) for k in (1, 2)]
     assert tensions == pytest.approx([134e3, 319e3], rel=5e-3)
     weights = 45 * 700 + 7000 + 8.5 * 220 + 40 * 130 + 20 * 100 + 14 * 200 + 12e3 + 400 + 2600
-    bars = sum(
-        rate * np.hypot(place, 8.5 - height) for rate, place, height in ((23, 18, 1.2), (23, 44, 1.2), (46, 12.5, 0.6))
-    )
+    ties = (23, 18, 1.2), (23, 44, 1.2), (46, 12.5, 0.6)
+    bars = sum(rate * np.hypot(place, 8.5 - height) for rate, place, height in ties)
     assert float(run["base_force_z"][-1]) == pytest.approx(-9.81 * (weights + bars), rel=1e-9)
     assert "jib_root_moment" not in run
     drift = abs(run["total_energy"].values - float(run["total_energy"][0]))
@@ -105,8 +104,8 @@ def test_a_load_at_rest_is_held_by_the_ties(written):
     ],
 )  # fmt: skip
 def test_each_slip_in_the_crane_is_named(written, crane, key, said):
-    found = faults(written(crane))
-    assert any(name.removeprefix("crane.") == key and said in " ".join(map(str, rest)) for name, *rest in found), found
+    found = {name.removeprefix("crane."): " ".join(map(str, rest)) for name, *rest in faults(written(crane))}
+    assert said in found[key]
 
 
 @pytest.mark.parametrize(

@@ -93,8 +93,17 @@ class TiedCloud(CraneCloud):
         ]  # fmt: skip
         return upper, lower
 
+    def forward(self, q, k):
+        """Share of a tie's direction along the jib, from top to end."""
+        reach = [float(np.squeeze(way.c[0])) for way in self.reach(self.part_of([Jet(value) for value in q]), k)]
+        return reach[0] / np.linalg.norm(reach)
+
     def length(self, part, k):
-        """Of a tie's chord, with the shortening of bent members and the turn of its end."""
+        """Of a tie's chord."""
+        return apart(self.reach(part, k), [Jet(0.0)] * 3)
+
+    def reach(self, part, k):
+        """A tie's chord from top to end, with the shortening of bent members and the turn of its end."""
         tie, side, top, end = self.ends(k)
         upper, lower = self.moved_ends(part, k)
         name = "jib" if side > 0 else "counter_jib"
@@ -115,7 +124,7 @@ class TiedCloud(CraneCloud):
             Jet(end[0]) + lower[0] - side * shorter, lower[1],
             Jet(end[2]) + lower[2] - (0.5 * tie.height) * (turn * turn),
         ]  # fmt: skip
-        return apart(high, low)
+        return [b - a for a, b in zip(high, low, strict=True)]
 
     def energy(self, q):
         """Of the ties and of jibs and cat-head under them."""

@@ -13,7 +13,7 @@ from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.body import body_of
 from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.jib import bend
-from towercrane.cranes.tower.equations.motion import motion
+from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TROLLEY_FORCE, motion
 from towercrane.cranes.tower.equations.tied.constants import Fields
 from towercrane.cranes.tower.equations.tied.fields import move_fields
 from towercrane.cranes.tower.model import FlexibleModel
@@ -22,6 +22,7 @@ from towercrane.cranes.tower.modes.modal_crane import flexible_crane
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.modes.tied.head import sums_on_axis
 from towercrane.kernels.payload import Load, State
+from towercrane.motions.motion import Motion
 
 DRIVE = Drive("slewing", 4e6, 3e7, 0.02, 2e5, "none", 0.0, 1.0)
 
@@ -81,6 +82,40 @@ class Moving:
             [bending @ e_theta / cp + 2 * theta_rate * phi_rate * sp / cp, bending @ e_phi - theta_rate**2 * sp * cp],
         ])  # fmt: skip
 
+    def check_sections(self, columns):
+        """Base and drives carry what every point needs."""
+        model, cloud, n = self.model, self.cloud, self.model.coordinates
+        sums, sizes = cloud.left_over(*self.drawn(), self.found, self.drives, columns, np.zeros(3))
+        bound = 1e-9 * sizes[n + 2 :]
+        if model.drive is None and model.slewing != "fixed":
+            assert abs(self.guards[SLEWING_TORQUE] - sums[n + 2]) < bound[0]
+        assert abs(self.guards[TROLLEY_FORCE] - sums[n + 3]) < bound[1]
+        span = np.array([0.0, 1.0])
+        motions = {c: Motion(span, row[None]) for c, row in zip(model.channels, self.inputs, strict=True)}
+        seen = model.observe(motions, np.zeros(1), self.state[None], self.slope[None], self.guards[None])
+        force, moment, size = np.zeros(3), np.zeros(3), 0.0
+        for name, points in cloud.now.items():
+            arm = points.derivative(0) + np.array([0.0, 0.0, model.crane.tower_height])
+            if name == "tower":
+                arm[:, 2] = cloud.height
+            force += cloud.felt[name].sum(axis=0)
+            moment += np.cross(arm, cloud.felt[name]).sum(axis=0)
+            size += abs(np.cross(arm, cloud.felt[name])).sum()
+        part = model.parts["torsion"]
+        inertia = model.crane.torsion.shaft.inertia_per_length * cloud.tower_weights
+        moment[2] += inertia @ (self.found[:-2][part] @ cloud.twists)
+        carried = {"base_moment_x": moment[0], "base_moment_y": moment[1], "base_torque": moment[2]}
+        carried |= {f"base_force_{axis}": own for axis, own in zip("xyz", force, strict=True)}
+        for name, needed in carried.items():
+            if name in seen:
+                assert abs(seen[name].values[0] + needed) < 1e-10 * size, name
+        jib = [name for name in cloud.now if name in ("jib", "trolley", "load")]
+        along = np.array([row[0].c[0] for row in cloud.axes]).ravel()
+        pushed = -sum(cloud.felt[name].sum(axis=0) for name in jib) @ along
+        for k, tension in enumerate(self.guards[-model.counts["tie"] :][: len(cloud.bars.jib)]):
+            pushed -= tension * cloud.forward(self.q, k)
+        assert abs(seen["jib_compression"].values[0] + pushed) < 1e-9 * abs(pushed)
+
     def drawn(self):
         return np.concatenate([self.q, self.angles]), np.concatenate([self.rates, self.angle_rates])
 
@@ -100,6 +135,7 @@ def test_accelerations_and_tensions_follow_from_positions_and_energies(name):
         expected, mass = at.cloud.accelerations(*at.drawn(), at.drives, columns, np.zeros(3), at.extra)
         size = np.sqrt(np.diag(mass))
         assert np.max(abs(at.found - expected) * size) < 1e-10 * np.max(abs(expected) * size)
+        at.check_sections(columns)
         at.cloud.energy([Jet(value) for value in at.q])
         assert np.allclose(at.guards[-len(at.cloud.tensions) :], at.cloud.tensions, rtol=1e-10)
 
