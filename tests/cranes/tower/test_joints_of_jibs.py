@@ -13,6 +13,8 @@ from samples import space_crane as space
 from towercrane.motions.motion import Motion, phases, rest, sequence
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import integrate
+from towercrane.simulation.lanes.many import integrate_many
+from towercrane.simulation.lanes.run import LaneRun
 from towercrane.simulation.simulate import record
 
 END = 1.4
@@ -128,6 +130,20 @@ def test_every_method_passes_joints(method):
     tolerance = 1e-6 if method == "scipy-radau" else 1e-9
     options = {"method": method, "rtol": tolerance, "atol": 1e-2 * tolerance}
     assert balance(model(True), jointed.motions(True), 3.0, **options) < 30.0 * tolerance
+
+
+@PLANES
+def test_runs_side_by_side_pass_joints_as_they_do_alone(planar):
+    crane, tight = model(planar), {"rtol": 1e-11, "atol": 1e-13}
+    names = [way for way in WAYS if not way.startswith(("in motion", "touching"))]
+    driven = [jointed.motions(planar, WAYS[name][0]) for name in names]
+    cuts = [phases(tuple(motions[channel] for channel in crane.channels), 4.0) for motions in driven]
+    rows = np.linspace(0.0, 4.0, 41)
+    beside = integrate_many([LaneRun(crane, cut) for cut in cuts], rows, threads=1, **tight)
+    for cut, state in zip(cuts, beside.end_states, strict=True):
+        start = crane.start(cut.inputs[0])
+        alone = integrate(crane.system, cut, start, rows, **tight).end_state
+        assert np.max(abs(state - alone)[:-1] / crane.system.scale[:-1]) < 1e-12
 
 
 def test_a_row_at_a_joint_is_of_the_section_that_begins_there():
