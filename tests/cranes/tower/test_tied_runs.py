@@ -3,9 +3,15 @@
 import numpy as np
 from samples import hammerhead as sample
 
+from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.modes.modal_crane import flexible_crane
+from towercrane.cranes.tower.modes.mode_counts import ModeCounts
+from towercrane.cranes.tower.tied_model import TiedModel
 from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid
+from towercrane.simulation.outcomes import SLACK_TIE
 from towercrane.simulation.simulate import simulate
 
 MOTIONS = {
@@ -26,3 +32,27 @@ def test_energy_of_a_manoeuvre_is_what_drives_put_in():
     assert run.attrs["outcome"] == "finished"
     assert float(run["trolley_position"][-1]) > 30.0
     assert np.max(abs(energy - energy[0] - work)) < 1e-10 * passed
+
+
+def test_a_slack_tie_ends_the_run():
+    """A heavy load far out, dropped into its rope, throws the jib up at the tie within it."""
+    model = sample.model(load=12000.0, vertical=1, back=0, lateral=0, planes=1, axes=2, slewing="fixed")
+    run = simulate(model, {"trolley": rest(58.0), "rope": rest(10.0)}, 4.0, output_step=0.02, state="zero")
+    assert run.attrs["outcome"] == SLACK_TIE
+    assert abs(float(run["jib_tie_1_tension"][-1])) < 1e-3
+    assert float(run["jib_tie_2_tension"].min()) > 1.6e5
+
+
+def test_a_tied_jib_stands_in_wind_and_on_a_ground_that_shakes():
+    """The work of both is in the balance."""
+    areas = WindAreas(tower=1.0, jib=0.4, counter_jib=0.4, counterweight=4.0)
+    crane = flexible_crane(sample.CRANE, ModeCounts(1, 1, 1, 1, 0, 0), areas)
+    model = TiedModel(crane, Load(3000.0, drag_area=5.0), wind=True, ground=True)
+    shaken = {f"ground_{axis}": trapezoid(0.0, 0.05, 0.1, 0.4) for axis in "xyz"}
+    blown = {"wind_x": rest(3.0), "wind_y": rest(12.0), "wind_z": rest(0.0)}
+    motions = {"trolley": rest(40.0), "rope": rest(20.0), "slewing": rest(0.3), **shaken, **blown}
+    run = simulate(model, motions, 6.0, output_step=0.1, rtol=1e-11, atol=1e-13)
+    energy, work = run["total_energy"].values, run["input_work"].values
+    assert run.attrs["outcome"] == "finished"
+    assert np.ptp(energy) > 100.0
+    assert np.max(abs(energy - energy[0] - work)) < 1e-9 * np.ptp(energy)

@@ -12,9 +12,10 @@ from samples import hammerhead as sample
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
+from modal import Chain, EndBody, Segment
 from towercrane.cranes.tower.equations.tied.ties import pull_ties, span_of
 from towercrane.cranes.tower.modes import jib_shapes
-from towercrane.cranes.tower.modes.tied.shapes import hinged_shapes
+from towercrane.cranes.tower.modes.tied.shapes import Pull, hinged_shapes, static_shape
 from towercrane.cranes.tower.tied_model import curvature
 from towercrane.simulation.differences import jacobian
 
@@ -219,3 +220,25 @@ def test_a_tie_pulls_as_an_elastic_catenary(stretch, error):
     curve = np.pi**2 / (2.0 * span)
     sag = brentq(lambda a: tied.slack[k] * start - (tied.slack[k] + curve * a) * tension(a), -0.3, 1.0)
     assert tension(sag) == pytest.approx(expected, rel=error)
+
+
+def test_a_static_shape_bends_as_its_pull_asks():
+    """Its strain works on any shape what the pull does, less the inertia of the turn; with bodies and tapers."""
+    chain = Chain(
+        (Segment(20.0, 130.0, 6e8, 6e7, rotary_inertia=20.0),
+         Segment(15.0, 100.0, 4e8, 5e7, 10.0, 0.6, 1.0, 2.0, 0.0, inclined_chords=True)),
+        bodies={1: EndBody(900.0, 500.0, 0.7), 2: EndBody(400.0, 300.0, -0.5)},
+    )  # fmt: skip
+    chain, _ = chain.with_node(12.0)
+    pull = Pull(12.0, 0.4, 1.3)
+    others = hinged_shapes(chain, 3, [])
+    bent = static_shape(chain, others.shapes.ends, pull, hinged=True)
+    both = np.zeros((5, *others.shapes.coefficients.shape[1:]))
+    both[:4], both[4, :, : bent.shape[1]] = others.shapes.coefficients, bent
+    shapes = dataclasses.replace(others, shapes=dataclasses.replace(others.shapes, coefficients=both))
+    turn = (pull.force * pull.place + pull.couple) / sum(chain.inertia[2:])
+    asked = pull.force * others(pull.place) + pull.couple * others.rotation(pull.place)
+    asked = asked - turn * (others.mass_moments()[1] + others.rotary_moments())
+    worked = shapes.stiffness_matrix()[4, :4]
+    assert worked == pytest.approx(asked, abs=1e-7 * np.max(abs(asked)))
+    assert abs(asked[0]) < 1e-12 * np.max(abs(asked))
