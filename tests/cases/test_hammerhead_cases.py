@@ -10,6 +10,7 @@ from samples.program import towercrane
 from towercrane.cases.case import CaseError, case_folder, load_case
 from towercrane.cases.models import model_of
 from towercrane.cranes.tower.tied_model import TiedModel
+from towercrane.report.plots.runs.tower import run_pictures
 from towercrane.runs.run import run_case
 from towercrane.simulation.outcomes import SLACK_TIE
 
@@ -80,6 +81,8 @@ def test_a_load_at_rest_is_held_by_the_ties(written):
     bars = sum(rate * np.hypot(place, 8.5 - height) for rate, place, height in ties)
     assert float(run["base_force_z"][-1]) == pytest.approx(-9.81 * (weights + bars), rel=1e-9)
     assert "jib_root_moment" not in run
+    drawn = [line.get_label() for axes in run_pictures(run)["ties.png"].axes for line in axes.get_lines()]
+    assert drawn == ["tension of tie 1", "tension of tie 2", "tension of tie 1"]
     drift = abs(run["total_energy"].values - float(run["total_energy"][0]))
     assert np.max(drift) < 1e-9 * abs(float(run["total_energy"][0]))
 

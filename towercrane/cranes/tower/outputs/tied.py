@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from towercrane.cranes.tower.equations.motion import GUARDS
 from towercrane.cranes.tower.equations.tied.fields import kinetic_energy, move_fields
 from towercrane.cranes.tower.equations.tied.ties import Taut, pull_ties, stored
+from towercrane.cranes.tower.modes.tied.bars import MOST_TIES
 from towercrane.cranes.tower.outputs import energy
 from towercrane.cranes.tower.outputs.observed import OUTPUTS, Outputs, Sight
 from towercrane.cranes.tower.outputs.sections import Sections
@@ -21,9 +22,6 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.tied.constants import Tied
     from towercrane.cranes.tower.outputs.seen import Seen
     from towercrane.simulation.observed import Instant
-
-MOST_TIES = 6
-"""On either side."""
 
 
 class TiedSight(Sight):

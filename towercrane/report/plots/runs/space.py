@@ -8,6 +8,7 @@ import numpy as np
 
 from towercrane.cranes.kind import Panel
 from towercrane.cranes.tower.modes.collars import MOST_COLLARS
+from towercrane.cranes.tower.modes.tied.bars import MOST_TIES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,6 +42,14 @@ COLLARS = tuple(
         {f"collar_{k}_force_{axis}": f"force on collar {k}" for k in range(1, MOST_COLLARS + 1)},
     )
     for axis in "xy"
+)
+TIES = tuple(
+    Panel(
+        f"ties of the {said} [kN]",
+        1e-3,
+        {f"{side}_tie_{k}_tension": f"tension of tie {k}" for k in range(1, MOST_TIES + 1)},
+    )
+    for side, said in (("jib", "jib"), ("counter_jib", "counter-jib"))
 )
 WIND = Panel("wind [m/s]", 1.0, {"wind_x": "along x", "wind_y": "along y", "wind_z": "up"})
 
@@ -122,6 +131,7 @@ SOME: Pictures = {
     "wind.png": ("Wind", (WIND,)),
     "ground.png": ("Earthquake", (GROUND,)),
     "collars.png": ("Forces on the collars", COLLARS),
+    "ties.png": ("Tie bars", TIES),
 }
 """Pictures of what only some runs have."""
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from towercrane.cranes.tower.file.checks.jib import COUNTER_JIB, JIB, jib_length
 from towercrane.cranes.tower.file.checks.tower import MISSING, ROUNDING, tables_in
 from towercrane.cranes.tower.file.plane import stays_in_plane
-from towercrane.cranes.tower.outputs.tied import MOST_TIES
+from towercrane.cranes.tower.modes.tied.bars import MOST_TIES
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.ranges import at, si_at
 from towercrane.schema.units import wanted

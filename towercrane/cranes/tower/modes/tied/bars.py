@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+MOST_TIES = 6
+"""On either side."""
+
 
 @dataclass(frozen=True, slots=True)
 class Tie:
