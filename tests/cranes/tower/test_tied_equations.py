@@ -14,7 +14,6 @@ from towercrane.cranes.tower.equations.body import body_of
 from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.jib import bend
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TROLLEY_FORCE, motion
-from towercrane.cranes.tower.equations.tied.constants import Fields
 from towercrane.cranes.tower.equations.tied.fields import move_fields
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
@@ -160,8 +159,7 @@ def test_points_that_move_across_an_axis_are_the_plain_jib():
     left, up = bend(crane, head, felt, state)
     expected = body_of(crane.straight, head, felt, left.sums, up.sums)
     sums = sums_on_axis(model.crane.slewing, 3, 6)
-    own = Fields(sums.mass, sums.first, sums.inertia, sums.momentum, sums.moved, sums.products, sums.spun)
-    body, forces, rows, rate = move_fields(own, head, felt, q[-6:], rates[-6:])
+    body, forces, rows, rate = move_fields(sums, head, felt, q[-6:], rates[-6:])
     assert np.allclose(rate, (0.0, left.sums.first_rate, up.sums.first_rate), rtol=1e-12)
     for one, other in zip(body, expected, strict=True):
         assert np.allclose(one, other, rtol=1e-12, atol=1e-12 * np.max(np.abs(other)))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.tower.equations.constants import Constants, constants_of
-from towercrane.cranes.tower.equations.tied.constants import Fields, Tied
+from towercrane.cranes.tower.equations.tied.constants import Tied
 from towercrane.cranes.tower.equations.tied.ties import pull_ties, span_of
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.outputs import tied as shown
@@ -57,7 +57,7 @@ def tied_of(crane: FlexibleCrane, gravity: float, stiffness: Floats) -> tuple[Ti
     found = Tied(
         ahead=len(head.bars.jib),
         sags=head.part(5).start,
-        fields=Fields(sums.mass, sums.first, sums.inertia, sums.momentum, sums.moved, sums.products, sums.spun),
+        fields=sums,
         spans=head.bars.spans, ends=lower - upper, along=along, across=across, lengths=head.lengths,
         reference=np.zeros(count), pretension=np.zeros(count), slack=np.zeros(count),
         stiffness=np.asarray(np.linalg.inv(head.bars.compliance)),

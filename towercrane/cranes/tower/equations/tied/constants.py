@@ -1,4 +1,4 @@
-"""The constants of a cat-head with tie bars and of what they hold."""
+"""The constants of a cat-head with tie bars."""
 
 from __future__ import annotations
 
@@ -9,38 +9,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from towercrane.cranes.tower.modes.tied.head import FieldSums
+
     Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class Fields:
-    """Mass of points at s0 + sum psi_i q_i in the axes of a head, summed; n coordinates.
-
-    Parameters
-    ----------
-    mass : float
-        [kg]
-    first : ndarray, shape (3,)
-        int s0.
-    inertia : ndarray, shape (3, 3)
-        Tensor of inertia at s0, with that of sections about their own axes.
-    momentum : ndarray, shape (n, 3)
-        int psi_i.
-    moved : ndarray, shape (n, 3, 3)
-        int psi_i s0^T.
-    products : ndarray, shape (n, n, 3, 3)
-        int psi_i psi_j^T.
-    spun : ndarray, shape (n, 3)
-        Moment of momentum of sections that turn about their own axes.
-    """
-
-    mass: float
-    first: Floats
-    inertia: Floats
-    momentum: Floats
-    moved: Floats
-    products: Floats
-    spun: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +24,7 @@ class Tied:
         How many ties hold the jib: the first.
     sags : int
         Where the sags of the ties begin, the last coordinates but for their bows to the left.
-    fields : Fields
+    fields : FieldSums
         All that turns, without trolley.
     spans : ndarray, shape (t, 2)
         From the cat-head's top to the end of each straight tie: forward and up [m].
@@ -70,7 +41,7 @@ class Tied:
 
     ahead: int
     sags: int
-    fields: Fields
+    fields: FieldSums
     spans: Floats
     ends: Floats
     along: Floats

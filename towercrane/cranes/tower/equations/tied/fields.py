@@ -1,6 +1,6 @@
 """Inertia and weight of points that move in any direction in the axes of a turning head.
 
-A point is at s = s0 + sum psi_i q_i. In the sums of :class:`towercrane.cranes.tower.equations.tied.constants.Fields`
+A point is at s = s0 + sum psi_i q_i. In the sums of :class:`towercrane.cranes.tower.modes.tied.head.FieldSums`
 D_i = int psi_i s^T, and vec(D)_a = -eps_akl D_kl makes of it int s x psi_i.
 """
 
@@ -14,7 +14,7 @@ from towercrane.kernels.algebra import Row, Vector, cross, dot, form
 if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.head import Head
     from towercrane.cranes.tower.equations.projection import Momenta
-    from towercrane.cranes.tower.equations.tied.constants import Fields
+    from towercrane.cranes.tower.modes.tied.head import FieldSums
 
 AXES = range(3)
 
@@ -31,7 +31,7 @@ class Moved(NamedTuple):
     rate: Vector
 
 
-def move_fields(own: Fields, head: Head, felt: Vector, q: Row, rates: Row) -> Moved:
+def move_fields(own: FieldSums, head: Head, felt: Vector, q: Row, rates: Row) -> Moved:
     """Points on a head that moves so; felt is the acceleration against gravity of the tower's top."""
     spin, spin_bias, places = head.spin, head.spin_bias, range(len(own.momentum))
     square = dot(spin, spin)
@@ -68,7 +68,7 @@ def move_fields(own: Fields, head: Head, felt: Vector, q: Row, rates: Row) -> Mo
     return Moved(Body(own.mass, s, tensor, force, moment), forces, rows, rate)
 
 
-def kinetic_energy(own: Fields, head: Head, q: Row, rates: Row) -> Any:
+def kinetic_energy(own: FieldSums, head: Head, q: Row, rates: Row) -> Any:
     """Energy of points on a head that moves so [J], but for sections that turn about their own axes together."""
     spin, top = head.spin, head.top
     met = [_sum(own.products[i], q, own.moved[i]) for i in range(len(own.momentum))]
@@ -96,7 +96,7 @@ def trace(sums: Tensor) -> Any:
     return sums[0][0] + sums[1][1] + sums[2][2]
 
 
-def _inertia(own: Fields, q: Row, met: list[Tensor]) -> Tensor:
+def _inertia(own: FieldSums, q: Row, met: list[Tensor]) -> Tensor:
     """Tensor of inertia: that at s0, and tr Z - Z with what the coordinates add to Z = int s s^T."""
     added = [[dot([d[k][m] for d in met], q) + dot(own.moved[:, m, k], q) for m in AXES] for k in AXES]
     total = trace(added)
