@@ -40,7 +40,7 @@ def test_files_hold_the_same_numbers(shown, folder):
         "map.nc", "map.csv", "map.json", "map.png", "shapes.png",
     }  # fmt: skip
     data = results.load(folder / "map.nc")
-    assert dict(data.sizes) == {"payload": 2, "position": 4, "mode": 3, "member": 5, "load": 2}
+    assert dict(data.sizes) == {"payload": 2, "position": 4, "mode": 3, "member": 6, "load": 2}
     assert data.frequency.attrs["units"] == "Hz"
     assert all(variable.attrs.get("units") for name, variable in data.data_vars.items() if name != "outcome")
     assert json.loads(data.attrs["assumed"])[1][0] == "crane.jib.second_moment_of_area"

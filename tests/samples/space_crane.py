@@ -28,11 +28,11 @@ def model(
     torsion=1,
     lateral=3,
     vertical=3,
-    counter=(0, 0),
     load=1500.0,
     areas=None,
     planes=2,
     crane=CRANE,
+    counter=(0, 0),
     **options,
 ):
     modes = ModeCounts(tower, torsion, lateral, vertical, *counter)

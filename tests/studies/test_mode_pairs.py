@@ -12,12 +12,12 @@ from towercrane.report.tables.modes import modes_tables
 from towercrane.studies.natural import natural_frequencies
 from towercrane.studies.plane_modes import MEMBERS, PlaneCrane
 
-TAPERED = "towers/tapered"
+TAPERED, RIGID = "towers/tapered", "model.counter_jib_vertical_modes=0"
 
 
 @pytest.fixture(scope="module")
 def tapered():
-    return natural_frequencies(load_case(TAPERED))
+    return natural_frequencies(load_case(TAPERED, (RIGID,)))
 
 
 def test_mode_of_a_counter_jib_that_bends_is_missing_from_a_model_that_keeps_it_rigid(tapered):
@@ -42,7 +42,7 @@ def test_mode_of_a_counter_jib_that_bends_is_missing_from_a_model_that_keeps_it_
 def test_the_stiffer_the_counter_jib_the_nearer_is_every_mode_of_the_model():
     worst = []
     for inertia in (0.12, 9.6):
-        case = load_case(TAPERED, (f"crane.counter_jib.second_moment_of_area='{inertia} m^4'",))
+        case = load_case(TAPERED, (f"crane.counter_jib.second_moment_of_area='{inertia} m^4'", RIGID))
         rows = natural_frequencies(case)["crane"]
         assert [row["missing_from_the_model"] + row["exact_unlike_the_model_hz"] for row in rows] == [[], []]
         worst.append(max(max(row["relative_difference"]) for row in rows))
