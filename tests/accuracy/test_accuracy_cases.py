@@ -146,11 +146,23 @@ def test_verification_compares_with_a_richer_model(capsys):
     assert richer.counts == plane_setting(10, 18).counts
 
 
-@pytest.mark.parametrize("name", ["towers/laced", "towers/tapered", OPEN])
-def test_verification_is_not_misled_by_fast_modes_of_the_richer_model(name):
+@pytest.mark.parametrize(
+    ("name", "closest"),
+    # The tapered tower's counter-jib bends: what is left out is measured there, not foretold.
+    [("towers/laced", 0.05), ("towers/tapered", 0.01), (OPEN, 0.05)],
+)
+def test_verification_is_not_misled_by_fast_modes_of_the_richer_model(name, closest):
     case = load_case(name, ["run.duration=80 s", "accuracy.target=3e-2", 'accuracy.outputs=["rope_tension"]'])
     found = verification(case, record_case(case))["outputs"]["rope_tension"]
-    assert 0.05 * found["estimated"] < found["actual"] < found["estimated"]
+    assert closest * found["estimated"] < found["actual"] < found["estimated"]
+
+
+def test_a_crane_of_segments_whose_counter_jib_bends_keeps_its_promise():
+    case = load_case("flat-top/travel", ["run.duration=30 s", "accuracy.target=1e-2"])
+    result = record_case(case)
+    assert result.attrs["outcome"] == "finished"
+    found = verification(case, result)
+    assert all(own["actual"] < own["estimated"] < 0.02 * own["peak"] for own in found["outputs"].values())
 
 
 def test_verify_on_the_command_line(tmp_path):

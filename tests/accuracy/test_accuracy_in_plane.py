@@ -154,5 +154,6 @@ def test_what_is_foretold_and_what_is_measured_are_verified_beside_models_of_the
     assert foretold == plane_setting(4, 7, rtol=1e-8, atol=1e-10)
     assert measured == plane_setting(3, 5, rtol=1e-8, atol=1e-10)
     space = finer(replace(setting, planar=True), replace(SCENE, planar=False), foretold=False)
-    assert space.counts == {"tower_modes": 3, "torsion_modes": 0, "jib_lateral_modes": 0, "jib_vertical_modes": 5}
+    some = {kind: count for kind, count in space.counts.items() if count}
+    assert some == {"tower_modes": 3, "jib_vertical_modes": 5}
     assert not space.planar

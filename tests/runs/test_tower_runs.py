@@ -96,10 +96,10 @@ def test_a_counter_jib_that_bends(tmp_path):
     tower = Chain((Segment(30.0, 300.0, 210e7),))
     frame = CraneFrame(tower, Chain((JIB,)), counter, 300.0, 800.0, 12.0)
     assert_allclose(hertz(crane_frame(case.checked), 17.0), hertz(frame, 17.0), rtol=1e-13)
-    # The equations of motion keep it rigid; ever stiffer it comes to that, as one over its stiffness.
+    assert crane_of(case.checked).counter_jib == counter
+    # Ever stiffer it comes to a rigid one, as one over its stiffness.
     (tmp_path / "rigid").mkdir()
     plain = load_case(write_case(tmp_path / "rigid", UNIFORM))
-    assert crane_of(case.checked) == crane_of(plain.checked)
     gaps = []
     for inertia in (1e-3, 1, 10):
         stiff = load_case(path, [f"crane.counter_jib.second_moment_of_area={inertia}"])

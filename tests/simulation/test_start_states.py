@@ -16,7 +16,11 @@ TIMES = np.linspace(0.0, 4.0, 41)
 ANGLES = {
     "shaft_angle", "slewing_angle", "platform_angle", "tower_angle", "jib_angle", "counter_jib_angle", "joint_angle",
 }  # fmt: skip
-VECTORS = {"wind": ("wind_x", "wind_y"), "moment": ("base_moment_x", "base_moment_y")}
+VECTORS = {
+    "wind": ("wind_x", "wind_y"),
+    "moment": ("base_moment_x", "base_moment_y"),
+    "force": ("base_force_x", "base_force_y"),
+}
 
 
 def as_if_turned(outputs: dict, angle: float) -> dict:

@@ -16,7 +16,7 @@ import numpy as np
 from towercrane.accuracy.path import Path
 from towercrane.accuracy.readings import ROUNDING, components, held, readings
 from towercrane.cranes.parts.coupling import coupling_torque
-from towercrane.cranes.tower.equations.constants import geometric_stiffness
+from towercrane.cranes.tower.equations.matrices import geometric_stiffness
 from towercrane.cranes.tower.equations.small_motions import linear_matrices
 from towercrane.simulation.outcomes import TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
@@ -207,7 +207,7 @@ class Departures:
     def _in_plane(self) -> NDArray[np.bool_]:
         """Which coordinates move in the jib's plane."""
         found = np.zeros(len(self.all), dtype=bool)
-        for kind in ("tower_x", "jib_vertical"):
+        for kind in ("tower_x", "jib_vertical", "counter_jib_vertical"):
             found[self.model.parts[kind]] = True
         found[self.model.coordinates] = True
         return found

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
 from towercrane.accuracy.setting import Setting
-from towercrane.cranes.tower.equations.constants import geometric_stiffness
+from towercrane.cranes.tower.equations.matrices import geometric_stiffness
 from towercrane.cranes.tower.targets import FORETOLD
 from towercrane.motions.motion import phases
 

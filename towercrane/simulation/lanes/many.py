@@ -46,7 +46,7 @@ from towercrane.simulation.methods.method import DEFAULT
 from towercrane.simulation.methods.registry import pair_of
 from towercrane.simulation.observed import Looked, scalars
 from towercrane.simulation.outcomes import COLLAPSED, FINISHED, INTERRUPTED, NOT_FINITE, STALLED
-from towercrane.simulation.system import NoEquilibrium, written_of
+from towercrane.simulation.system import written_of
 from towercrane.simulation.trajectory import phase_of
 
 if TYPE_CHECKING:
@@ -204,24 +204,6 @@ def available_cores() -> int:
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
-def _start(run: LaneRun) -> tuple[Floats, int]:
-    """State at the start of a run, and whether it waits for a lane or has no equilibrium to start from."""
-    inputs = run.start_inputs
-    try:
-        return run.model.start(inputs, run.state, run.swing_angle), WAITING
-    except NoEquilibrium:
-        return run.model.start(inputs, "zero", run.swing_angle), NO_START
-
-
-def _refusal(run: LaneRun) -> str:
-    """Outcome of a run that has no equilibrium to start from."""
-    try:
-        run.model.start(run.start_inputs, run.state, run.swing_angle)
-    except NoEquilibrium as failure:
-        return failure.outcome
-    raise AssertionError("a start that was refused is refused again")
-
-
 def _queue(
     runs: Sequence[LaneRun], answers: Answers, sample_times: Floats, atol: float, pair: RungeKutta, code: Written,
     seen: Floats,
@@ -235,7 +217,8 @@ def _queue(
         data = run.start_inputs, run.model.system.numbers
         key = (run.state, run.swing_angle, *(array.tobytes() for array in data))
         if key not in found:
-            found[key] = _start(run)
+            state, refusal = run.start()
+            found[key] = state, NO_START if refusal else WAITING
         starts[number], answers.outcomes[number] = found[key]
     restore_rows(starts, systems[0].directions)
     # Those without a start end in it.
@@ -293,7 +276,7 @@ def _told(runs: Sequence[LaneRun], answers: Answers) -> LaneAnswers:
     }  # fmt: skip
     codes = zip(runs, answers.outcomes.tolist(), strict=True)
     outcomes = [
-        _refusal(run) if code == NO_START else names.get(code) or run.model.system.guards[code - FIRST_GUARD]
+        run.start()[1] if code == NO_START else names.get(code) or run.model.system.guards[code - FIRST_GUARD]
         for run, code in codes
     ]
     answers.extremes[answers.outcomes == WAITING] = np.nan

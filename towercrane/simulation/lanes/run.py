@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
+from towercrane.simulation.system import NoEquilibrium
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -58,3 +60,11 @@ class LaneRun:
             inputs[channel] = 0.0
             inputs[channel, 0] = mean
         return inputs
+
+    def start(self) -> tuple[Floats, str]:
+        """State at the start, and the outcome of a run that has no equilibrium to start from, else nothing."""
+        inputs = self.start_inputs
+        try:
+            return self.model.start(inputs, self.state, self.swing_angle), ""
+        except NoEquilibrium as failure:
+            return self.model.start(inputs, "zero", self.swing_angle), failure.outcome

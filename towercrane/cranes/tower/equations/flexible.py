@@ -10,20 +10,12 @@ import numpy as np
 
 from towercrane.cranes.parts.corner import Corner
 from towercrane.cranes.tower.equations import motion
-from towercrane.cranes.tower.equations.constants import (
-    ROPE,
-    SLEWING,
-    Constants,
-    constants_of,
-    geometric_stiffness,
-    scale,
-    softening,
-    stiffness,
-)
+from towercrane.cranes.tower.equations.actions.wind import wind_velocity
+from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, Constants, constants_of
 from towercrane.cranes.tower.equations.coordinates import Coordinates
 from towercrane.cranes.tower.equations.joints import Joints
+from towercrane.cranes.tower.equations.matrices import geometric_stiffness, scale, softening, stiffness
 from towercrane.cranes.tower.equations.structure import load_force, static_force, structure
-from towercrane.cranes.tower.equations.wind import wind_velocity
 from towercrane.kernels.payload import SLACK, Load, State, Structure
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium

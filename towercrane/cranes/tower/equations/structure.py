@@ -19,9 +19,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane.cranes.tower.equations.actions.drive import Driven, drive
+from towercrane.cranes.tower.equations.actions.ground import ground_of, shake
+from towercrane.cranes.tower.equations.actions.wind import press_wind
 from towercrane.cranes.tower.equations.body import body_of, carried
-from towercrane.cranes.tower.equations.drive import Driven, drive
-from towercrane.cranes.tower.equations.ground import ground_of, shake
 from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.jib import bend, path_of, trolley_of
 from towercrane.cranes.tower.equations.projection import (
@@ -35,7 +36,6 @@ from towercrane.cranes.tower.equations.projection import (
 )
 from towercrane.cranes.tower.equations.tied.fields import move_fields
 from towercrane.cranes.tower.equations.tied.ties import Taut, pull_ties
-from towercrane.cranes.tower.equations.wind import press_wind
 from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.payload import State, Structure
 

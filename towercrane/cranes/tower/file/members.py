@@ -160,8 +160,10 @@ def jib_of(crane: Crane, plane: Plane = "vertical") -> Beam | Chain | None:
     jib = crane.jib
     (first, *more), prefix = jib.pieces, "lateral_" if plane == "lateral" else ""
     inertia: float | None = getattr(first, f"{prefix}second_moment_of_area")
-    plain = getattr(first, f"{prefix}shear_stiffness") == inf and first.rotary_inertia_per_length == 0.0
-    if not more and not jib.bodies and first.laced is None and plain and first.lateral_shear_stiffness == inf:
+    # Both planes are beams, or both are chains.
+    rigid = first.shear_stiffness == first.lateral_shear_stiffness == inf
+    light = first.rotary_inertia_per_length == first.lateral_rotary_inertia_per_length == 0.0
+    if not more and not jib.bodies and first.laced is None and rigid and light:
         modulus, mass = first.youngs_modulus or jib.youngs_modulus, first.mass_per_length
         assert modulus is not None, "the file is checked to give one"
         return None if inertia is None else Beam(first.length, spread(first) or mass or 0.0, modulus, inertia)

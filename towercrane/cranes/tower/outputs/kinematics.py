@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.cranes.tower.equations.actions.ground import Ground, ground_of
+from towercrane.cranes.tower.equations.actions.wind import wind_velocity
 from towercrane.cranes.tower.equations.body import Carried, carried
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TURN
-from towercrane.cranes.tower.equations.ground import Ground, ground_of
 from towercrane.cranes.tower.equations.head import Head, head_of
 from towercrane.cranes.tower.equations.jib import Path, Section, Trolley, path_of, trolley_of
 from towercrane.cranes.tower.equations.motion import GUARDS
-from towercrane.cranes.tower.equations.wind import wind_velocity
 from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.payload import State, state_of
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from towercrane.cranes.tower.equations.ground import floors_of
+from towercrane.cranes.tower.equations.actions.ground import floors_of
 from towercrane.kernels.algebra import Vector, cross, dot, form
 
 if TYPE_CHECKING:

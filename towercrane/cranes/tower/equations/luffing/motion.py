@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane.cranes.tower.equations.actions.drive import Driven, drive
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
-from towercrane.cranes.tower.equations.drive import Driven, drive
 from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.luffing.hinge import Hinged, hinge, jib_part, luffing_of, pivot_of
 from towercrane.cranes.tower.equations.luffing.ropes import Held, hold, tied_at, way_to
