@@ -53,10 +53,12 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
         ``crane`` (a list with trolley_position_m, frequencies_hz, swing_mode, exact_hz and relative_difference to the
         exact mode of the same shape, None where there is none, predicted_difference, missing_from_the_model with
         frequency_hz and member, exact_unlike_the_model_hz, see `towercrane.studies.mode_pairs.ModePairs`; outcome and
-        message where the tower buckles), ``buckling_factor`` on all weights, ``lattice`` where the case describes
-        one, ``assumed``.
+        message where the tower buckles), ``uniform_jib`` where ``actual`` is asked for and the jib is none, see
+        `towercrane.studies.uniform_jib`, ``buckling_factor`` on all weights, ``lattice`` where the case has one,
+        ``assumed``.
     """
-    from modal import Beam, Modes
+    from modal import Beam, Chain, Modes
+    from towercrane.studies.uniform_jib import uniform_jib_cost
 
     tables = case.tables(TowerCase)
     model = model or tower_model(tables, planar=True)
@@ -83,6 +85,9 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
     if isinstance(jib, Modes):
         report["jib"]["roots"] = jib.roots.tolist()
     report["crane"] = [_coupled(tables, model, crane, position) for position in asked.trolley_positions]
+    if actual and isinstance(crane.jib, Chain):
+        frame = crane_frame(tables, weight=model.weight_softening)
+        report["uniform_jib"] = uniform_jib_cost(frame, asked.trolley_positions, FRAME_MODES)
     report["buckling_factor"] = _buckling_factor(tables, asked.trolley_positions[0])
     if tables.crane.tower.published_roots and "roots" in tower:
         report["tower"]["published_roots"] = list(tables.crane.tower.published_roots)

@@ -63,6 +63,12 @@ def modes_tables(report: dict[str, Any]) -> None:
         if unlike := row.get("exact_unlike_the_model_hz"):
             listed = ", ".join(f"{frequency:.6f}" for frequency in unlike)
             console.print(f"{where}: no mode of the model is like the exact crane's at {listed} Hz")
+    for row in report.get("uniform_jib", ()):
+        changes = ", ".join(f"{100.0 * change:+.2g}" for change in row["relative_difference"])
+        console.print(
+            f"trolley at {row['trolley_position_m']:g} m: a uniform jib, as heavy and with the same first frequency, "
+            f"would change the exact crane's f1 to f{len(row['relative_difference'])} by {changes} %"
+        )
     if any(None in row.get("relative_difference", ()) for row in report["crane"]):
         console.print("- the exact crane has no mode of that shape")
 
