@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cases.wind_file import uneven
-from towercrane.schema.csv_table import SHOWN_FAULTS, TIME, Column, read_table
+from towercrane.schema.csv_series import read_series
 from towercrane.schema.faults import CaseError, Fault
 from towercrane.schema.ranges import at, si_at
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -80,12 +78,11 @@ def read_accelerations(path: Path) -> tuple[Floats, Floats]:
     Raises
     ------
     CaseError
-        If it is no such table, see :func:`towercrane.schema.csv_table.read_table`, its times are not evenly spaced
-        within the decimals that they are given with, or an acceleration is too large to be one.
+        If it is no such series, see :func:`towercrane.schema.csv_series.read_series`.
     """
     words = {axis: (axis, f"a{axis}", f"a_{axis}", f"acceleration {axis}", f"ground {axis}") for axis in "xyz"}
     hint = "x [cm/s^2] meant? The header names the unit"
-    return _read(path, "m/s^2", words, STRONGEST, hint)
+    return read_series(path, "m/s^2", words, STRONGEST, hint)
 
 
 def read_floor(path: Path) -> tuple[Floats, Floats]:
@@ -97,20 +94,7 @@ def read_floor(path: Path) -> tuple[Floats, Floats]:
         As :func:`read_accelerations`.
     """
     words = {axis: (axis, f"u{axis}", f"u_{axis}", f"displacement {axis}") for axis in "xy"}
-    return _read(path, "m", words, FARTHEST, "against the ground; x [mm] meant? The header names the unit")
-
-
-def _read(
-    path: Path, unit: str, words: Mapping[str, tuple[str, ...]], most: float, hint: str
-) -> tuple[Floats, Floats]:  # fmt: skip
-    table = read_table(path, (TIME, *(Column(axis, unit, known) for axis, known in words.items())))
-    faults = uneven(table)
-    largest = np.max(abs(table.values[:, 1:]), axis=1)
-    for row in np.flatnonzero(largest > most).tolist():
-        faults.append(table.fault(row, f"components up to {most:g} {unit}", f"{largest[row]:g} {unit}", hint))
-    if faults:
-        raise CaseError(faults[:SHOWN_FAULTS])
-    return table.values[:, 0], table.values[:, 1:]
+    return read_series(path, "m", words, FARTHEST, "against the ground; x [mm] meant? The header names the unit")
 
 
 def _named(error: CaseError, key: str) -> list[Fault]:
