@@ -7,12 +7,16 @@ import pytest
 from samples import hammerhead as sample
 from samples.program import towercrane
 
+from modal import Chain, Segment
 from towercrane.cases.case import CaseError, case_folder, load_case
 from towercrane.cases.models import model_of
+from towercrane.cranes.tower.modes.tied.bars import Tie, TieBars
 from towercrane.cranes.tower.tied_model import TiedModel
+from towercrane.motions.motion import rest
 from towercrane.report.plots.runs.tower import run_pictures
 from towercrane.runs.run import run_case
-from towercrane.simulation.outcomes import SLACK_TIE
+from towercrane.simulation.outcomes import NOT_LEVEL, SLACK_TIE
+from towercrane.simulation.simulate import simulate
 
 SHIPPED = case_folder() / "hammerhead"
 
@@ -146,3 +150,26 @@ def test_ties_that_would_push_end_a_run_by_name(written):
     run = run_case(load_case(written(strained)))
     assert run.attrs["outcome"] == SLACK_TIE
     assert "600" in run.attrs["message"]
+
+
+def test_a_single_tie_at_the_end_of_a_uniform_jib_pulls_as_statics_says():
+    chain = Chain((Segment(60.0, 130.0, 6e8, 6e7),))
+    bars = TieBars(sample.HEAD, (Tie(60.0, 1.2, 5.8e8, 23.0),), sample.BACK_TIE, ((60.0, 1.7e9),), ((14.0, 1.5e9),))
+    crane = sample.bare(jib=chain, jib_lateral=chain, tie_bars=bars)
+    model = sample.model(crane=crane, lateral=0, planes=1)
+    still = {channel: rest({"trolley": 10.0, "rope": 20.0}.get(channel, 0.0)) for channel in model.channels}
+    shown = simulate(model, still, 0.2)
+    assert not model.constants.jointed
+    load = (3000.0 + crane.trolley_mass) * 10.0 + 130.0 * 60.0 * 30.0 + 0.5 * 23.0 * np.hypot(60.0, 7.3) * 60.0
+    # The line of the tie passes the foot at this distance.
+    arm = 8.5 * 60.0 / np.hypot(60.0, 7.3)
+    assert shown["jib_tie_1_tension"].values[0] == pytest.approx(9.81 * load / arm, rel=5e-3)
+    assert shown["counter_jib_tie_1_tension"].values[0] > 0.0
+
+
+def test_a_stated_pretension_that_does_not_carry_the_weight_is_an_outcome_by_name(written):
+    path = written(case=[('duration = "2 s"', 'duration = "1 s"')])
+    case = load_case(path, ["crane.jib.ties.0.pretension=30 kN", "crane.jib.ties.1.pretension=130 kN"])
+    found = run_case(case).attrs
+    assert (found["outcome"], found["end_time"]) == (NOT_LEVEL, 0.0)
+    assert "m off level" in found["message"]

@@ -77,7 +77,7 @@ def test_a_run_without_a_swing_or_a_spectrum_and_with_expectations(capsys):
     _, lines = said(capsys)
     assert lines[0] == "Some crane on its own"
     assert "swing period          none: no regular swing after the drives stopped" in lines
-    assert "spectrum peaks        none Hz in tower tip displacement" in lines
+    assert "spectrum peaks        none in tower tip displacement" in lines
     assert "natural frequencies   0.1000 a, 0.2000 b, 0.4000 c, 0.8000 d, 1.6000 e Hz where the run ended" in lines
     assert "expected by the case  expected this, got that" in lines
     assert not any("too fast" in line or "Hz too" in line for line in lines)

@@ -64,7 +64,8 @@ def _uneven(table: CsvTable) -> list[Fault]:
     times = table.written[:, 0]
     steps = np.diff(times)
     # A gap or a slip does not change the usual step, and many steps tell it more finely than one.
-    usual = float(np.mean(steps[abs(steps - np.median(steps)) <= 0.1 * np.median(steps)]))
+    alike = abs(steps - np.median(steps)) <= 0.1 * np.median(steps)
+    usual = float(np.mean(steps[alike]) if alike.any() else steps[0])
     due = np.arange(len(times)) * times[-1] / max(round(times[-1] / usual), 1)
     # Both the time itself and the last one, which sets the step, are rounded; after a gap all are late.
     rows = np.flatnonzero(abs(times - due) > _last_place(times) + ROUNDING * times[-1])[:1].tolist()

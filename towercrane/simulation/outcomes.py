@@ -11,6 +11,7 @@ NOT_FINITE = "state not finite"
 
 SLACK_ROPE = "slack rope"
 SLACK_TIE = "slack tie bar"
+NOT_LEVEL = "jib not level on its ties"
 TROLLEY_OFF_JIB = "trolley off the jib"
 TOWER_BUCKLED = "tower buckled"
 JIB_OVER = "jib over backwards"

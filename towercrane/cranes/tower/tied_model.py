@@ -15,7 +15,7 @@ from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.outputs import tied as shown
 from towercrane.cranes.tower.outputs.observed import about
 from towercrane.simulation.differences import jacobian
-from towercrane.simulation.outcomes import SLACK_TIE
+from towercrane.simulation.outcomes import NOT_LEVEL, SLACK_TIE
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 
 MOST_STEPS = 30
 """Of Newton's method for the pretension."""
+
+LEVEL = 0.02
+"""Part of the jib's length by which the lower end of a tie may be off level in the crane's own weight."""
 
 
 def tied_of(crane: FlexibleCrane, gravity: float, stiffness: Floats) -> tuple[Tied, Floats]:
@@ -176,6 +179,15 @@ class TiedModel(FlexibleModel):
         if np.any(tensions <= 0.0):
             pulled = ", ".join(f"{1e-3 * tension:.4g}" for tension in tensions)
             raise NoEquilibrium(SLACK_TIE, f"under the crane's own weight the ties would pull with {pulled} kN")
+        head, q = _head_of(self.crane), self._at_rest_alone[1]
+        heights = [float(own @ q) for own in head.ends()[1][np.arange(len(tensions)), :, 2]]
+        if max(map(abs, heights)) > LEVEL * self.crane.jib_length:
+            listed = ", ".join(f"{height:+.2g}" for height in heights)
+            raise NoEquilibrium(
+                NOT_LEVEL,
+                f"with the stated pretension the ties' ends stand {listed} m off level under the crane's own weight; "
+                "state none, or fewer: what the weight asks for is found",
+            )
         return super().equilibrium(inputs)
 
     def undeformed(self, inputs: Floats) -> Floats:

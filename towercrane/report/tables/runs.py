@@ -78,8 +78,9 @@ def _spectrum(console: Console, summary: dict[str, Any]) -> None:
 
     highest = summary["spectrum_to_hz"]
     reach = f", up to {highest:.4g} Hz" if highest else ""
-    peaks = listed("spectrum_peaks_hz") or "none"
-    console.print(f"spectrum peaks        {peaks} Hz in {summary['spectrum_of'].replace('_', ' ')}{reach}")
+    peaks = listed("spectrum_peaks_hz")
+    peaks = f"{peaks} Hz" if peaks else "none"
+    console.print(f"spectrum peaks        {peaks} in {summary['spectrum_of'].replace('_', ' ')}{reach}")
     if summary["spectrum_other_hz"]:
         console.print(
             f"                      {listed('spectrum_other_hz')} Hz too: no natural frequencies, "

@@ -49,13 +49,17 @@ def modes_that_move(tables: TowerCase) -> dict[str, str]:
 
 
 def notices(tables: TowerCase, model: FlexibleModel) -> list[str]:
-    """What the modes of a run leave out of an earthquake."""
-    if tables.earthquake is None or model.crane.written is None:
+    """What the modes of a run leave out of forces on base and collars."""
+    written, count = model.crane.written, model.crane.tower.count
+    if written is None:
         return []
+    from towercrane.cranes.tower.modes.collar_statics import notice
     from towercrane.cranes.tower.modes.effective_mass import effective_mass
 
-    said = effective_mass(model.crane.written).notice(model.crane.tower.count)
-    return [said] if said else []
+    said = [notice(written, count)]
+    if tables.earthquake is not None:
+        said.append(effective_mass(written).notice(count))
+    return [sentence for sentence in said if sentence]
 
 
 SIDEWAYS = "torsion of the tower, bending of tower and jib to their sides and sway across the jib are left out"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cranes.tower.equations.motion import GUARDS
 from towercrane.cranes.tower.equations.tied.fields import kinetic_energy, move_fields
 from towercrane.cranes.tower.equations.tied.ties import Taut, pull_ties, stored
 from towercrane.cranes.tower.modes.tied.bars import MOST_TIES
@@ -101,7 +100,8 @@ def tensions(jib: int, counter_jib: int) -> Read:
     """Tensions of so many ties, from the tower's axis outward."""
 
     def read(k: int, side: str) -> Callable[[Any], Any]:
-        return lambda at: at.instant.guards[GUARDS + 3 + k + (at.own.ahead if side == "counter_jib" else 0)]
+        # They are the last of the guards, those of the jib first.
+        return lambda at: at.instant.guards[k + (at.own.ahead if side == "counter_jib" else 0) - len(at.own.lengths)]
 
     return {
         f"{side}_tie_{k + 1}_tension": (read(k, side), About("N", f"tension of tie {k + 1} of the {said}"))

@@ -98,7 +98,11 @@ def _check_side(tree: dict[str, Any], key: str) -> Iterator[Fault]:
         if top is not None and height is not None and height >= top:
             what = f"a height below the cat-head's top, {top:g} m over the jibs' axis"
             yield Fault(
-                "", f"{own}.height", what, shown(tie["height"]), "height of the tie's lower end over the axis"
+                "",
+                f"{own}.height",
+                what,
+                shown(tie.get("height", "0 m")),
+                "height of the tie's lower end over the axis",
             )
     yield from _check_axial(tree, key, tied=True)
     jib = at(tree, key)
