@@ -7,7 +7,7 @@ import pytest
 
 from towercrane import load_case
 from towercrane.cranes.tower.file.build import crane_of
-from towercrane.cranes.tower.modes.collar_statics import LOOKED_AT, base_moments, notice
+from towercrane.cranes.tower.modes.left_out.collar_statics import LOOKED_AT, base_moments, notice
 from towercrane.runs.run import record_case
 
 TIED = "towers/tied-wind"

@@ -12,7 +12,7 @@ from samples.qtz5613 import in_plane
 from modal import Beam, Chain, Collar, EndBody, Foundation, Segment, Shaft
 from towercrane.cranes.parts.ground import earthquake, floor
 from towercrane.cranes.parts.wind import WindAreas, steady
-from towercrane.cranes.tower.modes.effective_mass import effective_mass
+from towercrane.cranes.tower.modes.left_out.effective_mass import effective_mass
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 from towercrane.kernels.payload import AIR_DENSITY, Load
 from towercrane.linear.linearise import linearise

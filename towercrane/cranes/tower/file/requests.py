@@ -53,8 +53,8 @@ def notices(tables: TowerCase, model: FlexibleModel) -> list[str]:
     written, count = model.crane.written, model.crane.tower.count
     if written is None:
         return []
-    from towercrane.cranes.tower.modes.collar_statics import notice
-    from towercrane.cranes.tower.modes.effective_mass import effective_mass
+    from towercrane.cranes.tower.modes.left_out.collar_statics import notice
+    from towercrane.cranes.tower.modes.left_out.effective_mass import effective_mass
 
     said = [notice(written, count)]
     if tables.earthquake is not None:

@@ -1,0 +1,1 @@
+"""What the chosen modes of a tower leave out of forces, in sentences. Never imports equations, outputs or files."""
