@@ -7,7 +7,7 @@ from samples.flat_top_crane import FRAME
 from typer.testing import CliRunner
 
 from towercrane.cli import app
-from towercrane.studies.uniform_jib import uniform_jib_cost
+from towercrane.studies.natural import uniform_jib_cost
 
 PRINTED = {20.0: (-2.8, -3.0, 2.0, 28.0), 58.0: (-2.0, 8.0, 3.0, 42.0)}
 """What it costs from the second frequency to the fifth [%], the larger ones to whole numbers."""

@@ -21,15 +21,19 @@ from towercrane.simulation.outcomes import TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
-    from modal import Beam, Chain, EndBody, LacedColumn
+    from modal import Beam, Chain, CraneFrame, EndBody, LacedColumn
     from towercrane.cases.case import Case
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.parameters import TowerCrane
 
 FRAME_MODES = 5
 """Frequencies of the coupled crane that are shown, commonly the pendulum's and four of the structure."""
+
+
+FIRST_ROOT = 1.8751040687119611
+"""Of a clamped uniform beam."""
 
 
 def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actual: bool = False) -> dict[str, Any]:
@@ -54,11 +58,10 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
         exact mode of the same shape, None where there is none, predicted_difference, missing_from_the_model with
         frequency_hz and member, exact_unlike_the_model_hz, see `towercrane.studies.mode_pairs.ModePairs`; outcome and
         message where the tower buckles), ``uniform_jib`` where ``actual`` is asked for and the jib is none, see
-        `towercrane.studies.uniform_jib`, ``buckling_factor`` on all weights, ``lattice`` where the case has one,
+        `uniform_jib_cost`, ``buckling_factor`` on all weights, ``lattice`` where the case has one,
         ``assumed``.
     """
     from modal import Beam, Chain, Modes
-    from towercrane.studies.uniform_jib import uniform_jib_cost
 
     tables = case.tables(TowerCase)
     model = model or tower_model(tables, planar=True)
@@ -189,3 +192,38 @@ def _lattice(column: LacedColumn, height: float) -> dict[str, dict[str, Any]]:
         "equivalent_second_moment_of_area": column.equivalent_second_moment_of_area(height),
     }
     return {name: dataclasses.asdict(found) for name, found in properties.items()}
+
+
+def uniform_jib_cost(frame: CraneFrame, positions: Sequence[float], count: int) -> list[dict[str, Any]]:
+    """Relative changes of a crane's exact frequencies by a uniform jib as heavy as its own, with the same first one.
+
+    Parameters
+    ----------
+    frame : CraneFrame
+        With a jib of several segments, or with bodies or shear.
+    positions : sequence of float
+        Of the trolley [m].
+    count : int
+        Frequencies.
+
+    Returns
+    -------
+    list of dict
+        trolley_position_m and relative_difference, a number for each frequency, for every position.
+    """
+    from modal import Chain, Segment, crane_structure
+    from modal.structures.chain_modes import chain_modes
+
+    assert frame.jib is not None, "jibs that bend alone are asked for"
+    own = frame.jib
+    mass = own.inertia[0] / own.length
+    first = float(chain_modes(own, 1).angular_frequencies[0])
+    bending = mass * (first * (own.length / FIRST_ROOT) ** 2) ** 2
+    uniform = dataclasses.replace(frame, jib=Chain((Segment(own.length, mass, bending),)))
+    found = []
+    for position in positions:
+        exact, other = (
+            crane_structure(one, position).angular_frequencies(count) for one in (frame, uniform)
+        )  # fmt: skip
+        found.append({"trolley_position_m": position, "relative_difference": (other / exact - 1.0).tolist()})
+    return found
