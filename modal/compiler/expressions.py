@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import builtins
 import inspect
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -36,7 +37,7 @@ class Array:
     sizes: tuple[Any, ...]
 
 
-class Expressions:
+class Expressions(ABC):
     """Writes what the expressions of one function are worth.
 
     A value is a number of LLVM, an `Array` or a tuple of numbers.
@@ -46,9 +47,9 @@ class Expressions:
         self.library, self.python, self.made = library, python, made
         self.builder = ir.IRBuilder(made.append_basic_block())
 
+    @abstractmethod
     def read(self, node: ast.Name) -> Any:
         """Value of a name."""
-        raise NotImplementedError
 
     def value(self, node: ast.expr) -> Any:
         """Value of an expression."""
