@@ -104,7 +104,7 @@ def test_what_the_corrected_equations_make_of_the_printed_claims(conditions):
 def test_swings_of_the_undeformed_start():
     result, _ = run("qtz5613/condition-4-zero")
     found = re.search(r"pumps the swing to (\S+) rad.*?slack after (\d+) s", README, re.DOTALL)
-    pushes = result.times[result["rope_tension"].values < 0.0][0]
+    pushes = result.times[result["hoist_rope_force"].values < 0.0][0]
     says(f"{found[1]} {found[2]}", largest(result, "sway_radial"), pushes)
 
 

@@ -49,9 +49,9 @@ def test_a_target_takes_ratios_lengths_and_a_table():
         name: Tolerance(pytest.approx(1e-4), relative=False)
         for name in ("tower_tip_displacement", "jib_tip_deflection")
     }
-    mixed = targets('{ sway_radial = "0.01 deg", rope_tension = "50 N" }')
+    mixed = targets('{ sway_radial = "0.01 deg", hoist_rope_force = "50 N" }')
     assert mixed["sway_radial"].value == pytest.approx(np.radians(0.01))
-    assert mixed["rope_tension"] == Tolerance(50.0, relative=False)
+    assert mixed["hoist_rope_force"] == Tolerance(50.0, relative=False)
 
 
 @pytest.mark.parametrize(
@@ -79,7 +79,7 @@ def test_outputs_without_a_target():
     with pytest.raises(CaseError, match=r"(?s)accuracy\.target.*an error of sway_radial in rad"):
         load_case(STATED, ['accuracy.target="1 mm"', 'accuracy.outputs=["sway_radial"]'])
     with pytest.raises(CaseError, match="none for sway_radial"):
-        load_case(STATED, ["accuracy.target={ rope_tension = 0.1 }", 'accuracy.outputs=["sway_radial"]'])
+        load_case(STATED, ["accuracy.target={ hoist_rope_force = 0.1 }", 'accuracy.outputs=["sway_radial"]'])
     with pytest.raises(CaseError, match=r'(?s)accuracy\.outputs.*got:    "swing_radial".*did you mean "sway_radial"'):
         load_case(STATED, ["accuracy.target=1e-3", 'accuracy.outputs=["swing_radial"]'])
 
@@ -152,8 +152,8 @@ def test_verification_compares_with_a_richer_model(capsys):
     [("towers/laced", 0.05), ("towers/tapered", 0.01), (OPEN, 0.05)],
 )
 def test_verification_is_not_misled_by_fast_modes_of_the_richer_model(name, closest):
-    case = load_case(name, ["run.duration=80 s", "accuracy.target=3e-2", 'accuracy.outputs=["rope_tension"]'])
-    found = verification(case, record_case(case))["outputs"]["rope_tension"]
+    case = load_case(name, ["run.duration=80 s", "accuracy.target=3e-2", 'accuracy.outputs=["hoist_rope_force"]'])
+    found = verification(case, record_case(case))["outputs"]["hoist_rope_force"]
     assert closest * found["estimated"] < found["actual"] < found["estimated"]
 
 
@@ -202,12 +202,12 @@ def test_interrupted_verification_keeps_the_run(tmp_path, monkeypatch):
 
 def test_a_force_fits_the_tension_in_the_plane_and_in_space_only_outputs_that_are_named():
     assert targets_of(load_case(STATED, ['accuracy.target="50 N"'])) == {
-        "rope_tension": Tolerance(50.0, relative=False)
+        "hoist_rope_force": Tolerance(50.0, relative=False)
     }
     assert list(targets_of(load_case(STATED, ["accuracy.target=0.1"]))) == list(FORETOLD)
     force = 'accuracy.target="50 N"'
-    named = load_case("qtz5613/manoeuvre", [force, 'accuracy.outputs=["rope_tension"]'])
-    assert targets_of(named) == {"rope_tension": Tolerance(50.0, relative=False)}
+    named = load_case("qtz5613/manoeuvre", [force, 'accuracy.outputs=["hoist_rope_force"]'])
+    assert targets_of(named) == {"hoist_rope_force": Tolerance(50.0, relative=False)}
     with pytest.raises(CaseError, match=r"(?s)accuracy\.target.*an error of motions where no outputs are named"):
         load_case("qtz5613/manoeuvre", [force])
 

@@ -49,7 +49,7 @@ def over(value, *names):
 
 def test_small_motions_foretell_four_outputs_of_a_plane_in_still_air():
     assert SCENE.foretells(FORETOLD)
-    assert SCENE.foretells(["rope_tension"])
+    assert SCENE.foretells(["hoist_rope_force"])
     for name in set(ALL) - set(FORETOLD):
         assert not SCENE.foretells([*FORETOLD, name])
     assert not BLOWN.foretells(["sway_radial"])

@@ -63,7 +63,7 @@ def foretold_and_found(scene, name, kind, count):
         (TURN, "sway_tangential", "jib_lateral_modes", 1, 0.7, 2.5),
         (TURN, "jib_tip_deflection_sideways", "jib_lateral_modes", 2, 0.7, 2.0),
         (DAMPED, "tower_tip_displacement_sideways", "tower_modes", 1, 0.9, 3.0),
-        (RELEASED, "rope_tension", "jib_vertical_modes", 2, 0.8, 2.0),
+        (RELEASED, "hoist_rope_force", "jib_vertical_modes", 2, 0.8, 2.0),
         (RELEASED, "base_moment_y", "tower_modes", 2, 0.5, 1.5),
         (RELEASED, "tower_tip_displacement", "tower_modes", 1, 0.9, 1.6),
         (HOIST, "jib_root_moment", "jib_vertical_modes", 1, 0.4, 2.5),

@@ -87,8 +87,8 @@ def test_a_jib_stands_where_its_rope_stretches_to(written):
     # The tower leans towards the load.
     held = (weights * np.cos(chord - run["tower_tip_tilt"].values) - led) / jib.lever(50.0, chord)
     # Its bow takes a few tenths of a per cent off.
-    assert run["luffing_rope_tension"].values == pytest.approx(held, rel=5e-3)
-    assert run["rope_tension"].values == pytest.approx(load, rel=1e-9)
+    assert run["luffing_rope_force"].values == pytest.approx(held, rel=5e-3)
+    assert run["hoist_rope_force"].values == pytest.approx(load, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -43,7 +43,7 @@ def test_a_former_kind_is_one_message_wherever_it_is_written(kind, tmp_path):
 @pytest.mark.parametrize(("former", "now"), [
     (["model.jib_modes=2"], "jib_vertical_modes"),
     (["model.jib_damping_ratio=0.01"], "jib_vertical_damping_ratio"),
-    (["accuracy.target=1e-3", 'accuracy.outputs=["rope_tension", "swing_angle"]'], "sway_radial"),
+    (["accuracy.target=1e-3", 'accuracy.outputs=["hoist_rope_force", "swing_angle"]'], "sway_radial"),
     (['accuracy.target={swing_angle_sideways = "1 deg"}'], "sway_tangential"),
 ])  # fmt: skip
 def test_renamed_keys_and_outputs_say_what_they_are_called_now(former, now):

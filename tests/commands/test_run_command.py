@@ -32,7 +32,7 @@ def test_run_answers_in_the_documented_json(run):
     assert run["outcome"] == "finished"
     assert_allclose(run["peaks"]["sway_radial"]["minimum"], -0.020412, atol=2e-6)
     assert_allclose(run["peaks"]["sway_radial"]["minimum_time_s"], 4.25, atol=0.051)
-    assert run["peaks"]["rope_tension"]["units"] == "N"
+    assert run["peaks"]["hoist_rope_force"]["units"] == "N"
     assert run["wall_seconds"] > 0.0
     assert run["swing_period_s"] is None  # seven seconds after the stop are less than a period
     assert run["spectrum_peaks_hz"] == sorted(run["spectrum_peaks_hz"])

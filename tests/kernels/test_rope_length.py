@@ -161,7 +161,7 @@ def test_the_drawn_rope_has_its_length_and_the_energy_stays():
     run = simulate(crane, qtz5613.standing(20.0, 5.0), 300.0, output_step=0.17, swing_angle=1.5)
     load = run["payload_position"].values - [20.0, 0.0, 0.0]
     assert_allclose(np.linalg.norm(load, axis=1), 5.0, rtol=0.0, atol=1e-12)
-    assert run.rope_tension.min() > 0.0
+    assert run.hoist_rope_force.min() > 0.0
     energy = run["total_energy"].values
     assert np.ptp(energy) < 1e-6 * crane.load.mass * GRAVITY * 5.0
 

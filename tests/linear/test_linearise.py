@@ -47,10 +47,10 @@ def test_rigid_crane_is_a_pendulum_driven_by_the_trolley():
     assert_allclose(linear.a, a, rtol=1e-12, atol=0)
     assert_allclose(linear.b, b, rtol=1e-12, atol=0)
     assert_allclose(2 * np.pi * linear.frequencies, np.sqrt(G / 18.0), rtol=1e-12)
-    tension = names(linear.outputs).index("rope_tension")
+    tension = names(linear.outputs).index("hoist_rope_force")
     assert_allclose(linear.d[tension], [0.0, -800.0], rtol=1e-12)
     assert_allclose(linear.point.outputs[tension], 800.0 * G, rtol=1e-14)
-    assert linear.outputs[tension] == ("rope_tension", "N")
+    assert linear.outputs[tension] == ("hoist_rope_force", "N")
     assert not {"total_energy", "input_work", "payload_position"} & set(names(linear.outputs))
     assert [signal.units for signal in linear.states] == ["rad", "rad/s", "m", "m", "m/s", "m/s"]
     assert [str(signal) for signal in linear.inputs] == [f"{n}_acceleration [m/s^2]" for n in ("trolley", "rope")]
@@ -190,7 +190,7 @@ def test_dominant_states_do_not_depend_on_units():
 
 # --- against the simulator -----------------------------------------------------------------------------
 
-SHOWN = ("sway_radial", "tower_tip_displacement", "jib_tip_deflection", "rope_tension")
+SHOWN = ("sway_radial", "tower_tip_displacement", "jib_tip_deflection", "hoist_rope_force")
 
 
 def response(linear, start, accelerations, step):
@@ -215,7 +215,7 @@ def odd_part(forward, backward, name):
 def assert_responses_agree(found, expected):
     for column, name in enumerate(SHOWN):
         # The change of tension is a millionth of the tension, which is what the simulator resolves to 1e-12.
-        rtol = 1e-5 if name == "rope_tension" else 1e-7
+        rtol = 1e-5 if name == "hoist_rope_force" else 1e-7
         largest = np.max(abs(expected[:, column]))
         assert np.max(abs(found[name] - expected[:, column])) < rtol * largest, name
 

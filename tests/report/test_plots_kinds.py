@@ -76,7 +76,7 @@ def test_overview_of_a_slewing_crane_names_every_line(turned):
         ["sway tangential", "sway radial"],
         ["jib moment horizontal", "jib moment vertical"],
         ["drive torque", "drive torque elastic"],
-        ["rope tension"],
+        ["hoist rope force"],
     ]
 
 

@@ -41,7 +41,7 @@ def assert_draws(figure, result, panels):
 OVER_TIME = [
     (tower, RADIAL, {
         "overview.png": [["trolley_position"], ["rope_length"], ["sway_radial"], ["tower_tip_displacement"],
-                         ["jib_tip_deflection"], ["rope_tension"]],
+                         ["jib_tip_deflection"], ["hoist_rope_force"]],
         "swing.png": [["sway_radial"]],
         "tower.png": [["tower_tip_displacement"]],
         "jib.png": [["jib_tip_deflection"]],
@@ -49,7 +49,7 @@ OVER_TIME = [
     (slewing, SLEWING, {
         "overview.png": [["shaft_speed"], ["sway_tangential", "sway_radial"],
                          ["jib_moment_horizontal", "jib_moment_vertical"], ["drive_torque", "drive_torque_elastic"],
-                         ["rope_tension"]],
+                         ["hoist_rope_force"]],
         "sway.png": [["sway_tangential"], ["sway_radial"]],
         "moments.png": [["jib_moment_horizontal"], ["jib_moment_vertical"]],
         "torque.png": [["drive_torque"], ["drive_torque_elastic"]],
@@ -57,9 +57,9 @@ OVER_TIME = [
     (tower, SPACE, {
         "overview.png": [["slewing_angle", "shaft_angle"], ["trolley_position", "rope_length"],
                          ["sway_radial", "sway_tangential"], ["slewing_torque"],
-                         ["tower_tip_displacement", "tower_tip_displacement_sideways"], ["rope_tension"]],
+                         ["tower_tip_displacement", "tower_tip_displacement_sideways"], ["hoist_rope_force"]],
         "sway.png": [["sway_radial"], ["sway_tangential"]],
-        "torque.png": [["slewing_torque"], ["trolley_force"], ["rope_tension"]],
+        "torque.png": [["slewing_torque"], ["trolley_force"], ["hoist_rope_force"]],
         "tower.png": [["tower_tip_displacement", "tower_tip_displacement_sideways"],
                       ["tower_tip_twist", "tower_tip_tilt", "tower_tip_roll"]],
         "jib.png": [["jib_tip_deflection", "jib_tip_deflection_sideways"],
@@ -92,7 +92,7 @@ def test_joints_and_paths_of_the_jib_crane():
     figures = jib.run_pictures(JIB)
     for name, variable, factor, other in (
         ("plan.png", "joint_angle", DEGREE, ("rope_length", 1.0)),
-        ("torques.png", "joint_torque", 1e-3, ("rope_tension", 1e-3)),
+        ("torques.png", "joint_torque", 1e-3, ("hoist_rope_force", 1e-3)),
     ):
         above, below = figures[name].axes
         assert [text.get_text() for text in above.get_legend().get_texts()] == ["slew", "luff", "fold"]

@@ -23,8 +23,8 @@ def swept(**varied):
     variables = {
         "sway_radial_max": ("run", random.uniform(0.0, 0.2, runs), {"units": "rad"}),
         "sway_radial_min": ("run", random.uniform(-0.3, 0.0, runs), {"units": "rad"}),
-        "rope_tension_max": ("run", random.uniform(5e3, 9e3, runs), {"units": "N"}),
-        "rope_tension_min": ("run", random.uniform(1e3, 4e3, runs), {"units": "N"}),
+        "hoist_rope_force_max": ("run", random.uniform(5e3, 9e3, runs), {"units": "N"}),
+        "hoist_rope_force_min": ("run", random.uniform(1e3, 4e3, runs), {"units": "N"}),
         "outcome": ("run", np.where(np.arange(runs) == 2, "slack rope", "finished").astype(object)),
     }
     about = {
@@ -32,7 +32,7 @@ def swept(**varied):
     }
     attrs = {
         "varied": json.dumps([key.replace("_", ".", 1) for key in varied]),
-        "outputs": json.dumps(["trolley_position", "sway_radial", "rope_tension"]),
+        "outputs": json.dumps(["trolley_position", "sway_radial", "hoist_rope_force"]),
         "crane": "Some crane",
         "title": "Some title",
         "assumed": "[]",
@@ -46,7 +46,7 @@ def test_a_sweep_over_one_value_is_drawn_in_its_order():
     order = np.argsort(data["payload_mass"].values)
     early = data["outcome"].values[order] != "finished"
     for axes, name, factor, unit in zip(
-        figure.axes, ("sway_radial", "rope_tension"), (DEGREE, 1e-3), ("deg", "kN"), strict=True
+        figure.axes, ("sway_radial", "hoist_rope_force"), (DEGREE, 1e-3), ("deg", "kN"), strict=True
     ):
         high, high_early, low, low_early = axes.get_lines()
         for line, marks, kind, label in ((high, high_early, "max", "largest"), (low, low_early, "min", "smallest")):
@@ -65,7 +65,7 @@ def test_a_sweep_over_two_values_has_each_run_in_its_place():
     data = swept(payload_mass=np.array([100.0, 400.0, 900.0]), rope_length=np.array([5.0, 20.0]))
     figure = sweep.extremes(data)["sweep.png"]
     panels = [axes for axes in figure.axes if axes.collections and axes.get_xlabel()]
-    for axes, name, factor in zip(panels, ("sway_radial", "rope_tension"), (DEGREE, 1e-3), strict=True):
+    for axes, name, factor in zip(panels, ("sway_radial", "hoist_rope_force"), (DEGREE, 1e-3), strict=True):
         sizes = axes.collections[0].get_array()
         assert sizes.shape == (2, 3)
         for run in range(6):
@@ -79,7 +79,7 @@ def test_a_sweep_over_two_values_has_each_run_in_its_place():
     figure.canvas.draw()
     assert [bar.get_ylabel() for bar in bars] == [
         "largest size of sway radial [deg]",
-        "largest size of rope tension [kN]",
+        "largest size of hoist rope force [kN]",
     ]
     assert all(not bar.yaxis.get_offset_text().get_text() for bar in bars)
 

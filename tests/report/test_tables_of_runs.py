@@ -100,7 +100,7 @@ WORDS = (
 def test_an_error_that_is_asked_for(capsys):
     outputs = {
         "sway_radial": {"allowed": 2e-4, "estimated": 5e-5, "peak": 0.02, "units": "rad"},
-        "rope_tension": {"allowed": 12.0, "estimated": None, "peak": 7858.3, "units": "N"},
+        "hoist_rope_force": {"allowed": 12.0, "estimated": None, "peak": 7858.3, "units": "N"},
     }
     promised = {"outcome": "out of reach", "outputs": outputs, "setting": SETTING,
                 "stated": ["jib_vertical_modes", "rtol"],
@@ -110,7 +110,7 @@ def test_an_error_that_is_asked_for(capsys):
     assert rows[-3:] == [
         ["output", "allowed", "expected", "peak", "expected / peak", "unit"],
         ["sway radial", "0.0002", "5e-05", "0.02", "2.5e-03", "rad"],
-        ["rope tension", "12", "unknown", "7858", "", "N"],
+        ["hoist rope force", "12", "unknown", "7858", "", "N"],
     ]
     assert "Error asked for: out of reach" in lines
     assert f"chosen                {WORDS}" in lines
@@ -122,7 +122,7 @@ def test_an_error_that_is_asked_for(capsys):
 def test_a_verification(capsys):
     outputs = {
         "sway_radial": {"estimated": 5e-5, "actual": 6e-5, "peak": 0.02, "units": "rad"},
-        "rope_tension": {"estimated": 9.0, "actual": 4.0, "peak": 8000.0, "units": "N"},
+        "hoist_rope_force": {"estimated": 9.0, "actual": 4.0, "peak": 8000.0, "units": "N"},
         "other_output": {"estimated": None, "actual": 3.0, "peak": 0.0, "units": "m"},
     }
     plain = {**SETTING, "cap": None, "weight_softening": False, "planar": True}
@@ -131,7 +131,7 @@ def test_a_verification(capsys):
     rows, lines = said(capsys)
     assert rows[1:] == [
         ["sway radial", "5e-05", "6e-05 (!)", "3.0e-03", "rad"],
-        ["rope tension", "9", "4", "5.0e-04", "N"],
+        ["hoist rope force", "9", "4", "5.0e-04", "N"],
         ["other output", "unknown", "3", "", "m"],
     ]
     assert f"run                   {WORDS}" in lines

@@ -98,7 +98,7 @@ def test_every_variable_has_a_unit_and_a_name(result):
     registry = pint.UnitRegistry()
     wanted = {
         "trolley_position", "tower_tip_displacement", "tower_tip_tilt", "jib_tip_deflection", "sway_radial",
-        "rope_tension", "tower_x_coordinate", "jib_vertical_coordinate", "total_energy",
+        "hoist_rope_force", "tower_x_coordinate", "jib_vertical_coordinate", "total_energy",
     }  # fmt: skip
     assert wanted <= set(result.data_vars)
     for variable in result.data_vars.values():

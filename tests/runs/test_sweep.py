@@ -50,7 +50,7 @@ def test_loads_and_ropes_of_a_radial_case(case):
     assert data["rope_length"].attrs["units"] == "m"
     for run, (mass, rope) in enumerate([(300.0, 6.0), (1200.0, 12.0), (900.0, 20.0)]):
         assert_run(data, run, case, f"payload.mass={mass}", f"rope.length={rope}")
-    assert_allclose(data["rope_tension_max"], np.array([300, 1200, 900]) * 9.81, rtol=0.02)
+    assert_allclose(data["hoist_rope_force_max"], np.array([300, 1200, 900]) * 9.81, rtol=0.02)
 
 
 def test_any_key_may_vary_also_one_that_changes_modes_motion_or_rows(case):
@@ -163,7 +163,7 @@ def test_command_answers_in_json(written):
     assert report["runs"] == 12
     assert report["outcomes"] == {"finished": 12}
     assert_allclose(report["varied"][0]["values"], [100.0, 2200.0 / 3 + 0.0, 4100.0 / 3, 2000.0], rtol=1e-12)
-    tension = report["extremes"]["rope_tension"]
+    tension = report["extremes"]["hoist_rope_force"]
     assert tension["units"] == "N"
     assert tension["largest"]["at"]["payload.mass"] == 2000.0
     assert_allclose(tension["largest"]["value"], 2000 * 9.81, rtol=0.02)

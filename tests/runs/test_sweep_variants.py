@@ -150,7 +150,7 @@ def test_scenes_methods_and_tolerances_may_vary_from_run_to_run():
     assert any("1 of 2 runs do not have" in said and "slewing torque" in said for said in told)
     assert any(said.startswith("nothing turns the head") for said in told)
     # What both have is known of both.
-    for name in ("base_moment_y", "trolley_force", "rope_tension"):
+    for name in ("base_moment_y", "trolley_force", "hoist_rope_force"):
         assert np.isfinite(turning[f"{name}_max"].values).all(), name
     case = load_case("qtz5613/condition-3", SHORT)
     methods = {"solver.method": ["dop853", "scipy-dop853", "dopri5"], "solver.rtol": [1e-4, 1e-5, 1e-3]}
@@ -260,7 +260,7 @@ def test_drawn_keys_of_every_kind_give_the_single_runs(base):
 )
 def test_cranes_of_every_kind_are_swept_with_all_their_outputs(name, options, masses):
     data = assert_single_runs(load_case(name, options), {"payload.mass": masses})
-    assert {"total_energy", "input_work", "rope_tension"} <= set(json.loads(data.attrs["outputs"]))
+    assert {"total_energy", "input_work", "hoist_rope_force"} <= set(json.loads(data.attrs["outputs"]))
 
 
 def test_only_the_outputs_that_are_wanted_are_kept():

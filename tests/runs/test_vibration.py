@@ -78,7 +78,7 @@ def test_a_run_that_ends_early_keeps_its_last_row_between_the_rows():
     assert recording.attrs["outcome"] == "slack rope"
     assert_array_equal(recording.rows.times, [0.0, 5.0, 10.0, recording.attrs["end_time"]])
     assert 11.0 < recording.rows.times[-1] < 12.0
-    assert recording.rows["rope_tension"].values[-1] == recording["rope_tension"].values[-1]
+    assert recording.rows["hoist_rope_force"].values[-1] == recording["hoist_rope_force"].values[-1]
 
 
 def test_what_follows_the_last_row_is_seen():
@@ -93,7 +93,7 @@ def test_what_follows_the_last_row_is_seen():
 def test_extremes_of_a_sweep_are_those_of_the_looks(runs):
     found = sweep(runs[8][0], {"payload.mass": [800.0, 1200.0]}, series=True)
     expected = peaks(runs[8][1])
-    for name in ("tower_tip_displacement", "sway_radial", "rope_tension", "jib_tip_deflection"):
+    for name in ("tower_tip_displacement", "sway_radial", "hoist_rope_force", "jib_tip_deflection"):
         assert float(found[f"{name}_max"][0]) == pytest.approx(expected[name]["maximum"], rel=1e-12)
         assert float(found[f"{name}_min"][0]) == pytest.approx(expected[name]["minimum"], rel=1e-12)
         assert float(found[f"{name}_max_time"][0]) == expected[name]["maximum_time_s"]

@@ -26,22 +26,24 @@ def made(names, seed=1, **attrs):
 
 RADIAL = made(
     ["trolley_position", "trolley_speed", "rope_length", "sway_radial", "swing_rate", "tower_tip_displacement",
-     "jib_tip_deflection", "rope_tension"]
+     "jib_tip_deflection", "hoist_rope_force"]
 )  # fmt: skip
 SLEWING = made(
     ["shaft_speed", "rope_length", "sway_tangential", "sway_radial", "jib_moment_horizontal", "jib_moment_vertical",
-     "drive_torque", "drive_torque_elastic", "rope_tension", "platform_angle", "shaft_angle", "payload_position:axis"]
+     "drive_torque", "drive_torque_elastic", "hoist_rope_force", "platform_angle", "shaft_angle",
+     "payload_position:axis"]
 )  # fmt: skip
 SPACE = made(
     ["slewing_angle", "shaft_angle", "trolley_position", "rope_length", "sway_radial", "sway_tangential",
-     "slewing_torque", "trolley_force", "rope_tension", "tower_tip_displacement", "tower_tip_displacement_sideways",
-     "tower_tip_twist", "tower_tip_tilt", "tower_tip_roll", "jib_tip_deflection", "jib_tip_deflection_sideways",
+     "slewing_torque", "trolley_force", "hoist_rope_force", "tower_tip_displacement",
+     "tower_tip_displacement_sideways", "tower_tip_twist", "tower_tip_tilt", "tower_tip_roll",
+     "jib_tip_deflection", "jib_tip_deflection_sideways",
      "jib_root_moment", "jib_root_moment_sideways", "counter_jib_tip_deflection",
      "counter_jib_tip_deflection_sideways", "counter_jib_root_moment", "counter_jib_root_moment_sideways",
      "base_moment_x", "base_moment_y", "base_torque",
      "wind_x", "wind_y", "wind_z", "payload_position:axis"]
 )  # fmt: skip
 JIB = made(
-    ["joint_angle:joint", "rope_length", "sway_in_plane", "sway_lateral", "joint_torque:joint", "rope_tension",
+    ["joint_angle:joint", "rope_length", "sway_in_plane", "sway_lateral", "joint_torque:joint", "hoist_rope_force",
      "payload_position:axis"]
 )  # fmt: skip

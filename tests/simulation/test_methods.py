@@ -91,7 +91,7 @@ def test_an_added_pair_runs_in_lanes_as_it_does_alone(monkeypatch):
     alone = sweep(case, {"payload.mass": [1000.0, 2000.0]})
     assert set(lanes.outcome.values) == {"finished"}
     assert np.array_equal(lanes.evaluations, alone.evaluations)
-    for name in ("sway_radial_max", "rope_tension_max"):
+    for name in ("sway_radial_max", "hoist_rope_force_max"):
         assert_allclose(lanes[name], alone[name], rtol=1e-14)
 
 

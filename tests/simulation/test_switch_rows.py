@@ -59,7 +59,7 @@ def test_lanes_look_at_the_right_limit_at_the_end_too():
     cut = phases(tuple(scene.motions[channel] for channel in scene.model.channels), end)
     _, guards = evaluate(scene.model.system, cut, found.times, found.states)
     runs = [LaneRun(scene.model, cut, "equilibrium", 0.05)]
-    lanes = integrate_many(runs, grid, outputs=["rope_tension"], threads=1, series=True)
+    lanes = integrate_many(runs, grid, outputs=["hoist_rope_force"], threads=1, series=True)
     assert lanes.outcomes == ["finished"]
     tension = guards[:, 0]
     assert_allclose(lanes.series[0, :, -1], tension, rtol=0, atol=0)

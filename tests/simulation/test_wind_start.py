@@ -91,7 +91,7 @@ def test_a_parked_crane_in_a_steady_wind_stands_still_under_its_static_torque():
     # Jib, counter-jib and counterweight, each with its arm; the twist of 1.2 degrees takes little of the wind away.
     straight = 0.5 * 1.225 * 20.0**2 * (0.5 * 55.6**2 / 2 - 0.6 * 12.3**2 / 2 - 4.0 * 12.3)
     assert_allclose(torque, straight, rtol=2e-3)
-    for name in ("base_torque", "base_moment_x", "base_moment_y", "rope_tension"):
+    for name in ("base_torque", "base_moment_x", "base_moment_y", "hoist_rope_force"):
         values = result[name].values
         assert np.ptp(values) < 1e-9 * abs(values).max() + 1e-6
     pressed = 0.8 * 23.8**2 / 2 + (0.5 * 55.6 + 0.6 * 12.3 + 4.0) * 23.8
@@ -138,7 +138,7 @@ def test_a_swing_at_the_start_is_turned_from_where_the_load_hangs():
 
 def test_linear_model_answers_a_gust_as_the_crane_does():
     model = dataclasses.replace(windy(), damping=ModalDamping(0.02, 0.02, 0.02, 0.02))
-    shown = ["sway_tangential", "tower_tip_twist", "jib_tip_deflection_sideways", "base_moment_x", "rope_tension"]
+    shown = ["sway_tangential", "tower_tip_twist", "jib_tip_deflection_sideways", "base_moment_x", "hoist_rope_force"]
     calm = STANDING | steady([0.0, 12.0, 0.0])
     linear = linearise(model, calm, outputs=shown)
     assert [signal.name for signal in linear.inputs[:3]] == ["wind_x", "wind_y", "wind_z"]

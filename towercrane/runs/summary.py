@@ -169,7 +169,7 @@ def notices(case: Case, run: Run, natural: Natural, free: slice) -> list[str]:
     if (promised := accuracy(run)) and promised["reasons"]:
         found.append(f"error asked for: {promised['outcome']}: {'; '.join(promised['reasons'])}")
     found += json.loads(run.attrs["notices"])
-    tension = run["rope_tension"].values
+    tension = run["hoist_rope_force"].values
     if case.rope.slack == "rod" and tension.min() < 0.0:
         first = float(run["time"].values[int(np.argmax(tension < 0.0))])
         found.append(

@@ -224,7 +224,7 @@ def _names(case: Case, known: tuple[str, ...], outputs: Sequence[str] | None) ->
             raise UnknownOutput(f"wanted some of {', '.join(known)}, got {unknown[0]!r}")
         return tuple(name for name in outputs if name in known)
     signals = KINDS[case.kind].signals
-    first = [name for name in (signals.vibration, *signals.swings, "rope_tension") if name in known]
+    first = [name for name in (signals.vibration, *signals.swings, "hoist_rope_force") if name in known]
     return tuple(dict.fromkeys([*first, *known]))
 
 

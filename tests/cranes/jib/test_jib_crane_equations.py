@@ -226,4 +226,4 @@ def test_rope_rates_reach_the_tension():
     }
     still["rope"] = Motion(np.array([0.0, 5.0]), np.array([[10.0, -0.5, 0.3]]))
     result = simulate(planned(), still, 4.0, output_step=0.5)
-    np.testing.assert_allclose(result["rope_tension"], 5000 * (9.81 - 0.6), rtol=1e-12)
+    np.testing.assert_allclose(result["hoist_rope_force"], 5000 * (9.81 - 0.6), rtol=1e-12)

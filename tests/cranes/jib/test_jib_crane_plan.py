@@ -38,7 +38,7 @@ def test_the_printed_plan_reaches_its_check_values(printed):
 def test_a_plan_in_one_plane_stays_in_it_exactly(printed):
     assert np.all(printed["sway_lateral"] == 0.0)
     assert np.all(printed["joint_torque"].sel(joint="slew") == 0.0)
-    tension = printed["rope_tension"] / (LOAD.mass * G)
+    tension = printed["hoist_rope_force"] / (LOAD.mass * G)
     assert_allclose([tension.min(), tension.max()], [0.998, 1.002], atol=5e-4)
 
 

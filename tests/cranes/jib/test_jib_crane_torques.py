@@ -51,7 +51,7 @@ def test_the_plans_torques_drive_the_crane_along_the_plan(crane, motions, durati
     assert result.attrs["outcome"] == "finished"
     assert peak(result["joint_error"]) < bound
     asked = simulate(planned(crane), motions, duration, output_step=0.5, rtol=1e-12, atol=1e-14)
-    for name in ("joint_torque", "sway_in_plane", "rope_tension", "total_energy", "input_work"):
+    for name in ("joint_torque", "sway_in_plane", "hoist_rope_force", "total_energy", "input_work"):
         assert peak(result[name] - asked[name]) < 1e3 * bound * peak(asked[name])
     assert imbalance(result) < 1e-10
 

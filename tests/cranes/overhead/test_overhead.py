@@ -81,7 +81,7 @@ def test_under_a_bridge_that_gathers_speed_gravity_is_inclined():
     assert_allclose(result["sway_along_runway"], expected, rtol=0, atol=1e-9)
     # The drive pulls bridge and trolley, and what the rope takes.
     masses = CRANE.girder_mass + CRANE.bridge_end_carriage_mass + CRANE.trolley_mass
-    taken = result["rope_tension"].values * np.sin(expected)
+    taken = result["hoist_rope_force"].values * np.sin(expected)
     assert_allclose(result["bridge_force"], masses * pull - taken, rtol=1e-9)
 
 
@@ -112,7 +112,7 @@ def test_bridge_let_fall_vibrates_as_one_mass_on_its_spring(place):
     sag, wave = CRANE.gravity * weight / stiffness, np.cos(frequency * result["time"].values)
     assert_allclose(result["bridge_deflection"], sag * (1.0 - wave), rtol=0, atol=1e-9 * sag)
     tension = LOAD.mass * (CRANE.gravity - shape * sag * frequency**2 * wave)
-    assert_allclose(result["rope_tension"], tension, rtol=0, atol=1e-8 * LOAD.mass * CRANE.gravity)
+    assert_allclose(result["hoist_rope_force"], tension, rtol=0, atol=1e-8 * LOAD.mass * CRANE.gravity)
 
 
 def test_a_bridge_that_falls_away_from_its_load_slackens_the_rope():
@@ -128,7 +128,7 @@ def test_a_jerk_of_the_hoist_shakes_the_bridge_as_a_step_of_force_does():
     sag = result["bridge_deflection"].values
     assert_allclose(sag - sag[0], step * (1.0 - wave), rtol=0, atol=1e-9 * step)
     tension = LOAD.mass * (CRANE.gravity + 0.7 - step * frequency**2 * wave)
-    assert_allclose(result["rope_tension"], tension, rtol=1e-9)
+    assert_allclose(result["hoist_rope_force"], tension, rtol=1e-9)
 
 
 @pytest.mark.parametrize("place", [MIDDLE, 4.0])

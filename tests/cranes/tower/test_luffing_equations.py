@@ -260,4 +260,4 @@ def test_energy_of_a_manoeuvre_is_what_drives_put_in():
     assert imbalance(run) < 1e-11
     # All of it moved, and none of the ropes was slack.
     assert float(np.ptp(run["luffing_angle"].values)) > np.radians(26.0)
-    assert float(run["luffing_rope_tension"].min()) > 1e5
+    assert float(run["luffing_rope_force"].min()) > 1e5

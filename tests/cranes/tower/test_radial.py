@@ -172,7 +172,7 @@ def test_slack_rope_ends_the_zero_start_of_condition_4():
     result = condition(4, state="zero")
     assert result.attrs["outcome"] == "slack rope"
     assert_allclose(result.attrs["end_time"], 17.5659, atol=2e-3)
-    assert float(result["rope_tension"].min()) > -1e-4
+    assert float(result["hoist_rope_force"].min()) > -1e-4
     assert float(result.time[-1]) == result.attrs["end_time"]
 
 
@@ -181,7 +181,7 @@ def test_parametric_resonance_of_condition_4_if_the_rope_could_push():
     result = condition(4, state="zero", rope_as_rod=True)
     assert result.attrs["outcome"] == "finished"
     assert_allclose(peak(result), 0.603, atol=2e-3)
-    assert float(result["rope_tension"].min()) < -0.45 * 800 * 9.81
+    assert float(result["hoist_rope_force"].min()) < -0.45 * 800 * 9.81
     assert peak(condition(3, state="zero", rope_as_rod=True)) < 0.030
 
 
@@ -203,7 +203,7 @@ def test_outputs_of_one_state_by_hand():
         "jib_tip_deflection": -1.0,
         "sway_radial": np.arctan2(0.6, 0.8),
         "swing_rate": 0.5,
-        "rope_tension": 7.0,
+        "hoist_rope_force": 7.0,
         "payload_position": hung + 10 * np.array([0.6, 0.0, -0.8]),
     }
     for name, value in expected.items():
@@ -233,7 +233,7 @@ def test_methods_agree_on_the_whole_crane():
 def test_rows_at_a_switch_time_show_the_right_limit():
     # Braking sets in at 45 s: the trolley's jerk tilts the rope's pull at once.
     result = condition(3, rtol=1e-10)
-    tension = result["rope_tension"]
+    tension = result["hoist_rope_force"]
     before, at, after = (float(tension.sel(time=t, method="nearest")) for t in (44.95, 45.0, 45.05))
     assert abs(at - after) < abs(at - before)
 
@@ -271,4 +271,4 @@ def test_loose_tolerance_does_not_step_over_a_slack_rope():
     assert loose.attrs["outcome"] == tight.attrs["outcome"] == "slack rope"
     assert_allclose(loose.attrs["end_time"], tight.attrs["end_time"], atol=1e-3)
     assert float(loose.time[-1]) == loose.attrs["end_time"]
-    assert abs(float(loose["rope_tension"][-1])) < 1e-3
+    assert abs(float(loose["hoist_rope_force"][-1])) < 1e-3

@@ -102,7 +102,7 @@ def _difference(run: Recording, second: Recording) -> float:
         # The row in which a rope goes slack has its own time.
         rows = min(rows, max(len(run.times) - 1, 1))
     errors = []
-    for name in ("payload_position", "rope_tension"):
+    for name in ("payload_position", "hoist_rope_force"):
         values, exact = (found[name].values.reshape(len(found.times), -1)[:rows] for found in (run, second))
         scale = np.ptp(second[name].values, axis=0).max() + 1e-3 * abs(exact).max()
         errors.append(float(abs(values - exact).max() / scale))

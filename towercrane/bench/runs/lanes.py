@@ -39,7 +39,7 @@ MANY_ALONE, FEW_ALONE = 200, 12
 
 RTOL, TIGHT = 1e-4, 1e-11
 
-OUTPUTS = "tower_tip_displacement", "jib_tip_deflection", "sway_radial", "rope_tension"
+OUTPUTS = "tower_tip_displacement", "jib_tip_deflection", "sway_radial", "hoist_rope_force"
 """What is looked at."""
 
 

@@ -20,7 +20,7 @@ SPEEDS = {"bridge_speed": "bridge", "trolley_speed": "trolley"}
 DROPS = {"bridge_deflection": "at mid-span", "trolley_drop": "under the trolley"}
 FORCES = {"bridge_force": "bridge", "trolley_force": "trolley"}
 RAILS = {"first_rail_load": "first rail", "second_rail_load": "second rail"}
-TENSION = Panel("rope tension [kN]", 1e-3, {"rope_tension": "rope tension"})
+TENSION = Panel("rope tension [kN]", 1e-3, {"hoist_rope_force": "rope tension"})
 
 PICTURES: Pictures = {
     "overview.png": (

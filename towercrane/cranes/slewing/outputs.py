@@ -75,7 +75,7 @@ def about_of(crane: LumpedCrane) -> dict[str, About]:
         "drive_torque": About("N m", "torque through the coupling with its damper, positive driving"),
         "drive_torque_elastic": About("N m", "torque of the coupling's spring alone, positive driving"),
         "rope_length": About("m", "length of the unstretched rope"),
-        "rope_tension": About("N", "rope tension"),
+        "hoist_rope_force": About("N", "rope tension"),
         **{name: About(output.units, output.long_name) for name, output in crane.linear_outputs.items()},
         **{
             name: About("rad" if name in crane.angles else "m", f"coordinate: {name.replace('_', ' ')}")
@@ -116,7 +116,7 @@ def lumped_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
         "drive_torque": elastic - drive.damping * (rates[crane.driven] - shaft_rate),
         "drive_torque_elastic": elastic,
         "rope_length": length,
-        "rope_tension": instant.guards[TENSION],
+        "hoist_rope_force": instant.guards[TENSION],
         **{output.name: dot(output.of, q) + dot(output.of_rates, rates) for output in seen.linear},
         **dict(zip(seen.coordinates, q, strict=True)),
         **load_places(place, heading),

@@ -2,7 +2,7 @@
 
 from towercrane.cranes.tower.modes.collars import MOST_COLLARS
 
-FORETOLD = {"tower_tip_displacement": "m", "jib_tip_deflection": "m", "sway_radial": "rad", "rope_tension": "N"}
+FORETOLD = {"tower_tip_displacement": "m", "jib_tip_deflection": "m", "sway_radial": "rad", "hoist_rope_force": "N"}
 """Those whose error small motions in the jib's plane foretell, without a run."""
 
 MOTIONS = {
@@ -18,7 +18,7 @@ MOTIONS = {
 """Motions, wherever the crane moves."""
 
 ALL = MOTIONS | {
-    "rope_tension": "N",
+    "hoist_rope_force": "N",
     "trolley_force": "N",
     "slewing_torque": "N m",
     "jib_root_moment": "N m",

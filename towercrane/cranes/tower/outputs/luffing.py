@@ -163,11 +163,11 @@ OWN: Read = {
         lambda at: at.instant.drives[COMMANDED][0],
         About("rad", "angle at which the jib would stand, straight, if the luffing rope did not stretch"),
     ),
-    "luffing_rope_tension": (
+    "luffing_rope_force": (
         lambda at: at.instant.guards[HOLDING], About("N", "tension of the luffing rope, all its falls together"),
     ),
     "rope_length": (lambda at: at.below[0], About("m", "length of rope below the jib's head")),
-    "rope_tension": (
+    "hoist_rope_force": (
         lambda at: at.instant.guards[TENSION],
         About("N", "tension of the hoist's falls together; the winch feels that of one"),
     ),

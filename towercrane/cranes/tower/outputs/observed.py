@@ -117,7 +117,7 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
         About("N", "force of the trolley's drive along the deflected jib, positive outward"),
     ),
     "rope_length": (lambda at: at.instant.drives[ROPE][0], About("m", "rope length")),
-    "rope_tension": (lambda at: at.instant.guards[TENSION], About("N", "rope tension, the force of the hoist")),
+    "hoist_rope_force": (lambda at: at.instant.guards[TENSION], About("N", "rope tension, the force of the hoist")),
     "slewing_angle": (lambda at: at.slewing[0], About("rad", "angle of the head on the tower's top")),
     "slewing_speed": (lambda at: at.slewing[1], About("rad/s", "rate of that angle")),
     "slewing_torque": (

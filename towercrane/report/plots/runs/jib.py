@@ -52,7 +52,7 @@ def torques(result: xr.Dataset) -> Figure:
     for i, joint in enumerate(result["joint"].values):
         torque = 1e-3 * result["joint_torque"].sel(joint=joint)
         rows[0].plot(result["time"], torque, color=COLOURS[i], ls=DASHES[i], label=str(joint))
-    rows[1].plot(result["time"], 1e-3 * result["rope_tension"], color=COLOURS[4], label="rope tension")
+    rows[1].plot(result["time"], 1e-3 * result["hoist_rope_force"], color=COLOURS[4], label="rope tension")
     rows[0].set_ylabel("joint torque [kN m]")
     rows[1].set(xlabel="time [s]", ylabel="rope tension [kN]")
     for axes in rows:

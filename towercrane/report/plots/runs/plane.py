@@ -70,7 +70,7 @@ def overview(result: xr.Dataset) -> Figure:
         ("sway_radial", 180.0 / np.pi, "swing [deg]"),
         ("tower_tip_displacement", 1e3, "tower top [mm]"),
         ("jib_tip_deflection", 1e3, "jib tip [mm]"),
-        ("rope_tension", 1e-3, "rope tension [kN]"),
+        ("hoist_rope_force", 1e-3, "rope tension [kN]"),
     ]
     if np.ptp(result["rope_length"].values) > 0.0:
         series.insert(1, ("rope_length", 1.0, "rope [m]"))

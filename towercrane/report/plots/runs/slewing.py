@@ -24,7 +24,7 @@ def overview(result: xr.Dataset) -> Figure:
         ("sway [deg]", DEGREES, ("sway_tangential", "sway_radial")),
         ("jib moment [N m]", 1.0, ("jib_moment_horizontal", "jib_moment_vertical")),
         ("drive torque [N m]", 1.0, ("drive_torque", "drive_torque_elastic")),
-        ("rope tension [N]", 1.0, ("rope_tension",)),
+        ("rope tension [N]", 1.0, ("hoist_rope_force",)),
     )
     figure = figure_of(9.0, 2.0 * len(panels))
     rows = figure.subplots(len(panels), 1, sharex=True)

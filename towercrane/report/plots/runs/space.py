@@ -28,7 +28,9 @@ TWIST = Panel(
     "tower top [mrad]", 1e3, {"tower_tip_twist": "twist", "tower_tip_tilt": "tilt", "tower_tip_roll": "roll"}
 )
 TENSION = Panel(
-    "rope tension [kN]", 1e-3, {"rope_tension": "rope tension", "luffing_rope_tension": "tension of the luffing rope"}
+    "rope tension [kN]",
+    1e-3,
+    {"hoist_rope_force": "rope tension", "luffing_rope_force": "tension of the luffing rope"},
 )
 GROUND = Panel(
     "ground [m/s^2]",
