@@ -62,8 +62,11 @@ def test_drive_wind_and_damping_arrive_as_written():
     assert_allclose([motions_of(case)[f"wind_{axis}"].end for axis in "xyz"], [0.0, 10.0, 0.0], atol=1e-15)
     assert (model.damping.torsion, model.damping.tower, model.counts["tower_y"]) == (0.02, 0.0, 1)
     with_areas = space.model(1, 1, 2, 2, areas=WindAreas(0.8, 0.5, 0.6, 4.0)).crane
-    assert model.crane.tower_drag == with_areas.tower_drag
-    assert model.crane.exposure.moment == pytest.approx(with_areas.exposure.moment, rel=1e-14)
+    for (found,), (wanted,) in zip(
+        vars(model.crane.exposure).values(), vars(with_areas.exposure).values(), strict=True
+    ):
+        shares = (found.area, wanted.area) if hasattr(found, "area") else (found.jib.moment, wanted.jib.moment)
+        assert shares[0] == pytest.approx(shares[1], rel=1e-14)
     assert motions_of(load_case(SLEWING, [*WIND, "wind.upward=-2 m/s"]))["wind_z"].end == -2.0
 
 

@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modal.checks import check_fields
+from towercrane.cranes.parts.turbulence.profile import Profile
 from towercrane.kernels.payload import AIR_DENSITY
 from towercrane.motions.motion import Motion, rest
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 CHANNELS = ("wind_x", "wind_y", "wind_z")
 """Names of the motions whose values are the components of the wind's velocity in fixed axes [m/s]."""
+
+JIB_NODES, TOWER_NODES = 5, 2
+"""Places that are enough for the slewing moment in turbulence: within 3 per cent of a continuum's."""
+
+
+def wind_channels(nodes: int) -> tuple[str, ...]:
+    """Names of the motions of a wind that blows differently at so many places, the load's the last.
+
+    What blows upward is the same at all.
+    """
+    others = (f"wind_{axis}_{node}" for node in range(1, nodes) for axis in "xy")
+    return (*others, *CHANNELS) if nodes else ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +58,45 @@ class WindAreas:
 
     def __post_init__(self) -> None:
         check_fields(self, not_negative=self.__slots__)
+
+
+@dataclass(frozen=True, slots=True)
+class WindNodes:
+    """Places on a tower crane that see a wind of their own: of the tower, of what turns, and the load.
+
+    Between places of the jib, and from its root to the counter-jib's end, the pressure is linear. Of the tower each
+    is the middle of one of equal parts, over which the wind changes as its mean does.
+
+    Parameters
+    ----------
+    jib : int
+        From the jib's root to its tip, with the counter-jib's end as one more; 1: one place for all that turns.
+    tower : int
+    profile : Profile
+        Of the mean wind.
+    """
+
+    jib: int = JIB_NODES
+    tower: int = TOWER_NODES
+    profile: Profile = field(default_factory=Profile)
+
+    @property
+    def head(self) -> int:
+        """Number of those on what turns."""
+        return self.jib + 1 if self.jib > 1 else 1
+
+    @property
+    def count(self) -> int:
+        """Number of all: those of the tower from its foot, counter-jib's end, jib from its root, load."""
+        return self.tower + self.head + 1
+
+    def tower_heights(self, height: float) -> NDArray[np.float64]:
+        """Heights of the tower's [m]; shape (tower,)."""
+        return (np.arange(self.tower) + 0.5) * height / self.tower
+
+    def along_jib(self, length: float, counter_length: float) -> NDArray[np.float64]:
+        """Places of those on what turns, along the jib from the tower's axis [m]; shape (head,)."""
+        return np.append(-counter_length, np.linspace(0.0, length, self.jib)) if self.jib > 1 else np.zeros(1)
 
 
 def drag(area: float) -> float:

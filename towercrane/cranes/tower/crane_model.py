@@ -15,7 +15,7 @@ from towercrane.cranes.tower.modes.modal_crane import flexible_crane
 from towercrane.cranes.tower.tied_model import TiedModel
 
 if TYPE_CHECKING:
-    from towercrane.cranes.parts.wind import WindAreas
+    from towercrane.cranes.parts.wind import WindAreas, WindNodes
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
@@ -63,6 +63,7 @@ def tower_crane_model(
     drive: Drive | None = None,
     drive_inertia: float = 0.0,
     areas: WindAreas | None = None,
+    nodes: WindNodes | None = None,
     ground: bool = False,
     floors: int = 0,
     damping: ModalDamping | None = None,
@@ -90,6 +91,8 @@ def tower_crane_model(
         [kg m^2]
     areas : WindAreas, optional
         What the wind meets; without it there is none.
+    nodes : WindNodes, optional
+        Where a wind of its own blows; without, one wind blows for all.
     ground, floors, damping, weight_softening, self_weight, rope_as_rod, cap
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
     """
@@ -99,7 +102,7 @@ def tower_crane_model(
     pivots = crane.luffing is not None
     kind = LuffingModel if pivots else FlexibleModel if crane.tie_bars is None else TiedModel
     return kind(
-        luffing_crane(crane, modes, planes) if pivots else flexible_crane(crane, modes, areas, planes),
+        luffing_crane(crane, modes, planes) if pivots else flexible_crane(crane, modes, areas, planes, nodes),
         load,
         slewing="fixed" if planar else drive or "prescribed",
         drive_inertia=drive_inertia,
@@ -108,7 +111,7 @@ def tower_crane_model(
         weight_softening=weight_softening,
         self_weight=self_weight,
         rope_as_rod=rope_as_rod,
-        wind=areas is not None,
+        wind=0 if areas is None else 1 if nodes is None else nodes.count,
         ground=ground,
         floors=floors,
         axes=2 if planar else 3,

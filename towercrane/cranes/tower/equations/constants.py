@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import accumulate
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from towercrane.cranes.parts.ground import CHANNELS as GROUND
-from towercrane.cranes.tower.equations.matrices import own_mass, rotary_mass, softening, stiffness
+from towercrane.cranes.tower.equations.matrices import met_by_wind, own_mass, rotary_mass, softening, stiffness
 from towercrane.cranes.tower.modes.mass_sums import Straight
 from towercrane.cranes.tower.modes.shape_table import shape_table
 from towercrane.kernels.algebra import Row
@@ -59,7 +59,10 @@ class Constants:
     counts : tuple of 12 int
         Coordinates of each kind.
     slewing : {"fixed", "prescribed", "driven"}
-    wind : bool
+    wind : int
+        Number of places that see a wind of their own, the load the last; 1: one wind for all; 0: none.
+    head_nodes, tower_nodes : tuple of int
+        Of what turns, and of parts of the tower, the place whose wind it is.
     ground : int
         Place of the ground's displacement along x among the channels, which those along y and z, then those of floors
         follow; zero where the ground rests.
@@ -72,7 +75,7 @@ class Constants:
         Mass, first moment and moments of inertia of what turns [kg, kg m, kg m^2].
     jib_length, tilt_limit : float
         [m], [rad]
-    head_area, head_area_moment : float
+    head_area, head_area_moment : ndarray, shape (head nodes,)
         Drag per squared speed of jib and counter-jib, and its first moment [kg/m, kg].
     plane_cosine, plane_sine : float
         Of the angle from the fixed x axis to the first axis of the coordinates, not zero in a plane alone.
@@ -80,8 +83,10 @@ class Constants:
         What a coordinate moves the head: SLIDE_X to TURN.
     jib_mass, jib_moment, jib_turning : ndarray, shape (n,)
         int m phi, int m x phi and int rho I theta of the modes of jib and counter-jib, zero elsewhere.
-    damping, exposure, cap : ndarray, shape (n,)
-        Viscous damping; int c phi with the drag c per squared speed; mass added where a frequency is capped.
+    damping, cap : ndarray, shape (n,)
+        Viscous damping; mass added where a frequency is capped.
+    head_exposure, tower_exposure : ndarray, shapes (head nodes, n), (tower nodes, n)
+        int c phi with the drag c per squared speed.
     tower_mass : ndarray, shape (n,)
         int m phi of the tower's modes with what stands on it and under it, zero elsewhere.
     floor_pull : ndarray, shape (floors, n)
@@ -106,7 +111,9 @@ class Constants:
     channels: int
     counts: tuple[int, ...]
     slewing: str
-    wind: bool
+    wind: int
+    head_nodes: tuple[int, ...]
+    tower_nodes: tuple[int, ...]
     ground: int
     load: Load
     drive: Drive | None
@@ -120,8 +127,8 @@ class Constants:
     yaw: float
     jib_length: float
     tilt_limit: float
-    head_area: float
-    head_area_moment: float
+    head_area: Floats
+    head_area_moment: Floats
     plane_cosine: float
     plane_sine: float
     motions: Floats
@@ -129,7 +136,8 @@ class Constants:
     jib_moment: Floats
     jib_turning: Floats
     damping: Floats
-    exposure: Floats
+    head_exposure: Floats
+    tower_exposure: Floats
     cap: Floats
     tower_mass: Floats
     floor_pull: Floats
@@ -202,7 +210,7 @@ class Constants:
 
 def constants_of(model: Coordinates) -> Constants:
     """Constants of a crane in its chosen coordinates."""
-    crane, drive, slewing, exposure = model.crane, model.drive, model.crane.slewing, model.crane.exposure
+    crane, drive, slewing = model.crane, model.drive, model.crane.slewing
     return Constants(
         axes=model.axes,
         channels=len(model.channels),
@@ -222,14 +230,13 @@ def constants_of(model: Coordinates) -> Constants:
         yaw=slewing.yaw,
         jib_length=crane.jib_length,
         tilt_limit=TILT_LIMIT,
-        head_area=0.0 if exposure is None else exposure.mass,
-        head_area_moment=0.0 if exposure is None else exposure.moment,
         plane_cosine=np.cos(model.heading),
         plane_sine=np.sin(model.heading),
         cap=model.added_mass,
         sections=np.array([0.0, *crane.joints, crane.jib_length]),
         shapes=shape_table((crane.lateral, crane.vertical), (0.0, *crane.joints, crane.jib_length)),
         **_of_coordinates(model),
+        **met_by_wind(model),
         softening=softening(model),
         **_of_ground(model),
         own_mass=own_mass(model),
@@ -240,25 +247,21 @@ def constants_of(model: Coordinates) -> Constants:
     )
 
 
-def _of_coordinates(model: Coordinates) -> dict[str, Floats]:
-    """What each coordinate moves, carries, loses and shows the wind."""
+def _of_coordinates(model: Coordinates) -> dict[str, Any]:
+    """What each coordinate moves, carries and loses."""
     crane, parts, n = model.crane, model.parts, model.coordinates
-    motions, exposure = np.zeros((TURN + 1, n)), np.zeros(n)
+    motions = np.zeros((TURN + 1, n))
     jib_mass, jib_moment, jib_turning = np.zeros((3, n))
-    # One mode list per plane of the tower: both see the same tip, slope and wind.
-    swept = crane.tower_drag * crane.tower.deflection_integrals()
+    # One mode list per plane of the tower: both see the same tip and slope.
     for plane, slide, tilt, sense in (("tower_x", SLIDE_X, TILT_Y, 1.0), ("tower_y", SLIDE_Y, TILT_X, -1.0)):
         if model.counts[plane]:
             motions[slide, parts[plane]] = crane.tower(crane.tower_height)
             motions[tilt, parts[plane]] = sense * crane.top_slope
-            exposure[parts[plane]] = swept
     motions[TURN, parts["torsion"]] = crane.torsion(crane.tower_height)
     motions[TURN, parts["slewing"]] = 1.0
     jib = slice(parts["jib_lateral"].start, parts["counter_jib_vertical"].stop)
     slewing = crane.slewing
     jib_mass[jib], jib_moment[jib], jib_turning[jib] = slewing.first, slewing.second, slewing.turned
-    if crane.exposure is not None:
-        exposure[jib] = crane.exposure.first
     d = model.damping
     kinds = d.tower, d.tower, d.torsion, 0.0, d.lateral, d.counter_lateral, d.vertical, d.counter_vertical
     lost = dict(zip(KINDS, kinds, strict=False))
@@ -266,12 +269,12 @@ def _of_coordinates(model: Coordinates) -> dict[str, Floats]:
     # Of a mode that a cap slows, of its slowed frequency and greater mass: the ratio is as stated.
     damping = 2.0 * ratios * model.angular_frequencies * np.sqrt(1.0 + model.added_mass)
     return {
-        "motions": motions, "exposure": exposure, "damping": damping,
+        "motions": motions, "damping": damping,
         "jib_mass": jib_mass, "jib_moment": jib_moment, "jib_turning": jib_turning,
     }  # fmt: skip
 
 
-def _of_ground(model: Coordinates) -> dict[str, Floats]:
+def _of_ground(model: Coordinates) -> dict[str, Any]:
     """What the ground and floors do to the tower; zeros where they rest."""
     crane, parts, n = model.crane, model.parts, model.coordinates
     tower_mass, floor_pull = np.zeros(n), np.zeros((model.floors, n))

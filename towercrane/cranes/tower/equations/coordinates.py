@@ -11,7 +11,7 @@ import numpy as np
 from modal.checks import check_fields
 from towercrane.cranes.parts.ground import CHANNELS as GROUND
 from towercrane.cranes.parts.ground import floor_channels
-from towercrane.cranes.parts.wind import CHANNELS
+from towercrane.cranes.parts.wind import wind_channels
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.frequency_cap import added_mass
 
@@ -56,8 +56,8 @@ class Coordinates:
         Whether the structure has weight; without it only trolley and load do.
     rope_as_rod : bool
         Let the rope push, as most published models do. Without it a slack rope ends the run.
-    wind : bool
-        Whether a wind blows, prescribed by motions of its three components.
+    wind : int
+        Number of places that see a wind of their own, prescribed by motions of its components: one for all; or none.
     ground : bool
         Whether the ground moves, prescribed by motions of its three displacements.
     floors : int
@@ -88,7 +88,7 @@ class Coordinates:
     weight_softening: bool = False
     self_weight: bool = True
     rope_as_rod: bool = False
-    wind: bool = False
+    wind: int = 0
     ground: bool = False
     floors: int = 0
     axes: Literal[2, 3] = 3
@@ -135,7 +135,7 @@ class Coordinates:
     @property
     def value_channels(self) -> tuple[str, ...]:
         """Channels that act by their value alone, of which a crane at rest knows the mean: the wind's components."""
-        return CHANNELS if self.wind else ()
+        return wind_channels(self.wind)
 
     @property
     def channel_units(self) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from towercrane.cranes.parts.corner import Corner
 from towercrane.cranes.tower.equations import motion
-from towercrane.cranes.tower.equations.actions.wind import wind_velocity
+from towercrane.cranes.tower.equations.actions.wind import winds_of
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, Constants, constants_of
 from towercrane.cranes.tower.equations.coordinates import Coordinates
 from towercrane.cranes.tower.equations.joints import Joints
@@ -134,7 +134,7 @@ class Equations(Coordinates):
         hung, outward = -np.eye(self.axes)[-1], np.zeros(self.axes)
         if state == "equilibrium":
             y[:n] = self.equilibrium(inputs)
-            air = wind_velocity(self.constants, [[value] for value in inputs[:, 0]])
+            *_, air = winds_of(self.constants, [[value] for value in inputs[:, 0]])
             force = np.array(load_force(self.constants, [air[k] for k in self.constants.fixed_axes]))
             # Without weight and wind any direction will do.
             hung = force / np.linalg.norm(force) if force.any() else hung

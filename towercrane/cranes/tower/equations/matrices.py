@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -95,3 +95,25 @@ def scale(model: Coordinates) -> Floats:
         ]
     sizes = np.concatenate([1.0 / np.concatenate(largest), np.ones(model.axes)])
     return np.concatenate([sizes, sizes, [model.load.work_scale(crane.gravity, crane.jib_length)]])
+
+
+def met_by_wind(model: Coordinates) -> dict[str, Any]:
+    """What the wind meets; nothing where none blows."""
+    exposure, parts, n = model.crane.exposure, model.parts, model.coordinates
+    head, tower = ((), ()) if exposure is None else (exposure.head, exposure.tower)
+    turning, head_exposure, tower_exposure = (
+        [own.jib + own.counter for own in head], np.zeros((len(head), n)), np.zeros((len(tower), n))
+    )  # fmt: skip
+    jib = slice(parts["jib_lateral"].start, parts["counter_jib_vertical"].stop)
+    for row, sums in zip(head_exposure, turning, strict=True):
+        row[jib] = sums.first
+    for row, part in zip(tower_exposure, tower, strict=True):
+        for plane in ("tower_x", "tower_y"):
+            # One mode list per plane of the tower: both see the same wind.
+            row[parts[plane]] = part.swept[: model.counts[plane]]
+    return {
+        "head_nodes": tuple(own.node for own in head), "tower_nodes": tuple(own.node for own in tower),
+        "head_area": np.array([sums.mass for sums in turning]),
+        "head_area_moment": np.array([sums.moment for sums in turning]),
+        "head_exposure": head_exposure, "tower_exposure": tower_exposure,
+    }  # fmt: skip

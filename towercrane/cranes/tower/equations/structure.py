@@ -21,7 +21,7 @@ import numpy as np
 
 from towercrane.cranes.tower.equations.actions.drive import Driven, drive
 from towercrane.cranes.tower.equations.actions.ground import ground_of, shake
-from towercrane.cranes.tower.equations.actions.wind import press_wind
+from towercrane.cranes.tower.equations.actions.wind import press_wind, winds_of
 from towercrane.cranes.tower.equations.body import body_of, carried
 from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.jib import bend, path_of, trolley_of
@@ -112,10 +112,10 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         for m in range(crane.coordinates):
             force = force - crane.stiffness[i, m] * state.coordinates[m]
         forces.append(force)
-    wind: tuple[Any, ...] = (0.0, 0.0, 0.0)
+    winds = winds_of(crane, drives)
     if crane.wind:
-        blown = press_wind(crane, state, head, drives)
-        wind, power = blown.wind, power + blown.power
+        blown = press_wind(crane, state, head, winds)
+        power = power + blown.power
         forces = [force + own for force, own in zip(forces, blown.forces, strict=True)]
         body = body.pushed((0.0, blown.side, 0.0), (blown.rolling, 0.0, blown.turning))
 
@@ -152,7 +152,7 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         velocity=[velocity[k] for k in axes],
         bias=[bias[k] for k in axes],
         jacobian=[[own.end[k] for own in projected] for k in axes],
-        wind=[wind[k] - ground.velocity[k] for k in axes],
+        wind=[winds[-1][k] - ground.velocity[k] for k in axes],
         ground=[ground.acceleration[k] for k in axes],
     )
     path = tuple(row[0] + row[1] * across.slope + row[2] * rise.slope for row in head.rows)

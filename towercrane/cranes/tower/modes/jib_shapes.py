@@ -63,23 +63,39 @@ class JibShapes:
     counter: MassSums
     tied: TiedHead | None = None
 
-    def exposures(self, areas: wind.WindAreas) -> tuple[MassSums, MassSums]:
-        """Sums over the drag per squared speed of jib and counter-jib, in place of their mass."""
+    def exposures(
+        self, areas: wind.WindAreas, rising: tuple[float, float] | None = None
+    ) -> tuple[MassSums, MassSums]:
+        """Sums over the drag per squared speed of jib and counter-jib, in place of their mass.
+
+        Parameters
+        ----------
+        areas : WindAreas
+        rising : tuple of 2 float, optional
+            Places along the jib from the tower's axis [m]: between them the drag counts with a factor that rises
+            from zero at the one to one at the other, and elsewhere not at all.
+        """
         crane = self.crane
         per_length, tip = wind.drag(areas.counter_jib), wind.drag(areas.counterweight)
-        if isinstance(crane.jib, Beam):
+        if rising is None and isinstance(crane.jib, Beam):
             jib = self.jib.scaled(wind.drag(areas.jib) / crane.jib.mass_per_length)
         else:
-            swept = _along(crane.jib, wind.drag(areas.jib), self.lateral, self.vertical)
+            swept = _along(as_chain(crane.jib), wind.drag(areas.jib), self.lateral, self.vertical, rising=rising)
             jib = swept.among(*self._places("jib"))
         length = crane.counter_jib_length
         if self.counter_vertical is None or self.counter_lateral is None:
-            total, count = per_length * length + tip, len(self.jib.first)
-            moment = -(per_length * length / 2 + tip) * length
-            return jib, rigid_sums(total, moment, (per_length * length / 3 + tip) * length**2, count)
+            if rising is None:
+                total, moment = per_length * length + tip, -(per_length * length / 2 + tip) * length
+                inertia = (per_length * length / 3 + tip) * length**2
+                return jib, rigid_sums(total, moment, inertia, len(self.jib.first))
+            distance, swept_area = _spread((0.0, length), per_length, -1.0, rising)
+            x, pressed = -np.append(distance, length), np.append(swept_area, tip * _factor(-length, rising))
+            total, moment, inertia = (float(pressed @ x**power) for power in range(3))
+            return jib, rigid_sums(total, moment, inertia, len(self.jib.first))
         bases = self.counter_lateral, self.counter_vertical
         assert crane.counter_jib is not None
-        swept = _along(crane.counter_jib, per_length, *bases, side=-1.0) + point_sums(length, tip, *bases, side=-1.0)
+        end = point_sums(length, tip * _factor(-length, rising), *bases, side=-1.0)
+        swept = _along(crane.counter_jib, per_length, *bases, -1.0, rising) + end
         return jib, swept.among(*self._places("counter"))
 
     def _places(self, member: str) -> tuple[NDArray[np.int64], int]:
@@ -147,13 +163,31 @@ def _of_chain(
     return to_left, upward, chain_sums(upright, sideways, upward, to_left, side)
 
 
-def _along(chain: Chain, per_length: float, lateral: Basis, vertical: Basis, side: float = 1.0) -> MassSums:
-    """Sums over the same for every length of a member."""
+def _along(
+    chain: Chain, per_length: float, lateral: Basis, vertical: Basis, side: float = 1.0,
+    rising: tuple[float, float] | None = None,
+) -> MassSums:  # fmt: skip
+    """Sums over the same for every length of a member, with a factor as `JibShapes.exposures` has it."""
+    return point_sums(*_spread(chain.nodes, per_length, side, rising), lateral, vertical, side)
+
+
+def _spread(
+    nodes: Sequence[float], per_length: float, side: float, rising: tuple[float, float] | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Distances from a member's root, and the same for every length at each of them."""
     points, weights = gauss()
-    ends = np.asarray(chain.nodes)
+    inside = [] if rising is None else [side * x for x in rising if 0.0 < side * x < nodes[-1]]
+    ends = np.unique([*nodes, *inside])
     distance = (ends[:-1, None] + np.diff(ends)[:, None] * points).ravel()
     swept = per_length * (np.diff(ends)[:, None] * weights).ravel()
-    return point_sums(distance, swept, lateral, vertical, side)
+    return distance, swept * _factor(side * distance, rising)
+
+
+def _factor(x: NDArray[np.float64] | float, rising: tuple[float, float] | None) -> NDArray[np.float64] | float:
+    if rising is None:
+        return 1.0
+    share = (x - rising[0]) / (rising[1] - rising[0])
+    return np.where((share >= 0.0) & (share <= 1.0), share, 0.0)
 
 
 def _places(

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from modal.beams.torsion import torsion_modes
-from towercrane.cranes.parts import wind
 from towercrane.cranes.tower.modes.collars import TowerCollar, collars_of
+from towercrane.cranes.tower.modes.exposures import exposure_of
 from towercrane.cranes.tower.modes.jib_shapes import shapes_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from modal.structures.chain_modes import ChainModes
+    from towercrane.cranes.parts.wind import WindAreas, WindNodes
+    from towercrane.cranes.tower.modes.exposures import Exposure
     from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
     from towercrane.cranes.tower.modes.mass_sums import Basis, MassSums
     from towercrane.cranes.tower.modes.mode_counts import ModeCounts
@@ -79,10 +81,8 @@ class FlexibleCrane:
         First moment of the tower's mass and of its own bodies about its foot [kg m].
     collars : tuple of TowerCollar
         What ties the tower to a building, the lowest first; the shapes know their stiffness.
-    jib_exposure, counter_exposure : MassSums, optional
-        Sums over the drag per squared speed [kg/m] of jib and counter-jib, in place of their mass.
-    tower_drag : float
-        Of the tower, per squared speed and length [kg/m^2].
+    exposure : Exposure, optional
+        What the wind meets of it.
     gravity : float
         [m/s^2]
     luffing : LuffingJib, optional
@@ -116,9 +116,7 @@ class FlexibleCrane:
     planes: int = 2
     tower_moment: float = 0.0
     collars: tuple[TowerCollar, ...] = ()
-    jib_exposure: MassSums | None = None
-    counter_exposure: MassSums | None = None
-    tower_drag: float = 0.0
+    exposure: Exposure | None = None
     gravity: float = 9.81
     luffing: LuffingJib | None = None
     counter_lateral: ChainModes | None = None
@@ -146,12 +144,6 @@ class FlexibleCrane:
     def turning_mass(self) -> float:
         """Mass of all that turns, without trolley and load [kg]."""
         return self.slewing.mass if self.tied is None else self.tied_sums.mass
-
-    @property
-    def exposure(self) -> MassSums | None:
-        """Sums over the drag of all that turns; None where the wind does not matter."""
-        parts = [part for part in (self.jib_exposure, self.counter_exposure) if part is not None]
-        return parts[0] if len(parts) == 1 else parts[0] + parts[1] if parts else None
 
     @cached_property
     def tower_moments(self) -> tuple[Floats, Floats]:
@@ -223,8 +215,9 @@ class FlexibleCrane:
 
 
 def flexible_crane(
-    crane: TowerCrane, modes: ModeCounts, areas: wind.WindAreas | None = None, planes: int = 2
-) -> FlexibleCrane:
+    crane: TowerCrane, modes: ModeCounts, areas: WindAreas | None = None, planes: int = 2,
+    nodes: WindNodes | None = None,
+) -> FlexibleCrane:  # fmt: skip
     """Crane in so many modes of its members, the tower's with the head on their end.
 
     Parameters
@@ -234,6 +227,8 @@ def flexible_crane(
     areas : WindAreas, optional
     planes : {1, 2}
         Directions in which the tower bends.
+    nodes : WindNodes, optional
+        Where a wind of its own blows; without, one wind blows for all.
 
     Raises
     ------
@@ -243,9 +238,6 @@ def flexible_crane(
     check_described(crane, modes)
     shapes = shapes_of(crane, modes, planes)
     tower = crane.tower_modes(modes.tower)
-    jib_exposure, counter_exposure = None, None
-    if areas is not None:
-        jib_exposure, counter_exposure = shapes.exposures(areas)
     return FlexibleCrane(
         name=crane.name,
         tower_height=crane.tower.length,
@@ -259,9 +251,7 @@ def flexible_crane(
         tower_mass=crane.tower_mass,
         trolley_mass=crane.trolley_mass,
         planes=planes,
-        jib_exposure=jib_exposure,
-        counter_exposure=counter_exposure,
-        tower_drag=wind.drag(areas.tower) if areas is not None else 0.0,
+        exposure=None if areas is None else exposure_of(shapes, tower, crane.tower.length, areas, nodes),
         tower_moment=crane.tower_moment,
         collars=collars_of(crane),
         gravity=crane.gravity,

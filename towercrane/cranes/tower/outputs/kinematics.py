@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.tower.equations.actions.ground import Ground, ground_of
-from towercrane.cranes.tower.equations.actions.wind import wind_velocity
+from towercrane.cranes.tower.equations.actions.wind import winds_of
 from towercrane.cranes.tower.equations.body import Carried, carried
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TURN
 from towercrane.cranes.tower.equations.head import Head, head_of
@@ -174,10 +174,9 @@ class Kinematics:
         return ground_of(self.seen.crane, self.instant.drives)
 
     @cached_property
-    def wind(self) -> tuple[Any, ...]:
-        """Velocity of the air."""
-        crane = self.seen.crane
-        return wind_velocity(crane, self.instant.drives)
+    def winds(self) -> list[Vector]:
+        """Velocity of the air at each place that sees a wind of its own, the load's the last."""
+        return winds_of(self.seen.crane, self.instant.drives)
 
 
 def in_space(vector: Row) -> Vector:

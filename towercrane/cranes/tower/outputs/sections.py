@@ -9,8 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
+from towercrane.cranes.tower.equations.actions.wind import pressures
 from towercrane.cranes.tower.equations.body import Body, body_of
 from towercrane.cranes.tower.equations.jib import Sums
 from towercrane.cranes.tower.equations.motion import TENSION
@@ -89,8 +90,8 @@ class Sections:
 
         return of(left, sides, q_left, rise, q_up), of(up, rise, q_up, sides, q_left)
 
-    def turning(self, part: MassSums, exposure: MassSums | None) -> Body:
-        """A part of what turns."""
+    def turning(self, part: MassSums) -> Body:
+        """A part of what turns, without wind."""
         crane, state = self.at.seen.crane, self.at.state
         places, rates, (left, up) = (
             self.swept(part, values) for values in (state.coordinates, state.rates, self.accelerations)
@@ -98,15 +99,20 @@ class Sections:
         sums = (Sums(*chain(*zip(*pair, strict=True))) for pair in zip(places, rates, strict=True))
         body = body_of(part.straight, self.head, self.felt(crane.self_gravity), *sums)
         turned = left.other - up.other, up.first + up.turned, -left.first - left.turned
-        body = body.pushed((0.0, -left.zeroth, -up.zeroth), turned)
-        return body if exposure is None else body.pushed(*self.pressed(exposure))
+        return body.pushed((0.0, -left.zeroth, -up.zeroth), turned)
 
-    def pressed(self, exposure: MassSums) -> tuple[Vector, Vector]:
-        """Force and moment of the wind on a part of what turns."""
-        normal = dot(self.at.wind, self.head.rotation[1::3])
-        press = abs(normal) * normal
-        _, rise = self.at.deflection(exposure.first, self.at.state.coordinates)
-        return (0.0, exposure.mass * press, 0.0), (-rise * press, 0.0, exposure.moment * press)
+    def blown(self, body: Body, *members: Literal["jib", "counter"]) -> Body:
+        """A body with the wind on these members."""
+        exposure = self.at.seen.exposure
+        if exposure is None:
+            return body
+        pressing = pressures(self.at.seen.crane, self.at.head, self.at.winds)
+        for part, press in zip(exposure.head, pressing, strict=True):
+            for member in members:
+                sums: MassSums = getattr(part, member)
+                _, rise = self.at.deflection(sums.first, self.at.state.coordinates)
+                body = body.pushed((0.0, sums.mass * press, 0.0), (-rise * press, 0.0, sums.moment * press))
+        return body
 
     @cached_property
     def hung(self) -> tuple[Vector, Vector]:
@@ -134,17 +140,17 @@ class Sections:
     @cached_property
     def jib_root(self) -> Body:
         """What is beyond the root of the jib: jib, trolley and load."""
-        return self.loaded(self.turning(self.at.seen.jib, self.at.seen.jib_exposure))
+        return self.loaded(self.blown(self.turning(self.at.seen.jib), "jib"))
 
     @cached_property
     def counter_root(self) -> Body:
         """What is beyond the root of a counter-jib that bends; that of a rigid one has the head's own inertia too."""
         seen = self.at.seen
         alone = replace(seen.counter, roll=seen.counter.roll - seen.counter_roll)
-        return self.turning(alone, seen.counter_exposure)
+        return self.blown(self.turning(alone), "counter")
 
     @cached_property
     def tower_top(self) -> Body:
         """What is beyond the top of the tower."""
-        jib, counter = self.jib_root, self.turning(self.at.seen.counter, self.at.seen.counter_exposure)
+        jib, counter = self.jib_root, self.blown(self.turning(self.at.seen.counter), "counter")
         return counter.pushed(jib.force, jib.moment)

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.tower.equations.constants import Constants
     from towercrane.cranes.tower.equations.flexible import Equations
+    from towercrane.cranes.tower.modes.exposures import Exposure
     from towercrane.cranes.tower.modes.mass_sums import MassSums
 
     Floats = NDArray[np.float64]
@@ -29,16 +30,16 @@ class Seen:
         Angle from the fixed x axis to the first axis of the coordinates, not zero in a plane alone [rad].
     jib, counter : MassSums
         Masses of the jib, and of what else turns.
-    jib_exposure, counter_exposure : MassSums or None
-        Their drag per squared speed, where a wind blows.
+    exposure : Exposure or None
+        What a wind meets.
     tip, counter_tip : ndarray, shape (modes of jib and counter-jib,)
         Their shapes at the tip of the jib, and at that of the counter-jib.
     counter_roll : float
         Moment of inertia about the jib's axis of what else turns than jib and counter-jib [kg m^2].
-    tower_height, tower_drag, tower_mass, tower_moment : float
-        [m, kg/m^2]; mass of the tower and its own bodies, and its first moment about the foot [kg, kg m].
-    zeroth, first, swept : ndarray, shape (tower modes,)
-        Sums over the tower's mass of its shapes, and of what tips it; integrals of the shapes.
+    tower_height, tower_mass, tower_moment : float
+        [m]; mass of the tower and its own bodies, and its first moment about the foot [kg, kg m].
+    zeroth, first : ndarray, shape (tower modes,)
+        Sums over the tower's mass of its shapes, and of what tips it.
     torsion : ndarray, shape (torsion modes,)
         Sums over the tower's inertia of its shapes of torsion.
     collar_heights : ndarray, shape (c,)
@@ -55,18 +56,15 @@ class Seen:
     heading: float
     jib: MassSums
     counter: MassSums
-    jib_exposure: MassSums | None
-    counter_exposure: MassSums | None
+    exposure: Exposure | None
     tip: Floats
     counter_tip: Floats
     counter_roll: float
     tower_height: float
-    tower_drag: float
     tower_mass: float
     tower_moment: float
     zeroth: Floats
     first: Floats
-    swept: Floats
     torsion: Floats
     collar_heights: Floats
     collar_springs: Floats
@@ -86,18 +84,15 @@ def seen_of(model: Equations) -> Seen:
         heading=model.heading,
         jib=crane.jib,
         counter=crane.counter,
-        jib_exposure=crane.jib_exposure,
-        counter_exposure=crane.counter_exposure,
+        exposure=crane.exposure,
         tip=crane.tip_shapes[:, 0],
         counter_tip=crane.counter_tip_shapes,
         counter_roll=crane.written.roll_inertia if crane.written is not None else 0.0,
         tower_height=crane.tower_height,
-        tower_drag=crane.tower_drag,
         tower_mass=crane.tower_mass,
         tower_moment=crane.tower_moment,
         zeroth=zeroth,
         first=first + crane.tower.rotary_moments(),
-        swept=crane.tower.deflection_integrals(),
         torsion=crane.torsion.mass_moment(),
         collar_heights=heights,
         collar_springs=np.array(springs).reshape(-1, 3),

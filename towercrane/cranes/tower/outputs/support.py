@@ -98,11 +98,13 @@ class Support:
             falls * s_x - dot(a_x, seen.first) - seen.tower_moment * shaken_x,
             turn,
         )
-        speed, height = np.sqrt(dot(at.wind, at.wind)), seen.tower_height
-        press = tuple(seen.tower_drag * speed * wind for wind in at.wind)
-        blown = cross((dot(q_x, seen.swept), dot(q_y, seen.swept), 0.5 * height * height), press)
-        force = added(force, inertia, tuple(height * own for own in press))
-        moment = added(moment, tipping, blown)
+        force, moment = added(force, inertia), added(moment, tipping)
+        for part in () if seen.exposure is None else seen.exposure.tower:
+            wind = at.winds[part.node]
+            speed = np.sqrt(dot(wind, wind))
+            press = tuple(speed * own for own in wind)
+            arm = dot(q_x, part.swept), dot(q_y, part.swept), part.moment
+            force, moment = added(force, tuple(part.area * own for own in press)), added(moment, cross(arm, press))
         for place, held, couple in self.tied:
             # The collars take their part.
             force, moment = less(force, held), less(less(moment, couple), cross(place, held))

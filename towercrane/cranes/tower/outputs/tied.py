@@ -80,9 +80,7 @@ class TiedSections(Sections):
             -dot([row[part][k] for row in moved.rows], moving) for part in (0, 1) for k in range(3)
         )
         body = self.loaded(moved.body.pushed((x, y, z), (rolling, pitching, turning)))
-        for exposure in (at.seen.jib_exposure, at.seen.counter_exposure):
-            body = body if exposure is None else body.pushed(*self.pressed(exposure))
-        return body
+        return self.blown(body, "jib", "counter")
 
     @cached_property
     def compression(self) -> Any:

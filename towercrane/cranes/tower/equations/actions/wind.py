@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from towercrane.kernels.algebra import dot
+from towercrane.kernels.algebra import Vector, dot
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.constants import Constants, Drives
@@ -15,10 +15,8 @@ if TYPE_CHECKING:
 
 
 class Blown(NamedTuple):
-    """Velocity of the air along x, y, z; forces on the modes; on the head force along e2, moments about e1, e3;
-    power."""
+    """Forces on the modes; on the head force along e2, moments about e1, e3; power."""
 
-    wind: tuple[Any, ...]
     forces: list[Any]
     side: Any
     rolling: Any
@@ -26,32 +24,44 @@ class Blown(NamedTuple):
     power: Any
 
 
-def wind_velocity(crane: Constants, drives: Drives) -> tuple[Any, Any, Any]:
-    """Velocity of the air, whose components are the last three channels, along x, y, z; zero where none blows."""
+def winds_of(crane: Constants, drives: Drives) -> list[Vector]:
+    """Velocity of the air at each place along the axes of the coordinates, the load's the last; zero without wind.
+
+    The last three channels are the components for the load; those along x and y for the others stand before them.
+    """
     if not crane.wind:
-        return 0.0, 0.0, 0.0
-    east, north, up = (channel[0] for channel in drives[-3:])
-    c, s = crane.plane_cosine, crane.plane_sine
-    return c * east + s * north, c * north - s * east, up
+        return [(0.0, 0.0, 0.0)]
+    channels = [channel[0] for channel in drives[-2 * crane.wind - 1 :]]
+    c, s, up = crane.plane_cosine, crane.plane_sine, channels[-1]
+    pairs = zip(channels[:-1:2], channels[1:-1:2], strict=True)
+    return [(c * east + s * north, c * north - s * east, up) for east, north in pairs]
 
 
-def press_wind(crane: Constants, state: State, head: Head, drives: Drives) -> Blown:
+def pressures(crane: Constants, head: Head, winds: list[Vector]) -> list[Any]:
+    """Squared speed across the jib, with its sign, at each place on what turns."""
+    normals = [dot(winds[node], head.rotation[1::3]) for node in crane.head_nodes]
+    return [abs(normal) * normal for normal in normals]
+
+
+def press_wind(crane: Constants, state: State, head: Head, winds: list[Vector]) -> Blown:
     """Forces of the wind."""
-    wind = wind_velocity(crane, drives)
-    speed = np.sqrt(dot(wind, wind))
-    normal = dot(wind, head.rotation[1::3])
-    press = abs(normal) * normal
-    pressed = (
-        (crane.part("tower_x"), speed * wind[0]), (crane.part("tower_y"), speed * wind[1]), (crane.lateral, press),
-    )  # fmt: skip
     forces: list[Any] = [0.0] * crane.coordinates
-    power, rolling = 0.0, 0.0
-    for modes, pressure in pressed:
+    power, rolling, pressing = 0.0, 0.0, pressures(crane, head, winds)
+    met = [winds[node] for node in crane.tower_nodes]
+    speeds = [np.sqrt(dot(wind, wind)) for wind in met]
+    along_x, along_y = ([speed * wind[k] for speed, wind in zip(speeds, met, strict=True)] for k in (0, 1))
+    pressed = (
+        (crane.part("tower_x"), along_x, crane.tower_exposure),
+        (crane.part("tower_y"), along_y, crane.tower_exposure),
+        (crane.lateral, pressing, crane.head_exposure),
+    )
+    for modes, pressure, exposure in pressed:
         for i in modes:
-            forces[i] = pressure * crane.exposure[i]
+            forces[i] = dot(pressure, exposure[:, i])
             power = power + forces[i] * state.rates[i]
     for i in crane.vertical:
-        rolling = rolling - crane.exposure[i] * state.coordinates[i] * press
-    side, turning = crane.head_area * press, crane.head_area_moment * press
+        for press, exposure in zip(pressing, crane.head_exposure, strict=True):
+            rolling = rolling - exposure[i] * state.coordinates[i] * press
+    side, turning = dot(pressing, crane.head_area), dot(pressing, crane.head_area_moment)
     power = power + (side * head.top[1] + rolling * head.spin[0] + turning * head.spin[2])
-    return Blown(wind, forces, side, rolling, turning, power)
+    return Blown(forces, side, rolling, turning, power)
