@@ -1,8 +1,6 @@
 """The folder that keeps machine code: its name, its rooms, and whether it can keep any.
 
-Numba keys its cache on the file that holds a function, not on the files of the functions it calls, so a
-change in one module would leave old machine code in use in another. Here the cache folder is named after
-a digest of all sources of the rooms with kernels instead: any change there starts a fresh one.
+It is named after a digest of all sources of the rooms with kernels: any change there starts a fresh one.
 """
 
 from __future__ import annotations
@@ -17,11 +15,17 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
+TOP = Path(__file__).resolve().parents[2]
+"""Folder of the packages."""
+
 ROOMS = "modal", "towercrane/kernels", "towercrane/simulation"
 """Folders with kernels, or with what they read, in them or below."""
 
 DIGITS = 16
 """Digits of the digest that names a folder."""
+
+CHOSEN = "TOWERCRANE_CACHE_DIR"
+"""Variable of the environment that names another folder."""
 
 KEPT = 30.0
 """Days for which a folder of other sources is kept that nobody uses."""
@@ -34,14 +38,26 @@ class CacheWarning(UserWarning):
 @cache
 def cache_folder() -> Path:
     """Folder of the machine code that belongs to exactly these sources, of all folders with kernels."""
-    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+    if chosen := os.environ.get(CHOSEN):
         return Path(chosen)
-    top = Path(__file__).resolve().parents[2]
+    return _user_cache() / sources(*ROOMS).hex()[:DIGITS]
+
+
+@cache
+def sources(*rooms: str) -> bytes:
+    """Digest of all sources in some folders of the program and below."""
     digest = hashlib.sha256()
-    for room in ROOMS:
-        for source in sorted((top / room).rglob("*.py")):
+    for room in rooms:
+        for source in sorted((TOP / room).rglob("*.py")):
             digest.update(source.read_bytes())
-    return _user_cache() / digest.hexdigest()[:DIGITS]
+    return digest.digest()
+
+
+def room_of(file: str) -> str:
+    """Which of the rooms a source is in; of another its folder."""
+    path = Path(file).resolve()
+    inside = (room for room in ROOMS if path.is_relative_to(TOP / room))
+    return next(inside, str(path.parent))
 
 
 def _user_cache() -> Path:
@@ -76,9 +92,3 @@ def prune(folder: Path) -> None:
             is_code = re.fullmatch(f"[0-9a-f]{{{DIGITS}}}", other.name) and other.is_dir()
             if is_code and other != folder and other.stat().st_mtime < oldest:
                 shutil.rmtree(other, ignore_errors=True)
-
-
-def is_compiled(module: str) -> bool:
-    """Whether machine code of the named module's kernels is in the cache already."""
-    *_, room, name = module.split(".")
-    return any(cache_folder().glob(f"{room}_*/{name}.*.nbi"))

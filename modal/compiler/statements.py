@@ -5,11 +5,12 @@ from __future__ import annotations
 import ast
 import inspect
 import textwrap
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, get_origin
 
 from llvmlite import ir
 
-from modal.compiler.expressions import WHOLE, Array, Expressions
+from modal.compiler.arithmetic import WHOLE, constant
+from modal.compiler.expressions import Array, Expressions
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,13 +29,15 @@ class Body(Expressions):
         Values of its arguments.
     gives : type
         Kind of what it gives.
+    number : LLVM type
+        What a `Number` is.
     """
 
-    def __init__(self, library: Any, python: Any, made: Any, given: dict[str, Any], gives: Any) -> None:
+    def __init__(self, library: Any, python: Any, made: Any, given: dict[str, Any], gives: Any, number: Any) -> None:
         # Variables live in memory of the function's own, which LLVM turns into registers.
         self._memory = ir.IRBuilder(made.append_basic_block())
         super().__init__(library, python, made)
-        self._gives = gives
+        self._gives, self._number = gives, number
         self._variables: dict[str, Any] = {}
         self._loops: list[tuple[Any, Any]] = []
         first = self.builder.block
@@ -47,11 +50,11 @@ class Body(Expressions):
             (self.builder.ret_void if gives is None else self.builder.unreachable)()
         self._memory.branch(first)
 
-    def read(self, node: ast.Name) -> Any:
-        """Value of a variable, or of what a name stands for outside."""
-        known = self._variables.get(node.id)
-        if known is None:
-            return self.constant(self.outer(node))
+    def read(self, name: str) -> Any:
+        """Value of a variable; None if there is none of this name."""
+        known = self._variables.get(name)
+        if known is None or isinstance(known, dict):
+            return known
         if isinstance(known, Array):
             pointer, *sizes = (self.builder.load(room) for room in known.sizes)
             return Array(pointer, tuple(sizes))
@@ -60,7 +63,10 @@ class Body(Expressions):
         return self.builder.load(known)
 
     def _keep(self, name: str, value: Any) -> None:
-        """Give a variable a value; it stays of the kind of its first."""
+        """Give a variable a value; it stays of the kind of its first. What a named tuple holds stays as it is."""
+        if isinstance(value, dict):
+            self._variables[name] = value
+            return
         parts = (value.pointer, *value.sizes) if isinstance(value, Array) else value
         single = not isinstance(parts, tuple)
         known = self._variables.get(name)
@@ -83,6 +89,8 @@ class Body(Expressions):
                 value = self.value(node.value)
                 for target in node.targets:
                     self._assign(target, value)
+            case ast.AnnAssign(annotation=ast.Name(id="Number"), value=ast.expr() as begun):
+                self._assign(node.target, self.turned(self.value(begun), self._number))
             case ast.AugAssign():
                 before = self.value(node.target)
                 self._assign(node.target, self.combined(node.op, before, self.value(node.value)))
@@ -111,7 +119,7 @@ class Body(Expressions):
                     self._assign(own, part)
             case ast.Subscript():
                 place = self.part(target)
-                self.builder.store(self.turned(value, place.type.pointee), place)
+                self.store(value, place)
             case ast.Name():
                 self._keep(target.id, value)
             case _:
@@ -148,7 +156,7 @@ class Body(Expressions):
         if self.outer(call.func) is not range:
             self.cannot(call)
         bounds = [self.value(argument) for argument in call.args]
-        zero, one = self.constant(0), self.constant(1)
+        zero, one = constant(0), constant(1)
         start, stop, step = ((zero, *bounds, one), (*bounds, one), bounds)[len(bounds) - 1]
         down = step.constant < 0
         counter = self._memory.alloca(WHOLE)
@@ -169,7 +177,7 @@ class Body(Expressions):
             self.builder.ret_void()
             return
         value, kind = self.value(node), self.made.function_type.return_type
-        if not get_args(self._gives):
+        if get_origin(self._gives) is not tuple:
             self.builder.ret(self.turned(value, kind))
             return
         found = ir.Constant(kind, ir.Undefined)

@@ -189,8 +189,8 @@ def test_folder_that_cannot_be_is_refused_before_the_run(out, words, tmp_path, m
     (tmp_path / "link").symlink_to("nowhere")
     (tmp_path / "f").write_text("", "utf-8")
     monkeypatch.chdir(tmp_path)
-    # Without the compiler nothing can begin.
-    monkeypatch.setattr("towercrane.kernels.compilation.missing_kernels", None)
+    # Without equations nothing can begin.
+    monkeypatch.setattr("towercrane.kernels.straight.written.written", None)
     for command in (("run", RUN[1], "--out"), ("modes", RUN[1], "--out"), ("figures", "--out"), ("cases", "copy")):
         done = CliRunner().invoke(app, [*command, out])
         assert (done.exit_code, done.stdout) == (2, "")
@@ -199,7 +199,7 @@ def test_folder_that_cannot_be_is_refused_before_the_run(out, words, tmp_path, m
 
 
 def test_folder_in_place_of_a_file_is_refused_before_the_run(tmp_path, monkeypatch):
-    monkeypatch.setattr("towercrane.kernels.compilation.missing_kernels", None)
+    monkeypatch.setattr("towercrane.kernels.straight.written.written", None)
     (tmp_path / "result.nc").mkdir()
     done = CliRunner().invoke(app, [*RUN, "--out", str(tmp_path)])
     assert done.exit_code == 2
@@ -267,13 +267,6 @@ def test_bytes_that_are_no_text_are_refused(tmp_path):
     assert (code, out) == (2, "")
     assert "text in UTF-8" in err
     assert r"\udcff" in err
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_compiler_that_is_switched_off_is_named_before_the_run(tmp_path):
-    code, out, err = program(*RUN, cwd=tmp_path, NUMBA_DISABLE_JIT="1")
-    assert (code, out) == (2, "")
-    assert "NUMBA_DISABLE_JIT: wanted unset or 0, got 1" in err
     assert list(tmp_path.iterdir()) == []
 
 

@@ -9,8 +9,7 @@ Forces and moments are the derivatives of the strain energy, so energy and momen
 """
 
 import numpy as np
-
-from modal.compiler.compiled import kernel
+from numba import njit
 
 PLACE, TURN, SPEED, SPIN = 0, 3, 7, 10
 """Where a node's place, quaternion, velocity and angular velocity (in its own axes) begin in its row of the state."""
@@ -28,6 +27,11 @@ WAY, ROPE, ANGLE, RATE, ACCELERATION = range(5)
 
 STIFF = 1e9
 """Of the springs that stand for constraints [N/m]."""
+
+
+def kernel(**_):
+    """Compiled by another compiler than the program's own."""
+    return njit(cache=True, error_model="numpy")
 
 
 @kernel()

@@ -84,7 +84,6 @@ def animate(
         _nothing(loaded, finished)
     duration = loaded.run.duration if finished is None else float(finished["time"][-1])
     playback = _playback(duration, start, end, speed, frames_per_second)
-    task.compile()
     run = _run(loaded) if finished is None else None
     result = finished if run is None else run.dataset()
     assert result is not None

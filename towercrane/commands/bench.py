@@ -11,7 +11,6 @@ from towercrane.commands.shared.skeleton import as_text, finish
 from towercrane.commands.shared.terminal import (
     NOT_AS_EXPECTED,
     AsJson,
-    compile_for,
     fail,
     folder_for_results,
     out_option,
@@ -57,7 +56,6 @@ def bench(
 
 def _measured(quick: bool, subject: str, hard: bool, stability: bool) -> dict[str, Any]:
     """What the benchmark was asked for."""
-    compile_for()
     if hard:
         from towercrane.bench.runs.hard import hard_cases
 

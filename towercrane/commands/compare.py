@@ -38,7 +38,6 @@ def compare(
     task.allow("compare")
     if not task.serves("compare"):
         task.refuse(f"wanted a case of kind {either('compare')}, whose modes count, got {task.case.kind!r}")
-    task.compile()
     from towercrane.report.tables.space import comparison_tables
     from towercrane.studies.comparison import TARGET
 

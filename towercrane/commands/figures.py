@@ -7,7 +7,6 @@ from typing import Annotated
 
 from towercrane.commands.shared.terminal import (
     Changes,
-    compile_for,
     folder_for_results,
     load,
     out_option,
@@ -28,7 +27,6 @@ def figures(
     The source is Gao et al. (2023).
     """
     folder_for_results(out)
-    compile_for()
     from towercrane.report.plots.runs import plane
     from towercrane.runs.run import run_case
 

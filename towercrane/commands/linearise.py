@@ -43,7 +43,6 @@ def linearise(
         if out.suffix.lower() not in FILE_TYPES or out.is_dir():
             fail(f"--out {out}: wanted a file that ends in {' or '.join(FILE_TYPES)}")
         folder_for_results(out.parent)
-    task.compile()
     from towercrane.cases.assumptions import as_notes, rests_on
     from towercrane.cases.models import motions_of
     from towercrane.report.tables.modes import linear_tables

@@ -47,7 +47,6 @@ def run(
     from towercrane.report.folder import RUN_FILES
 
     task.into(out, names=RUN_FILES)
-    task.compile()
     from towercrane.runs.run import record_case
     from towercrane.runs.summary import summarise
 

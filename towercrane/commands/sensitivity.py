@@ -48,7 +48,6 @@ def sensitivity(
     if not names:
         known = ", ".join(parameters_of(parameters))
         fail(f"--vary {' '.join(vary or [])}: wanted patterns that match some of {known}")
-    task.compile()
     from towercrane.cases.assumptions import as_attribute, rests_on
     from towercrane.report.tables.studies import sensitivity_tables
 

@@ -46,7 +46,6 @@ def shape(
         task.refuse(f"wanted a crane of kind {kinds}, whose modes are known; got {loaded.kind}")
     if not driven(loaded.plans):
         task.refuse("wanted a trolley or a slewing drive that moves, got none")
-    task.compile()
     from towercrane.cases.assumptions import as_attribute, as_entries, as_notes, rests_on
     from towercrane.cases.models import model_of
     from towercrane.report.drive_table import drive_table

@@ -69,10 +69,8 @@ def sweep(
     task = begin(case, changes, as_json=as_json, notices=True, read=read)
     task.into(out, "sweep")
     values = _values(task.case, written, first)
-    from towercrane.runs.sweep import grid
-
-    task.compile("lanes")
     from towercrane.report.tables.studies import sweep_tables
+    from towercrane.runs.sweep import grid
     from towercrane.runs.sweep_report import report, runs_csv, worst
 
     began = time.perf_counter()

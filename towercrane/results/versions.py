@@ -9,7 +9,7 @@ __version__ = "0.1.0"
 
 def versions() -> dict[str, str]:
     """Version of this package, of Python and of the libraries that compute, by name."""
-    import numba
+    import llvmlite
     import numpy as np
     import scipy
 
@@ -17,6 +17,6 @@ def versions() -> dict[str, str]:
         "towercrane": __version__,
         "python": platform.python_version(),
         "numpy": np.__version__,
-        "numba": numba.__version__,
+        "llvmlite": llvmlite.__version__,
         "scipy": scipy.__version__,
     }

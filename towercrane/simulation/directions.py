@@ -17,11 +17,12 @@ more than the estimate where they are short beside the motion itself, which :fun
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modal.compiler.compiled import kernel
+if TYPE_CHECKING:
+    from modal.compiler.kinds import Number, NumberRow, NumberTable, Whole
 
 FIRST, RATE, COMPONENTS = range(3)
 """Columns of the table of directions: first state of the vector, first state of its rate, number of components."""
@@ -33,12 +34,12 @@ NOTHING = 1e-300
 """Square of an acceleration that is none, so that nothing is divided by zero."""
 
 
-@kernel()
-def restore_state(y: Any, directions: Any) -> None:
+def restore_state(y: NumberRow, directions: Whole) -> None:
     """Put the directions of a state back to unit length and their rates at right angles to them, in place."""
     for number in range(directions.shape[0]):
         first, rate = directions[number, FIRST], directions[number, RATE]
-        square, along = 0.0, 0.0
+        square: Number = 0.0
+        along: Number = 0.0
         for i in range(directions[number, COMPONENTS]):
             square += y[first + i] * y[first + i]
         norm = np.sqrt(square)
@@ -49,8 +50,7 @@ def restore_state(y: Any, directions: Any) -> None:
             y[rate + i] -= along * y[first + i]
 
 
-@kernel()
-def restore(y: Any, k: Any, row: int, directions: Any) -> None:
+def restore(y: NumberRow, k: NumberTable, row: int, directions: Whole) -> None:
     """:func:`restore_state` with the slope there.
 
     Parameters
@@ -68,8 +68,7 @@ def restore(y: Any, k: Any, row: int, directions: Any) -> None:
             k[row, first + i] = y[rate + i]
 
 
-@kernel()
-def longest_turn(k: Any, row: int, directions: Any, turn: Any) -> Any:
+def longest_turn(k: NumberTable, row: int, directions: Whole, turn: float) -> Number:
     """Longest next step in which no direction turns by more than an angle, as if it went on round a circle.
 
     A point on a unit circle with the acceleration a turns at the rate sqrt(a). Seen so, a load that hangs still or
@@ -93,10 +92,11 @@ def longest_turn(k: Any, row: int, directions: Any, turn: Any) -> Any:
     float or lane vector
         [s]
     """
-    largest = k[0, 0] * 0.0 + NOTHING
+    largest: Number = NOTHING
     for number in range(directions.shape[0]):
         rate = directions[number, RATE]
-        began, ended = k[0, 0] * 0.0, k[0, 0] * 0.0
+        began: Number = 0.0
+        ended: Number = 0.0
         for i in range(directions[number, COMPONENTS]):
             began += k[0, rate + i] * k[0, rate + i]
             ended += k[row, rate + i] * k[row, rate + i]

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modal.compiler.compiled import kernel
-
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
+
+    from modal.compiler.kinds import NumberRow, Row
 
     Floats = NDArray[np.float64]
 
@@ -51,8 +51,7 @@ MOST_STALLED = 20
 """Switches in a row without time passing at which a run is given up."""
 
 
-@kernel()
-def fallen(guards: Any, floors: Any) -> int:
+def fallen(guards: Row, floors: Row) -> int:
     """Index of the first guard below its floor, or -1."""
     for g in range(guards.size):
         if guards[g] < floors[g]:
@@ -60,22 +59,19 @@ def fallen(guards: Any, floors: Any) -> int:
     return -1
 
 
-@kernel()
-def widen(lowest: Any, highest: Any, guards: Any) -> None:
+def widen(lowest: NumberRow, highest: NumberRow, guards: NumberRow) -> None:
     """Let the guards' ranges contain what they are now."""
     for g in range(guards.size):
         lowest[g] = min(lowest[g], guards[g])
         highest[g] = max(highest[g], guards[g])
 
 
-@kernel()
 def is_near(lowest: float, highest: float, floor: float, part: float) -> bool:
     """Whether a guard of this range has fallen below its floor, or come closer than that part of its range."""
     return bool(lowest < floor or lowest - floor < part * (highest - lowest))
 
 
-@kernel()
-def any_near(lowest: Any, highest: Any, floors: Any, part: float) -> bool:
+def any_near(lowest: Row, highest: Row, floors: Row, part: float) -> bool:
     """Whether one of the guards with these ranges in a step is that near to its floor."""
     found = False
     for g in range(floors.size):

@@ -6,13 +6,11 @@ that of :mod:`towercrane.simulation.methods.step_size`.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numba import types
 
-from modal.compiler.compiled import kernel
-from towercrane.kernels.arrays import rhs_signature
+from modal.compiler.native import native
 from towercrane.simulation.directions import longest_turn, restore
 from towercrane.simulation.guards import (
     CLOSE,
@@ -29,6 +27,9 @@ from towercrane.simulation.guards import (
 )
 from towercrane.simulation.methods.step_size import SHORTEST, SLOWLY, step_factor
 
+if TYPE_CHECKING:
+    from modal.compiler.kinds import Number, NumberRow, NumberTable, Procedure, Row, Stack, Table, Whole, WholeRow
+
 FINISHED, PAUSED, GUARD, COLLAPSED, NOT_FINITE = range(5)
 """How far a phase has come."""
 
@@ -39,13 +40,8 @@ often a step is taken anew; largest turn of a direction in a step [rad]; power b
 ACCEPTED, REJECTED, EVALUATIONS, WRITTEN, GUARD_INDEX = range(5)
 """Entries of its counts."""
 
-_one, _two, _three = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
-_rhs = types.FunctionType(rhs_signature())
-_constants = (_two, _one, _three)
 
-
-@kernel(inline=True)
-def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, atol: Any) -> float:
+def _error_norm(error: Table, k: Table, y: Row, new: Row, h: float, rtol: float, atol: Row) -> float:
     """Norm of the error estimate; at most 1 is accepted. Two rows are combined as in dop853.f."""
     first, second, active = 0.0, 0.0, 0
     rows, stages = error.shape
@@ -70,8 +66,7 @@ def _error_norm(error: Any, k: Any, y: Any, new: Any, h: float, rtol: float, ato
     return h * np.sqrt(first / active)
 
 
-@kernel()
-def stage_state(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
+def stage_state(y: NumberRow, a: Table, row: int, k: NumberTable, h: Number, out: NumberRow) -> None:
     """State of stage ``row``: out = y + h sum_j a[row, j] k[j]."""
     for m in range(y.size):
         out[m] = 0.0
@@ -84,8 +79,7 @@ def stage_state(y: Any, a: Any, row: int, k: Any, h: float, out: Any) -> None:
         out[m] = y[m] + h * out[m]
 
 
-@kernel()
-def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
+def _dense(y: Row, dense: Table, k: Table, h: float, x: float, out: Row) -> None:
     """State at the fraction x of the step that began at y."""
     for m in range(y.size):
         out[m] = 0.0
@@ -100,46 +94,39 @@ def _dense(y: Any, dense: Any, k: Any, h: float, x: float, out: Any) -> None:
         out[m] = y[m] + h * out[m]
 
 
-@kernel(
-    types.int64(
-        _rhs, types.int64, _two, _one, _two, _two, types.int64, types.float64, _one, types.int64[::1],
-        types.float64, _one, _one, types.int64[:, ::1], _two, _two, _one, _two, types.int64, *_constants, _one, _two,
-        _one,
-    )
-)  # fmt: skip
-def advance(
-    rhs: Any,
+def _advance(
+    rhs: Procedure,
     stages: int,
-    a: Any,
-    c: Any,
-    error: Any,
-    dense: Any,
+    a: Table,
+    c: Row,
+    error: Table,
+    dense: Table,
     error_order: int,
     t_end: float,
-    clock: Any,
-    counts: Any,
+    clock: Row,
+    counts: WholeRow,
     rtol: float,
-    atol: Any,
-    y: Any,
-    directions: Any,
-    k: Any,
-    scratch: Any,
-    sample_times: Any,
-    samples: Any,
+    atol: Row,
+    y: Row,
+    directions: Whole,
+    k: Table,
+    scratch: Table,
+    sample_times: Row,
+    samples: Table,
     max_steps: int,
-    inputs: Any,
-    numbers: Any,
-    tables: Any,
-    guards: Any,
-    ranges: Any,
-    floors: Any,
+    inputs: Table,
+    numbers: Row,
+    tables: Stack,
+    guards: Row,
+    ranges: Table,
+    floors: Row,
 ) -> int:
     """Carry y from clock[TIME] towards t_end, at most max_steps accepted steps.
 
     Parameters
     ----------
     rhs, inputs, numbers, tables
-        As in :func:`towercrane.kernels.arrays.rhs_signature`.
+        As in :class:`towercrane.kernels.straight.code.StraightCode`.
     stages, a, c, error, dense, error_order
         As in :class:`towercrane.simulation.methods.runge_kutta.RungeKutta`.
     clock, counts : ndarray, shapes (7,) and (5,)
@@ -259,17 +246,19 @@ def advance(
     return FINISHED
 
 
-@kernel(types.void(_rhs, _one, _two, _two, _two, *_constants))
-def evaluate(
-    rhs: Any,
-    times: Any,
-    states: Any,
-    slopes: Any,
-    guards: Any,
-    inputs: Any,
-    numbers: Any,
-    tables: Any,
+def _evaluate(
+    rhs: Procedure,
+    times: Row,
+    states: Table,
+    slopes: Table,
+    guards: Table,
+    inputs: Table,
+    numbers: Row,
+    tables: Stack,
 ) -> None:
     """Right-hand side and guards at many states of one phase; slopes and guards have a row per state."""
     for row in range(times.size):
         rhs(times[row], states[row], slopes[row], inputs, numbers, tables, guards[row])
+
+
+advance, evaluate = native("stepper", _advance, _evaluate)

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from samples.lane_calls import call_in_lanes
 
+from modal.compiler.lanes import LANES
 from towercrane.kernels.choices import below, choose, either, nth
-from towercrane.kernels.straight.code import straight_code
+from towercrane.kernels.straight.code import StraightCode
 from towercrane.kernels.straight.graph import Graph
 from towercrane.kernels.straight.program import evaluate
 from towercrane.kernels.straight.written import written
-from towercrane.kernels.vector import LANES
 
 TABLES = np.random.default_rng(3).normal(size=(5, 2, 3))
 SHAPES = {"y": (6,), "inputs": (2, 3), "numbers": (3,), "tables": TABLES.shape}
@@ -82,7 +82,7 @@ def by_numpy(recorded, t, y, inputs, numbers):
 
 @pytest.fixture(scope="module")
 def single(recorded):
-    return straight_code(recorded, SHAPES, 0)
+    return StraightCode(recorded, SHAPES, lanes=False)
 
 
 def by_code(single, recorded, t, y, inputs, numbers):
@@ -103,7 +103,7 @@ def test_machine_code_does_what_was_recorded(single, recorded):
 
 
 def test_lanes_get_the_bits_of_single_runs(single, recorded):
-    code = straight_code(recorded, SHAPES, LANES)
+    code = StraightCode(recorded, SHAPES, lanes=True)
     rng = np.random.default_rng(8)
     for _ in range(200):
         t, y, inputs, numbers = drawn(rng, LANES)

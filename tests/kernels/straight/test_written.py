@@ -1,10 +1,6 @@
 """Equations written out for their scene against the same with numbers, for every kind of crane."""
 
-import os
-import subprocess
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,11 +8,11 @@ from samples.lane_calls import call_in_lanes
 from samples.straight import found, made
 
 from modal.compiler.folder import CacheWarning
+from modal.compiler.lanes import LANES
 from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.kernels import algebra
 from towercrane.kernels.straight import written
-from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import phases
 from towercrane.simulation.system import written_of
 
@@ -113,7 +109,7 @@ def test_lanes_of_every_kind_have_the_bits_of_single_states(about):
     states = np.stack([state for _, state in draws], axis=-1)
     slopes, guards = np.empty((system.size, LANES)), np.empty((len(system.guards), LANES))
     shared = [np.repeat(array[..., None], LANES, axis=-1) for array in (inputs, numbers)]
-    call_in_lanes(code.rhs(LANES), times, states, slopes, *shared, system.table, guards)
+    call_in_lanes(code.rhs(lanes=True), times, states, slopes, *shared, system.table, guards)
     for lane, (time, state) in enumerate(draws):
         slope, margins = system.slope(time, state, inputs)
         assert np.array_equal(slopes[:, lane], slope)
@@ -152,7 +148,9 @@ def test_a_system_of_many_unknowns_solved_in_loops_has_the_bits_of_one_written_o
             states = np.stack([state for _, state in draws], axis=-1)
             slopes, guards = np.empty_like(states), np.empty((len(system.guards), LANES))
             shared = [np.repeat(array[..., None], LANES, axis=-1) for array in (inputs, numbers)]
-            call_in_lanes(code.rhs(LANES), np.full((1, LANES), 0.4), states, slopes, *shared, system.table, guards)
+            call_in_lanes(
+                code.rhs(lanes=True), np.full((1, LANES), 0.4), states, slopes, *shared, system.table, guards
+            )
             found.append(slopes)
         else:
             found.append(np.array([own.slope(0.4, state, inputs)[0] for _, state in draws]))
@@ -168,31 +166,11 @@ def test_forces_at_rest_are_the_same_before_and_after_they_are_compiled(monkeypa
 
 
 def test_code_is_kept_by_its_content(tmp_path, monkeypatch):
-    assert found(made(2.0, tmp_path, monkeypatch)) == (2.0, 0)
-    assert found(made(3.0, tmp_path, monkeypatch)) == (3.0, 0)
-    assert found(made(2.0, tmp_path, monkeypatch)) == (2.0, 1)
-    for kept in tmp_path.rglob("*.nbc"):
+    assert found(*made(2.0, tmp_path, monkeypatch)) == (2.0, 1)
+    assert found(*made(3.0, tmp_path, monkeypatch)) == (3.0, 1)
+    assert found(*made(2.0, tmp_path, monkeypatch)) == (2.0, 0)
+    for kept in tmp_path.rglob("rhs.*.o"):
         kept.write_bytes(kept.read_bytes()[:-1] + b"x")
     with pytest.warns(CacheWarning, match="damaged machine code"):
-        assert found(made(3.0, tmp_path, monkeypatch)) == (3.0, 0)
-    assert found(made(3.0, tmp_path, monkeypatch)) == (3.0, 1)
-
-
-def test_code_from_the_cache_is_not_taken_for_code_that_was_compiled_here(tmp_path):
-    """Numba counts what a process compiles: what is third in two processes must not share a name."""
-    run = (
-        "import sys; sys.path.insert(0, sys.argv[1])\n"
-        "from pathlib import Path; import pytest; from samples.straight import found, made\n"
-        "with pytest.MonkeyPatch.context() as patch:\n"
-        "    codes = [made(float(c), Path(sys.argv[2]), patch) for c in sys.argv[3:]]\n"
-        "print(*map(found, codes))"
-    )
-
-    def process(*coefficients):
-        tests = str(Path(__file__).parents[2])
-        command = [sys.executable, "-c", run, tests, str(tmp_path), *coefficients]
-        environment = dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path))
-        return subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout.strip()
-
-    assert process("2") == "(2.0, 0)"
-    assert process("3", "2") == "(3.0, 0) (2.0, 1)"
+        assert found(*made(3.0, tmp_path, monkeypatch)) == (3.0, 1)
+    assert found(*made(3.0, tmp_path, monkeypatch)) == (3.0, 0)

@@ -14,7 +14,7 @@ DAY = 24.0 * 3600.0
 
 @pytest.fixture
 def home(tmp_path, monkeypatch):
-    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    monkeypatch.delenv(folder.CHOSEN, raising=False)
     monkeypatch.setattr(platformdirs, "user_cache_dir", lambda *_, **__: str(tmp_path / "cache"))
     obstacle.cache_clear()
     (tmp_path / "cache").mkdir()
@@ -25,8 +25,8 @@ def home(tmp_path, monkeypatch):
 def made(home, name, days):
     """A folder with a file in it, last used so many days ago."""
     path = home / name
-    (path / "kernels_1").mkdir(parents=True)
-    (path / "kernels_1" / "rhs.nbi").write_bytes(b"code")
+    (path / "native").mkdir(parents=True)
+    (path / "native" / "rhs.o").write_bytes(b"code")
     aged(path, days)
     return path
 
@@ -41,7 +41,7 @@ def test_a_new_folder_clears_away_what_nobody_has_used_for_long(home):
     assert obstacle(cache_folder.__wrapped__()) == ""
     assert not old.exists()
     assert recent.exists()
-    assert all(list(path.rglob("*.nbi")) for path in others)
+    assert all(list(path.rglob("*.o")) for path in others)
     assert cache_folder.__wrapped__().parent == home
 
 
@@ -75,7 +75,7 @@ def test_what_a_link_leads_to_and_what_cannot_be_removed_stay_without_a_word(hom
     )
     assert obstacle(cache_folder.__wrapped__()) == ""
     assert link.is_symlink()
-    assert list(target.rglob("*.nbi"))
+    assert list(target.rglob("*.o"))
     assert stuck.exists()
     assert not old.exists()
 
@@ -83,6 +83,33 @@ def test_what_a_link_leads_to_and_what_cannot_be_removed_stay_without_a_word(hom
 def test_a_folder_that_cannot_be_looked_through_is_left_alone(home, monkeypatch):
     monkeypatch.setattr(folder.Path, "iterdir", refuse)
     assert obstacle(cache_folder.__wrapped__()) == ""
+
+
+def test_kernels_are_in_the_rooms_whose_sources_name_the_cache():
+    makers = [
+        source.relative_to(folder.TOP).as_posix()
+        for package in ("modal", "towercrane")
+        for source in (folder.TOP / package).rglob("*.py")
+        if "import native" in source.read_text("utf-8") or "import loaded" in source.read_text("utf-8")
+    ]
+    assert len(makers) > 4
+    assert all(maker.startswith(folder.ROOMS) for maker in makers)
+    assert all((folder.TOP / room).is_dir() for room in folder.ROOMS)
+
+
+def test_a_change_of_a_source_names_another_cache(tmp_path, monkeypatch):
+    monkeypatch.delenv(folder.CHOSEN, raising=False)
+    for name in ("modal/compiler", "towercrane/kernels"):
+        (tmp_path / name).mkdir(parents=True)
+    kernel, layout = tmp_path / "modal/roots.py", tmp_path / "towercrane/kernels/layout.py"
+    monkeypatch.setattr(folder, "TOP", tmp_path)
+    found = []
+    for changed in (kernel, layout, kernel):
+        changed.write_text(f"x = {len(found)}\n")
+        folder.sources.cache_clear()
+        found.append(folder.cache_folder.__wrapped__())
+    folder.sources.cache_clear()
+    assert len(set(found)) == 3
 
 
 def refuse(*_, **__):

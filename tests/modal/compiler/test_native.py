@@ -6,8 +6,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from modal.compiler import files, native
-from modal.compiler.expressions import Untranslatable
+from modal.compiler import files, machine_code, native
+from modal.compiler.arithmetic import Untranslatable
 from modal.compiler.folder import CacheWarning, obstacle
 from modal.compiler.kinds import Row, Stack, Table, Three, Whole
 
@@ -58,7 +58,7 @@ def slices(table: Table, out: Row) -> None:
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    monkeypatch.setattr(native, "cache_folder", lambda: tmp_path / "cache")
+    monkeypatch.setattr(machine_code, "cache_folder", lambda: tmp_path / "cache")
     monkeypatch.setattr(files, "_said", [])
     return tmp_path / "cache"
 
@@ -183,7 +183,7 @@ def test_threads_may_be_the_first_together(folder):
 
 def test_code_from_disk_is_used_as_it_is(folder, monkeypatch):
     native.native("doors", _outer)[0](1.0)
-    monkeypatch.setattr(native, "_compiled", None)
+    monkeypatch.setattr(machine_code, "_compiled", None)
     assert native.native("doors", _outer)[0](1.0) == 4.0
 
 

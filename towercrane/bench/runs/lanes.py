@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modal.compiler.lanes import LANES
 from towercrane.bench.clock import short, whole
 from towercrane.cases.case import load_case
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
-from towercrane.kernels.vector import LANES
 from towercrane.motions.motion import Motion, phases
 from towercrane.simulation.integrate import evaluate, integrate
 from towercrane.simulation.lanes.many import available_cores, integrate_many

@@ -75,7 +75,6 @@ def _run(commands: Callable[[], Typer]) -> int:
 
 def _code(error: BaseException, interrupted: bool) -> Any:
     """Exit code of an ending by an exception, whose message is said; one that nobody foresaw is raised again."""
-    from modal.compiler.compiled import NoCompiler
     from towercrane.commands.shared.terminal import BAD_INPUT, say
     from towercrane.schema.faults import CaseError
 
@@ -86,7 +85,7 @@ def _code(error: BaseException, interrupted: bool) -> Any:
         return INTERRUPTED
     if isinstance(error, SystemExit):
         return error.code
-    if isinstance(error, CaseError | NoCompiler):
+    if isinstance(error, CaseError):
         say(str(error))
     elif isinstance(error, OSError):
         say(f"cannot write the output: {error.strerror or error}")

@@ -12,7 +12,6 @@ import typer
 from towercrane.commands.shared.terminal import (
     ENDED_EARLY,
     NOT_AS_EXPECTED,
-    compile_for,
     fail,
     folder_for_results,
     load,
@@ -98,10 +97,6 @@ class Task:
         """Put a part of a result beside the folder where that holds a file of an earlier, whole one."""
         if self.folder is not None and (self.folder / earlier).exists():
             self.folder = self.folder.with_name(f"{self.folder.name}-interrupted")
-
-    def compile(self, use: str = "run") -> None:
-        """Compile what a use needs, "run" or "lanes"."""
-        compile_for(use)
 
     def command(self, command: str, *more: str) -> tuple[str, ...]:
         """A command on the same case with the same changes."""

@@ -53,24 +53,6 @@ def load(name: str, changes: list[str] | None) -> Case:
     return load_case(name, changes or [])
 
 
-STEPPER, LANES = "towercrane.simulation.stepper", "towercrane.simulation.lanes.advance"
-USES = {"run": (STEPPER,), "lanes": (LANES, STEPPER)}
-"""Modules whose import compiles for long, by what they serve."""
-
-
-def compile_for(use: str = "run") -> None:
-    """Compile the kernels for a use if they are not yet, and say so."""
-    from modal.compiler.folder import cache_folder, obstacle
-    from towercrane.kernels.compilation import compile_kernels, missing_kernels
-
-    if missing := missing_kernels(*USES[use]):
-        if obstacle(cache_folder()):
-            say("compiling, some seconds ...")
-            return
-        say("compiling for the first time, some seconds; later runs start at once ...")
-        compile_kernels(*missing)
-
-
 @contextmanager
 def held_interrupts() -> Iterator[Callable[[], None]]:
     """Keep Ctrl-C until the caller asks: libraries turn one that meets them in their own code into other errors.

@@ -1,76 +1,71 @@
-"""Machine code of a program: compiled by numba's own compiler, called as any right-hand side is, kept on disk."""
+"""Machine code of a program: compiled by LLVM, called as any right-hand side is, kept on disk."""
 
 from __future__ import annotations
 
-from functools import cache
-from pathlib import Path
+import ctypes
 from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
-from numba import njit, types
-from numba.core import cgutils
-from numba.extending import intrinsic
-from numba.np.arrayobj import make_array
 
-from modal.compiler.folder import cache_folder
-from modal.compiler.kernel_cache import keep
-from towercrane.kernels.arrays import lane_rhs_signature, rhs_signature
+from modal.compiler.arithmetic import DOUBLE, VECTOR
+from modal.compiler.folder import sources
+from modal.compiler.machine_code import loaded
+from modal.compiler.native import array_door
+from modal.compiler.translation import Library
 from towercrane.kernels.straight.emitter import Emitter
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from towercrane.kernels.straight.program import Program
 
-# Numba's own functions carry no types.
-_intrinsic: Any = intrinsic
-_njit: Any = njit
+ARRAYS = {"y": 1, "dy": 1, "inputs": 2, "numbers": 1, "tables": 3, "guards": 1}
+"""Arrays of a right-hand side and their axes: inputs holds the polynomials of a phase, one row for each channel;
+numbers and tables are the model's constants, the numbers followed by what is worked out from them; dy and guards are
+written."""
 
-DOUBLES = ir.DoubleType().as_pointer()
-
-ARGUMENTS = ("t", "y", "dy", "inputs", "numbers", "tables", "guards")
-"""Arguments of a right-hand side, see :func:`towercrane.kernels.arrays.rhs_signature`."""
-
-
-@cache
-def _sources() -> bytes:
-    """What writes machine code, as text: other sources write other code for the same program."""
-    return b"".join(source.read_bytes() for source in sorted(Path(__file__).parent.glob("*.py")))
+WRITER = "modal/compiler", "towercrane/kernels/straight"
+"""Sources of what writes machine code: others write other code for the same program."""
 
 
-def straight_code(program: Program, shapes: dict[str, tuple[int, ...]], lanes: int) -> Any:
-    """Compiled right-hand side of a program.
+class StraightCode:
+    """Compiled right-hand side ``rhs(t, y, dy, inputs, numbers, tables, guards)``, t since the phase began [s].
+
+    A procedure for compiled functions; that of a single run can be called from Python too.
 
     Parameters
     ----------
     program : Program
     shapes : dict of str to tuple of int
         Shapes of the arrays that are given.
-    lanes : int
-        Runs side by side; 0 for a single run.
+    lanes : bool
+        Whether every number is that of eight runs side by side; the tables are the same for all.
     """
 
-    @_intrinsic
-    def emitted(_context: Any, arguments: Any) -> Any:
-        def build(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-            kinds_and_values = zip(arguments, cgutils.unpack_tuple(builder, values[0]), strict=True)
-            given = dict(zip(ARGUMENTS, kinds_and_values, strict=True))
-            arrays = {"t": given.pop("t")[1]}
-            for name, (kind, value) in given.items():
-                data = make_array(kind)(context, builder, value).data
-                arrays[name] = builder.bitcast(data, DOUBLES)
-            Emitter(program, context, builder, arrays, shapes, lanes).write()
-            return context.get_dummy_value()
+    def __init__(self, program: Program, shapes: dict[str, tuple[int, ...]], *, lanes: bool) -> None:
+        name = "lane_rhs" if lanes else "rhs"
 
-        return types.none(arguments), build
+        def module() -> Any:
+            return _module(name, program, shapes, VECTOR if lanes else DOUBLE)
 
-    def rhs(t: Any, y: Any, dy: Any, inputs: Any, numbers: Any, tables: Any, guards: Any) -> None:
-        emitted((t, y, dy, inputs, numbers, tables, guards))
+        # An engine goes with the last who holds it.
+        self._engine = loaded(name, program.digest(shapes, sources(*WRITER)).encode(), module)
+        self.address = self._engine.get_function_address(name)
+        kind = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.c_void_p] * len(ARRAYS))
+        self._entry: Callable[..., None] = kind(self.address)
+        self._doors = [array_door(f"rhs: {name}", "float64", axes, 0) for name, axes in ARRAYS.items()]
 
-    digest = program.digest(shapes, _sources())
-    # Numba names machine code by the function's name and a counter of this process: code from the cache and code that
-    # is compiled here would be taken for each other.
-    rhs.__name__ = rhs.__qualname__ = f"{'lane_rhs' if lanes else 'rhs'}_{digest}"
-    made = _njit(error_model="numpy", _nrt=False)(rhs)
-    keep(made, rhs, cache_folder(), digest)
-    made.compile(lane_rhs_signature() if lanes else rhs_signature())
-    made.disable_compile()
-    return made
+    def __call__(self, t: float, *arrays: Any) -> None:
+        """Write dy and guards of a single run."""
+        self._entry(t, *[door(array)[0] for door, array in zip(self._doors, arrays, strict=True)])
+
+
+def _module(name: str, program: Program, shapes: dict[str, tuple[int, ...]], number: Any) -> Any:
+    """LLVM module of a right-hand side."""
+    library = Library(name, [])
+    taken = [number, *[(DOUBLE if own == "tables" else number).as_pointer() for own in ARRAYS]]
+    made = ir.Function(library.module, ir.FunctionType(ir.VoidType(), taken), name)
+    builder = ir.IRBuilder(made.append_basic_block())
+    Emitter(program, library, builder, dict(zip(("t", *ARRAYS), made.args, strict=True)), shapes).write()
+    builder.ret_void()
+    return library.module

@@ -2,54 +2,53 @@
 
 from __future__ import annotations
 
-import math
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
-from numba import types
-from numba.core import cgutils
 
-from towercrane.kernels.straight.solution import Solution
+from modal.compiler.arithmetic import VECTOR, WHOLE, Arithmetic
+from modal.compiler.expressions import Array
+from modal.compiler.lanes import LANES
+from towercrane.kernels.straight.solution import solve_in_place
 
 if TYPE_CHECKING:
+    from modal.compiler.translation import Library
     from towercrane.kernels.straight.program import Program
 
-DOUBLE, INTEGER, BIT = ir.DoubleType(), ir.IntType(64), ir.IntType(1)
-
-# Numba's own functions carry no types.
-_insert: Any = cgutils.get_or_insert_function
+WHOLES = ir.VectorType(WHOLE, LANES)
 
 
-class Emitter:
+class Emitter(Arithmetic):
     """Writes the instructions of a program where a builder stands.
 
     Parameters
     ----------
     program : Program
-    context, builder
-        Numba's.
+    library : Library
+        What holds the functions that are called.
+    builder
+        Of LLVM's instructions.
     arrays : dict of str to LLVM value
-        Pointer to the first double of each array; "t" is the time itself.
+        Pointer to the first number, a double or a lane vector, of each array; "t" is the time itself. A table holds
+        doubles.
     shapes : dict of str to tuple of int
         Of the arrays that are given.
-    lanes : int
-        Runs side by side, whose doubles lie next to each other in every array but a table; 0 for a single run.
     """
 
     def __init__(
-        self, program: Program, context: Any, builder: Any, arrays: dict[str, Any], shapes: dict[str, Any], lanes: int
+        self, program: Program, library: Library, builder: Any, arrays: dict[str, Any], shapes: dict[str, Any]
     ) -> None:
-        self.program, self.context, self.builder = program, context, builder
-        self.arrays, self.shapes, self.lanes = arrays, shapes, lanes
-        self.kind = ir.VectorType(DOUBLE, lanes) if lanes else DOUBLE
-        self.whole = ir.VectorType(INTEGER, lanes) if lanes else INTEGER
+        super().__init__(builder)
+        self.program, self.library, self.arrays, self.shapes = program, library, arrays, shapes
+        self.kind = arrays["t"].type
+        self.lanes = self.kind == VECTOR
+        self.whole = WHOLES if self.lanes else WHOLE
         self.values: dict[int, Any] = {}
 
     def write(self) -> None:
         """Compute and store all outputs."""
         for (name, index), place in self.program.outputs.items():
-            self.builder.store(self._number(self.value(place)), self._pointer(name, index), align=8)
+            self.store(self._number(self.value(place)), self._pointer(name, index))
 
     def value(self, place: int) -> Any:
         """LLVM value of a node, computed depth first: what is needed last is computed last."""
@@ -80,20 +79,20 @@ class Emitter:
         operation, operands = self.program.graph.nodes[place]
         builder = self.builder
         if place in self.program.slots:
-            return self._load("numbers", self.program.slots[place])
+            return self.load(self._pointer("numbers", self.program.slots[place]))
         if operation == "number":
             return self._constant(operands[0])
         if operation == "given":
             name, index = operands
-            return self.arrays[name] if name == "t" else self._load(name, _flat(index, self.shapes[name]))
+            return (
+                self.arrays[name] if name == "t" else self.load(self._pointer(name, _flat(index, self.shapes[name])))
+            )
         if operation == "item":
             return self._item(*operands)
         if operation == "branch":
             return self._branch(*operands)
         if operation == "solve":
-            root = partial(self._intrinsic, "sqrt")
-            solution = Solution(builder, operands[0], self._constant(1.0), root)
-            return solution.write([self._number(self.values[entry]) for entry in operands[1:]])
+            return self._solved(operands[0], [self._number(self.values[entry]) for entry in operands[1:]])
         if operation == "part":
             return self.values[operands[0]][operands[1]]
         if operation == "nth":
@@ -109,11 +108,11 @@ class Emitter:
         if operation == "sign":
             return self._sign(*given)
         if operation in ("tanh", "atan2"):
-            return self._each(getattr(math, operation), *given)
-        return self._intrinsic({"abs": "fabs"}.get(operation, operation), *given)
+            return self.outside(operation, *given)
+        return self.function({"abs": "fabs"}.get(operation, operation), *given)
 
     def _constant(self, number: float) -> Any:
-        return ir.Constant(self.kind, [number] * self.lanes if self.lanes else number)
+        return ir.Constant(self.kind, [number] * LANES if self.lanes else number)
 
     def _number(self, value: Any) -> Any:
         """A whole number or a comparison as a double; doubles as they are."""
@@ -129,35 +128,43 @@ class Emitter:
         return self.builder.fcmp_unordered("!=", value, self._constant(0.0))
 
     def _pointer(self, name: str, index: int) -> Any:
-        offset = ir.Constant(INTEGER, index * max(self.lanes, 1))
-        pointer = self.builder.gep(self.arrays[name], [offset])
-        return self.builder.bitcast(pointer, self.kind.as_pointer()) if self.lanes else pointer
-
-    def _load(self, name: str, index: int) -> Any:
-        # Numpy promises 16 bytes, a register of eight doubles would want 64.
-        return self.builder.load(self._pointer(name, index), align=8)
+        return self.builder.gep(self.arrays[name], [ir.Constant(WHOLE, index)])
 
     def _item(self, name: str, first: int, *others: int) -> Any:
         """Entry of a table whose first index is known when the code runs; each lane has its own."""
         _, rows, columns = self.shapes[name]
-        at, stride = others[0] * columns + others[1], ir.Constant(INTEGER, rows * columns)
+        at, stride = others[0] * columns + others[1], ir.Constant(WHOLE, rows * columns)
         builder, cell = self.builder, self.values[first]
 
         def load(own: Any) -> Any:
-            offset = builder.add(builder.mul(own, stride), ir.Constant(INTEGER, at))
-            return builder.load(builder.gep(self.arrays[name], [offset]), align=8)
+            offset = builder.add(builder.mul(own, stride), ir.Constant(WHOLE, at))
+            return self.load(builder.gep(self.arrays[name], [offset]))
 
         if not self.lanes:
             return load(cell)
         found = ir.Constant(self.kind, ir.Undefined)
-        for lane in range(self.lanes):
+        for lane in range(LANES):
             number = ir.Constant(ir.IntType(32), lane)
             found = builder.insert_element(found, load(builder.extract_element(cell, number)), number)
         return found
 
+    def _solved(self, count: int, entries: list[Any]) -> list[Any]:
+        """Solution of a system from right sides and the rows of the lower triangle."""
+        builder, size, given = self.builder, ir.Constant(WHOLE, count), iter(entries)
+        with builder.goto_entry_block():
+            matrix, right = (builder.alloca(self.kind, ir.Constant(WHOLE, own)) for own in (count * count, count))
+        rights = [builder.gep(right, [ir.Constant(WHOLE, i)]) for i in range(count)]
+        triangle = [
+            builder.gep(matrix, [ir.Constant(WHOLE, i * count + j)]) for i in range(count) for j in range(i + 1)
+        ]
+        for pointer in (*rights, *triangle):
+            self.store(next(given), pointer)
+        self.library.call(self, solve_in_place, [Array(matrix, (size, size)), Array(right, (size,))])
+        return [self.load(pointer) for pointer in rights]
+
     def _nth(self, place: int, count: int) -> Any:
         def every(number: int) -> Any:
-            return ir.Constant(self.whole, [number] * self.lanes if self.lanes else number)
+            return ir.Constant(self.whole, [number] * LANES if self.lanes else number)
 
         builder, index = self.builder, self.builder.fptosi(self.values[place], self.whole)
         index = builder.select(builder.icmp_signed("<", index, every(0)), every(0), index)
@@ -168,8 +175,8 @@ class Emitter:
         builder, bits = self.builder, self._bit(self.values[condition])
         if self.lanes:
             first = self._way(one)
-            every = ir.IntType(self.lanes)
-            all_agree = builder.icmp_unsigned("==", builder.bitcast(bits, every), every(2**self.lanes - 1))
+            every = ir.IntType(LANES)
+            all_agree = builder.icmp_unsigned("==", builder.bitcast(bits, every), every(2**LANES - 1))
             before = builder.block
             with builder.if_then(builder.not_(all_agree), likely=False):
                 second = self._way(other)
@@ -202,23 +209,6 @@ class Emitter:
         builder, zero, one = self.builder, self._constant(0.0), self._constant(1.0)
         positive = builder.select(builder.fcmp_ordered(">", value, zero), one, value)
         return builder.select(builder.fcmp_ordered("<", value, zero), self._constant(-1.0), positive)
-
-    def _intrinsic(self, name: str, value: Any) -> Any:
-        suffix = f"v{self.lanes}f64" if self.lanes else "f64"
-        kind = ir.FunctionType(self.kind, [self.kind])
-        return self.builder.call(_insert(self.builder.module, kind, f"llvm.{name}.{suffix}"), [value])
-
-    def _each(self, function: Any, *values: Any) -> Any:
-        """A function of numbers, lane by lane."""
-        called = self.context.get_function(function, types.float64(*[types.float64] * len(values)))
-        if not self.lanes:
-            return called(self.builder, values)
-        found = ir.Constant(self.kind, ir.Undefined)
-        for lane in range(self.lanes):
-            number = ir.Constant(ir.IntType(32), lane)
-            own = called(self.builder, [self.builder.extract_element(value, number) for value in values])
-            found = self.builder.insert_element(found, own, number)
-        return found
 
 
 def _flat(index: tuple[int, ...], shape: tuple[int, ...]) -> int:

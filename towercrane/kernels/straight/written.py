@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from towercrane.kernels.straight.code import StraightCode
+
     Floats = NDArray[np.float64]
 
 
@@ -35,15 +37,15 @@ class Written:
     program: Program
     shapes: dict[str, tuple[int, ...]]
     counts: tuple[int, int]
-    compiled: dict[int, Any] = field(default_factory=dict)
+    compiled: dict[bool, StraightCode] = field(default_factory=dict)
     asked: list[int] = field(default_factory=lambda: [0])
 
-    def rhs(self, lanes: int = 0) -> Any:
-        """Compiled right-hand side, of a single run or of so many side by side."""
+    def rhs(self, *, lanes: bool = False) -> StraightCode:
+        """Compiled right-hand side, of a single run or of eight side by side."""
         if lanes not in self.compiled:
-            from towercrane.kernels.straight.code import straight_code
+            from towercrane.kernels.straight.code import StraightCode
 
-            self.compiled[lanes] = straight_code(self.program, self.shapes, lanes)
+            self.compiled[lanes] = StraightCode(self.program, self.shapes, lanes=lanes)
         return self.compiled[lanes]
 
     def values(self, numbers: Floats, table: Floats) -> Callable[[Floats, Floats], Floats]:

@@ -7,14 +7,11 @@ compiled by themselves.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numba import types
 
-from modal.compiler.compiled import kernel
-from towercrane.kernels.arrays import borrowed, in_lanes, lane_rhs_signature
-from towercrane.kernels.vector import LANES, choose
+from modal.compiler.kinds import LaneRow, LaneTable, Procedure, Row, Stack, Table
+from modal.compiler.lanes import LANES, choose, in_lanes
+from modal.compiler.native import native
 from towercrane.simulation.directions import longest_turn, restore, restore_state
 from towercrane.simulation.guards import FEW_LOOKS, LOOKS, widen
 from towercrane.simulation.lanes import dense_output as looks
@@ -36,17 +33,17 @@ from towercrane.simulation.lanes.queue import (
     STEP,
     TIME,
     TRIAL,
-    answers_type,
-    lanes_type,
-    queue_type,
+    Answers,
+    Lanes,
+    Queue,
 )
 from towercrane.simulation.stepper import stage_state
 
 
-@kernel()
 def _take_stages(
-    rhs: Any, first: int, last: int, a: Any, c: Any, y: Any, trial: Any, slope: Any, k: Any, clocks: Any, inputs: Any,
-    numbers: Any, tables: Any, guards: Any, lowest: Any, highest: Any,
+    rhs: Procedure, first: int, last: int, a: Table, c: Row, y: LaneRow, trial: LaneRow, slope: LaneRow, k: LaneTable,
+    clocks: LaneRow, inputs: LaneTable, numbers: LaneRow, tables: Stack, guards: LaneRow, lowest: LaneRow,
+    highest: LaneRow,
 ) -> None:  # fmt: skip
     """Slopes of the stages from first to last in every lane, and the range of every guard."""
     step, time = clocks[TRIAL], clocks[TIME]
@@ -58,26 +55,17 @@ def _take_stages(
             k[i, m] = slope[m]
 
 
-@kernel(
-    types.boolean(
-        types.FunctionType(lane_rhs_signature()), types.FunctionType(lane_rhs_signature()),
-        queue_type(), answers_type(), lanes_type(),
-        types.int64, types.float64[:, ::1], types.float64[::1], types.float64[:, ::1], types.float64[:, ::1],
-        types.int64, types.float64, types.float64, types.int64,
-    ),
-    parallel_calls=True,
-)  # fmt: skip
-def advance(
-    rhs: Any,
-    observe: Any,
-    queue: Any,
-    answers: Any,
-    lanes: Any,
+def _advance(
+    rhs: Procedure,
+    observe: Procedure,
+    queue: Queue,
+    answers: Answers,
+    lanes: Lanes,
     stages: int,
-    a: Any,
-    c: Any,
-    error: Any,
-    dense: Any,
+    a: Table,
+    c: Row,
+    error: Table,
+    dense: Table,
     error_order: int,
     rtol: float,
     turn: float,
@@ -107,24 +95,22 @@ def advance(
     bool
         Whether runs are left, or lanes ask what holds for them.
     """
-    # What handles all lanes takes arrays: the tuples that hold them would cost time at every call.
-    places, clock, clocks = borrowed(lanes.places), borrowed(lanes.clock), in_lanes(lanes.clock)
-    lane_floors, lane_guards, guards = borrowed(lanes.floors), borrowed(lanes.guards), in_lanes(lanes.guards)
-    lane_lowest, lowest = borrowed(lanes.lowest), in_lanes(lanes.lowest)
-    lane_highest, highest = borrowed(lanes.highest), in_lanes(lanes.highest)
-    lane_norms, norms, atol = borrowed(lanes.norms), in_lanes(lanes.norms), in_lanes(lanes.atol)
-    lane_trial, lane_new, lane_outputs = borrowed(lanes.trial), borrowed(lanes.new), borrowed(lanes.outputs)
+    places, clock, clocks = lanes.places, lanes.clock, in_lanes(lanes.clock)
+    lane_floors, lane_guards, guards = lanes.floors, lanes.guards, in_lanes(lanes.guards)
+    lane_lowest, lowest = lanes.lowest, in_lanes(lanes.lowest)
+    lane_highest, highest = lanes.highest, in_lanes(lanes.highest)
+    lane_norms, norms, atol = lanes.norms, in_lanes(lanes.norms), in_lanes(lanes.atol)
+    lane_trial, lane_new, lane_outputs = lanes.trial, lanes.new, lanes.outputs
     y, new, trial, slope, k = (
         in_lanes(lanes.y), in_lanes(lanes.new), in_lanes(lanes.trial), in_lanes(lanes.slope), in_lanes(lanes.k),
     )  # fmt: skip
-    inputs, numbers, tables = in_lanes(lanes.inputs), in_lanes(lanes.numbers), borrowed(queue.tables)
-    seen, outputs, sample_times = in_lanes(lanes.seen), in_lanes(lanes.outputs), borrowed(queue.sample_times)
-    directions = borrowed(queue.directions)
+    inputs, numbers, tables = in_lanes(lanes.inputs), in_lanes(lanes.numbers), queue.tables
+    seen, outputs, sample_times = in_lanes(lanes.seen), in_lanes(lanes.outputs), queue.sample_times
+    directions = queue.directions
     counts, smallest_steps, extremes, series = (
-        borrowed(answers.counts), borrowed(answers.smallest_steps),
-        borrowed(answers.extremes), borrowed(answers.series),
+        answers.counts, answers.smallest_steps,
+        answers.extremes, answers.series,
     )  # fmt: skip
-    a, c, error, dense = borrowed(a), borrowed(c), borrowed(error), borrowed(dense)
     size, rows = y.size, error.shape[0]
     # A state without a tolerance steers no step, in every run the same.
     limits, active = queue.atol[0], 0
@@ -220,3 +206,6 @@ def advance(
                     else:
                         lane_queue.begin_phase(queue, lanes, lane)
     return True
+
+
+(advance,) = native("lanes", _advance)

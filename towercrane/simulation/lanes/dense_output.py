@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from modal.compiler.compiled import kernel
-from towercrane.kernels.vector import LANES
+from modal.compiler.kinds import LaneRow, LaneTable, Number, Row, Stack, Table, Whole
+from modal.compiler.lanes import LANES
 from towercrane.simulation.guards import CLOSE, LATE, NARROWEST, ROUGHLY, SOON, is_near
 from towercrane.simulation.lanes.queue import (
     ACCEPTED,
@@ -36,8 +34,7 @@ from towercrane.simulation.lanes.queue import (
 )
 
 
-@kernel()
-def fallen(guards: Any, floors: Any, lane: int) -> int:
+def fallen(guards: Table, floors: Table, lane: int) -> int:
     """Index of a lane's first guard below its floor, or -1."""
     for g in range(guards.shape[0]):
         if guards[g, lane] < floors[g, lane]:
@@ -45,8 +42,7 @@ def fallen(guards: Any, floors: Any, lane: int) -> int:
     return -1
 
 
-@kernel()
-def near(lowest: Any, highest: Any, floors: Any, part: float, lane: int) -> bool:
+def near(lowest: Table, highest: Table, floors: Table, part: float, lane: int) -> bool:
     """Whether one of a lane's guards is closer to its floor than that part of its range in a step."""
     found = False
     for g in range(floors.shape[0]):
@@ -54,8 +50,7 @@ def near(lowest: Any, highest: Any, floors: Any, part: float, lane: int) -> bool
     return found
 
 
-@kernel()
-def wants_sample(places: Any, clock: Any, sample_times: Any, lane: int) -> bool:
+def wants_sample(places: Whole, clock: Table, sample_times: Row, lane: int) -> bool:
     """Whether a lane's accepted step reaches its next sample; if so, where in the step that is."""
     clock[FRACTION, lane] = 0.0
     sample = places[SAMPLE, lane]
@@ -69,8 +64,7 @@ def wants_sample(places: Any, clock: Any, sample_times: Any, lane: int) -> bool:
     return True
 
 
-@kernel()
-def wanted_samples(places: Any, clock: Any, sample_times: Any) -> int:
+def wanted_samples(places: Whole, clock: Table, sample_times: Row) -> int:
     """Lanes whose steps reach another sample, as bits."""
     wanted = 0
     for lane in range(LANES):
@@ -79,9 +73,8 @@ def wanted_samples(places: Any, clock: Any, sample_times: Any) -> int:
     return wanted
 
 
-@kernel()
 def record(
-    lane_values: Any, wanted: int, places: Any, counts: Any, sample_times: Any, extremes: Any, series: Any
+    lane_values: Table, wanted: int, places: Whole, counts: Whole, sample_times: Row, extremes: Stack, series: Stack
 ) -> None:
     """Keep the wanted lanes' outputs where they are extremes of their runs so far; go to the next samples.
 
@@ -106,8 +99,7 @@ def record(
                 series[run, sample, output] = value
 
 
-@kernel()
-def dense_states(y: Any, dense: Any, k: Any, h: Any, x: Any, out: Any) -> None:
+def dense_states(y: LaneRow, dense: Table, k: LaneTable, h: Number, x: Number, out: LaneRow) -> None:
     """State of every lane at its own fraction x of its step h; all of lane vectors but ``dense``."""
     for m in range(y.size):
         out[m] = 0.0
@@ -116,7 +108,7 @@ def dense_states(y: Any, dense: Any, k: Any, h: Any, x: Any, out: Any) -> None:
         for d in range(dense.shape[1]):
             used = used or dense[i, d] != 0.0
         if used:
-            weight = x * 0.0
+            weight: Number = 0.0
             for d in range(dense.shape[1] - 1, -1, -1):
                 weight = (weight + dense[i, d]) * x
             for m in range(y.size):
@@ -125,8 +117,7 @@ def dense_states(y: Any, dense: Any, k: Any, h: Any, x: Any, out: Any) -> None:
         out[m] = y[m] + h * out[m]
 
 
-@kernel()
-def look_along(places: Any, clock: Any, look: int, few: int) -> int:
+def look_along(places: Whole, clock: Table, look: int, few: int) -> int:
     """Lanes with a guard near its floor that look at this of a few points of their steps, as bits."""
     looking = 0
     for lane in range(LANES):
@@ -137,23 +128,20 @@ def look_along(places: Any, clock: Any, look: int, few: int) -> int:
     return looking
 
 
-@kernel()
-def keep_close(places: Any, lowest: Any, highest: Any, floors: Any) -> None:
+def keep_close(places: Whole, lowest: Table, highest: Table, floors: Table) -> None:
     """Suspect only lanes with a guard that has come close to its floor."""
     for lane in range(LANES):
         if places[SUSPECT, lane]:
             places[SUSPECT, lane] = near(lowest, highest, floors, CLOSE, lane)
 
 
-@kernel()
-def anew(places: Any, clock: Any, retakes: int, lane: int) -> bool:
+def anew(places: Whole, clock: Table, retakes: int, lane: int) -> bool:
     """Whether a lane's step is taken anew up to the guard that fell, as in a single run."""
     inside = SOON < clock[HIGH, lane] < LATE
     return bool(places[CROSSED, lane] >= 0 and places[RETAKEN, lane] < retakes and inside)
 
 
-@kernel()
-def look_for_falls(places: Any, clock: Any, looks: int, retakes: int) -> int:
+def look_for_falls(places: Whole, clock: Table, looks: int, retakes: int) -> int:
     """Lanes that have to look once more for the fall of a guard close to its floor, as bits, and where in steps.
 
     The bracket is empty before the first look. It moves along the step, and is halved once a guard has fallen at
@@ -180,8 +168,7 @@ def look_for_falls(places: Any, clock: Any, looks: int, retakes: int) -> int:
     return looking
 
 
-@kernel()
-def note_looks(looking: int, places: Any, clock: Any, guards: Any, floors: Any, looks: int) -> None:
+def note_looks(looking: int, places: Whole, clock: Table, guards: Table, floors: Table, looks: int) -> None:
     """Narrow or move the brackets of the looking lanes by what their guards were."""
     for lane in range(LANES):
         if not looking >> lane & 1:
@@ -198,8 +185,7 @@ def note_looks(looking: int, places: Any, clock: Any, guards: Any, floors: Any, 
             clock[LOW, lane] = at
 
 
-@kernel()
-def cut_steps(places: Any, clock: Any, states: Any, new: Any, counts: Any, retakes: int) -> None:
+def cut_steps(places: Whole, clock: Table, states: Table, new: Table, counts: Whole, retakes: int) -> None:
     """Let the steps in which a guard fell end there, in these states, or be taken anew up to there."""
     for lane in range(LANES):
         if clock[ACCEPTED_STEP, lane] and places[SUSPECT, lane] and anew(places, clock, retakes, lane):

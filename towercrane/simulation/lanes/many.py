@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modal.compiler.lanes import LANES
 from towercrane.kernels.straight.leaves import numbers_of
 from towercrane.kernels.straight.written import written
-from towercrane.kernels.vector import LANES
 from towercrane.simulation.arguments import check_times, check_tolerances
 from towercrane.simulation.directions import restore_rows
 from towercrane.simulation.energy_balance import NOT_CONSERVED
@@ -161,11 +161,11 @@ def integrate_many(
     looked = Looked(system.equations, model.outputs, names, len(model.channels))
     seen = [numbers_of(run.model.seen) for run in runs]
     looks = written(looked, model.seen, seen, system.size, shape)
-    rhs, observe = code.rhs(LANES), looks.rhs(LANES)
+    rhs, observe = code.rhs(lanes=True), looks.rhs(lanes=True)
 
     def work(first: int) -> None:
         task = slice(first, first + share)
-        mine = Answers(*(array[task] for array in answers))
+        mine = Answers._make(array[task] for array in answers)
         queue = _queue(runs[task], mine, sample_times, atol, pair, code, looks.numbers(np.array(seen[task]).T).T)
         lanes = lanes_for(queue, len(pair.a), len(names))
         events = Events(runs[task], queue, mine, lanes, code) if queue.asks else None

@@ -8,10 +8,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import types
 
-from modal.compiler.compiled import kernel
-from towercrane.kernels.vector import LANES
+from modal.compiler.kinds import Row, Stack, Stacks, Table, Whole, WholeRow
+from modal.compiler.lanes import LANES
 from towercrane.simulation.methods.step_size import FREELY
 
 RUN, PHASE, SAMPLE, SAMPLES_END, FRESH, SUSPECT, CROSSED, RETAKEN, ASKS = range(9)
@@ -65,20 +64,20 @@ class Queue(NamedTuple):
         How often a step that ends at a guard is taken anew.
     """
 
-    waiting: Any
-    starts: Any
-    atol: Any
-    longest_steps: Any
-    numbers: Any
-    seen: Any
-    floors: Any
-    phase_counts: Any
-    phase_times: Any
-    inputs: Any
-    first_samples: Any
-    sample_times: Any
-    tables: Any
-    directions: Any
+    waiting: WholeRow
+    starts: Table
+    atol: Table
+    longest_steps: Row
+    numbers: Table
+    seen: Table
+    floors: Table
+    phase_counts: WholeRow
+    phase_times: Table
+    inputs: Stacks
+    first_samples: Whole
+    sample_times: Row
+    tables: Stack
+    directions: Whole
     asks: int
     retakes: int
 
@@ -96,13 +95,13 @@ class Answers(NamedTuple):
     series : ndarray, shape (runs or 0, samples, outputs)
     """
 
-    outcomes: Any
-    end_times: Any
-    smallest_steps: Any
-    end_states: Any
-    counts: Any
-    extremes: Any
-    series: Any
+    outcomes: WholeRow
+    end_times: Row
+    smallest_steps: Row
+    end_states: Table
+    counts: Whole
+    extremes: Stack
+    series: Stack
 
 
 class Lanes(NamedTuple):
@@ -121,50 +120,29 @@ class Lanes(NamedTuple):
         Of the run in each lane.
     norms : ndarray, shape (2, lanes)
     outputs : ndarray, shape (outputs, lanes)
+    column : ndarray, shape (3, size)
+        Of one lane: state, slope, tolerance.
     """
 
-    next_run: Any
-    places: Any
-    clock: Any
-    y: Any
-    new: Any
-    trial: Any
-    slope: Any
-    atol: Any
-    k: Any
-    guards: Any
-    lowest: Any
-    highest: Any
-    floors: Any
-    inputs: Any
-    numbers: Any
-    seen: Any
-    norms: Any
-    outputs: Any
-
-
-def queue_type() -> Any:
-    """Numba type of a :class:`Queue`."""
-    one, two, three, four = (types.Array(types.float64, axes, "C") for axes in (1, 2, 3, 4))
-    integers = types.Array(types.int64, 1, "C")
-    indices = types.int64[:, ::1]
-    fields = [integers, two, two, one, two, two, two, integers, two, four, indices, one, three, indices]
-    return types.NamedTuple([*fields, types.int64, types.int64], Queue)
-
-
-def answers_type() -> Any:
-    """Numba type of :class:`Answers`."""
-    one, two, three = (types.Array(types.float64, axes, "C") for axes in (1, 2, 3))
-    integers = types.Array(types.int64, 1, "C")
-    return types.NamedTuple([integers, one, one, two, types.int64[:, ::1], three, three], Answers)
-
-
-def lanes_type() -> Any:
-    """Numba type of :class:`Lanes`."""
-    two, three = (types.Array(types.float64, axes, "C") for axes in (2, 3))
-    states, guards = [two] * 5, [two] * 4
-    fields = [types.int64[::1], types.int64[:, ::1], two, *states, three, *guards, three, two, two, two, two]
-    return types.NamedTuple(fields, Lanes)
+    next_run: WholeRow
+    places: Whole
+    clock: Table
+    y: Table
+    new: Table
+    trial: Table
+    slope: Table
+    atol: Table
+    k: Stack
+    guards: Table
+    lowest: Table
+    highest: Table
+    floors: Table
+    inputs: Stack
+    numbers: Table
+    seen: Table
+    norms: Table
+    outputs: Table
+    column: Table
 
 
 def lanes_for(queue: Queue, stages: int, outputs: int) -> Lanes:
@@ -196,11 +174,11 @@ def lanes_for(queue: Queue, stages: int, outputs: int) -> Lanes:
         seen=lanes(queue.seen.shape[1]) + 1.0,
         norms=lanes(2),
         outputs=lanes(outputs),
+        column=np.zeros((3, size)),
     )
 
 
-@kernel()
-def fill(queue: Any, lanes: Any, lane: int) -> None:
+def fill(queue: Queue, lanes: Lanes, lane: int) -> None:
     """Put the queue's next run into a lane."""
     run = queue.waiting[lanes.next_run[0]]
     lanes.next_run[0] += 1
@@ -220,8 +198,7 @@ def fill(queue: Any, lanes: Any, lane: int) -> None:
         lanes.seen[i, lane] = queue.seen[run, i]
 
 
-@kernel()
-def begin_phase(queue: Any, lanes: Any, lane: int) -> None:
+def begin_phase(queue: Queue, lanes: Lanes, lane: int) -> None:
     """Let a lane's run enter its phase."""
     run, phase = lanes.places[RUN, lane], lanes.places[PHASE, lane]
     begin = queue.phase_times[run, phase]
@@ -238,16 +215,14 @@ def begin_phase(queue: Any, lanes: Any, lane: int) -> None:
             lanes.inputs[channel, c, lane] = queue.inputs[run, phase, channel, c]
 
 
-@kernel()
-def pause(lanes: Any, lane: int) -> None:
+def pause(lanes: Lanes, lane: int) -> None:
     """Let a lane ask what holds after the guard that fell; it then goes on as at the start of a phase."""
     lanes.places[ASKS, lane] = CROSSES
     lanes.places[FRESH, lane] = 1
     lanes.clock[STEP, lane] = max(lanes.clock[TRIAL, lane], lanes.clock[FULL, lane])
 
 
-@kernel()
-def end_run(answers: Any, lanes: Any, lane: int, outcome: int) -> None:
+def end_run(answers: Answers, lanes: Lanes, lane: int, outcome: int) -> None:
     """Write down how a lane's run ended, and leave the lane idle."""
     run = lanes.places[RUN, lane]
     answers.outcomes[run] = outcome

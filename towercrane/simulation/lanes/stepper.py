@@ -6,12 +6,10 @@ time, step, phase and outcome.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from modal.compiler.compiled import kernel
-from towercrane.kernels.vector import LANES
+from modal.compiler.kinds import LaneRow, LaneTable, Number, Row, Table, Whole
+from modal.compiler.lanes import LANES
 from towercrane.simulation.guards import NEAR
 from towercrane.simulation.lanes.dense_output import fallen, near, wants_sample
 from towercrane.simulation.lanes.queue import (
@@ -38,26 +36,25 @@ from towercrane.simulation.lanes.queue import (
     SUSPECT,
     TIME,
     TRIAL,
+    Answers,
+    Lanes,
     end_run,
 )
 from towercrane.simulation.methods.step_size import SHORTEST, SLOWLY, first_step, step_factor
 
 
-@kernel()
 def shortest(length: float) -> float:
     """Step below which a phase of that length is given up."""
     return SHORTEST * length
 
 
-@kernel()
-def is_last(clock: Any, lane: int) -> bool:
+def is_last(clock: Table, lane: int) -> bool:
     """Whether a lane's step ends its phase."""
     end = clock[END, lane]
     return bool(clock[TIME, lane] + clock[STEP, lane] >= end - shortest(end))
 
 
-@kernel()
-def choose_steps(places: Any, clock: Any) -> bool:
+def choose_steps(places: Whole, clock: Table) -> bool:
     """Step that each lane tries next, none where it is idle; whether some lane's step has collapsed."""
     collapsed = False
     for lane in range(LANES):
@@ -73,8 +70,9 @@ def choose_steps(places: Any, clock: Any) -> bool:
     return collapsed
 
 
-@kernel()
-def error_parts(error: Any, k: Any, y: Any, new: Any, rtol: float, atol: Any, limits: Any, norms: Any) -> None:
+def error_parts(
+    error: Table, k: LaneTable, y: LaneRow, new: LaneRow, rtol: float, atol: LaneRow, limits: Row, norms: LaneRow
+) -> None:
     """Sums of squares of the two error estimates in every lane, as in :func:`towercrane.simulation.stepper.advance`.
 
     ``k``, ``y``, ``new``, ``atol`` and ``norms`` hold lane vectors; ``limits`` is infinite where a state steers none.
@@ -87,7 +85,7 @@ def error_parts(error: Any, k: Any, y: Any, new: Any, rtol: float, atol: Any, li
             continue
         scale = atol[m] + rtol * max(abs(y[m]), abs(new[m]))
         for row in range(rows):
-            estimate = k[0, m] * 0.0
+            estimate: Number = 0.0
             for i in range(stages):
                 weight = error[row, i]
                 if weight != 0.0:
@@ -96,10 +94,9 @@ def error_parts(error: Any, k: Any, y: Any, new: Any, rtol: float, atol: Any, li
             norms[row] += ratio * ratio
 
 
-@kernel()
 def judge_steps(
-    places: Any, clock: Any, norms: Any, lowest: Any, highest: Any, floors: Any, counts: Any, smallest_steps: Any,
-    sample_times: Any, stages: int, rows: int, error_order: int, active: int,
+    places: Whole, clock: Table, norms: Table, lowest: Table, highest: Table, floors: Table, counts: Whole,
+    smallest_steps: Row, sample_times: Row, stages: int, rows: int, error_order: int, active: int,
 ) -> int:  # fmt: skip
     """Accept or reject each lane's step; the lanes that want to look inside it, as bits."""
     looking = 0
@@ -139,8 +136,7 @@ def judge_steps(
     return looking
 
 
-@kernel()
-def move_on(places: Any, clock: Any) -> bool:
+def move_on(places: Whole, clock: Table) -> bool:
     """Advance the lanes' times by their accepted steps; whether some lane's phase or run has ended."""
     ended = False
     for lane in range(LANES):
@@ -152,8 +148,7 @@ def move_on(places: Any, clock: Any) -> bool:
     return ended
 
 
-@kernel()
-def wants_entry(places: Any, waiting: int) -> bool:
+def wants_entry(places: Whole, waiting: int) -> bool:
     """Whether some lane is idle while runs wait, or stands at the start of a phase."""
     found = False
     for lane in range(LANES):
@@ -161,8 +156,7 @@ def wants_entry(places: Any, waiting: int) -> bool:
     return found
 
 
-@kernel()
-def asks(places: Any) -> bool:
+def asks(places: Whole) -> bool:
     """Whether some lane asks what holds for it."""
     found = False
     for lane in range(LANES):
@@ -170,16 +164,14 @@ def asks(places: Any) -> bool:
     return found
 
 
-@kernel()
-def count(these: int, places: Any, counts: Any, evaluations: int) -> None:
+def count(these: int, places: Whole, counts: Whole, evaluations: int) -> None:
     """Add evaluations to these lanes' runs."""
     for lane in range(LANES):
         if these >> lane & 1:
             counts[places[RUN, lane], EVALUATIONS] += evaluations
 
 
-@kernel()
-def enter_phase(answers: Any, lanes: Any, lane: int, rtol: float) -> None:
+def enter_phase(answers: Answers, lanes: Lanes, lane: int, rtol: float) -> None:
     """Take a lane's slope as that at the start of its phase, unless the run ends there."""
     lanes.places[FRESH, lane] = 0
     answers.counts[lanes.places[RUN, lane], EVALUATIONS] += 1
@@ -193,6 +185,7 @@ def enter_phase(answers: Any, lanes: Any, lane: int, rtol: float) -> None:
     elif guard >= 0:
         end_run(answers, lanes, lane, FIRST_GUARD + guard)
     elif lanes.clock[STEP, lane] <= 0.0:
-        lanes.clock[STEP, lane] = first_step(
-            lanes.y[:, lane], lanes.slope[:, lane], rtol, lanes.atol[:, lane], lanes.clock[END, lane]
-        )
+        state, slope, atol = lanes.column[0], lanes.column[1], lanes.column[2]
+        for m in range(state.size):
+            state[m], slope[m], atol[m] = lanes.y[m, lane], lanes.slope[m, lane], lanes.atol[m, lane]
+        lanes.clock[STEP, lane] = first_step(state, slope, rtol, atol, lanes.clock[END, lane])

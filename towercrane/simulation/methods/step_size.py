@@ -11,11 +11,12 @@ the same length are also those that leave the smallest error for their number.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modal.compiler.compiled import kernel
+if TYPE_CHECKING:
+    from modal.compiler.kinds import Row
 
 SAFETY, SHRINK, GROW = 0.87, 0.2, 10.0
 
@@ -26,7 +27,6 @@ SHORTEST = 16.0 * float(np.finfo(np.float64).eps)
 """Part of a phase that is the shortest step."""
 
 
-@kernel()
 def step_factor(norm: float, error_order: int, growth: float) -> float:
     """Length of the next step over that of one whose error estimate had this norm; below 1 where it was rejected."""
     if not np.isfinite(norm):
@@ -36,8 +36,7 @@ def step_factor(norm: float, error_order: int, growth: float) -> float:
     return float(max(SHRINK, factor) if factor < 1.0 else min(GROW, factor**growth))
 
 
-@kernel()
-def first_step(y: Any, slope: Any, rtol: float, atol: Any, limit: float) -> float:
+def first_step(y: Row, slope: Row, rtol: float, atol: Row, limit: float) -> float:
     """First guess of a step, from the size of state and slope."""
     size, speed = 0.0, 0.0
     for m in range(y.size):
