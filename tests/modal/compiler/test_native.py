@@ -1,7 +1,9 @@
 """Compiled functions do what they do as Python; what cannot be compiled is refused, what is damaged is made anew."""
 
+import ctypes
 import math
 from concurrent.futures import ThreadPoolExecutor
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -9,7 +11,8 @@ import pytest
 from modal.compiler import files, machine_code, native
 from modal.compiler.arithmetic import Untranslatable
 from modal.compiler.folder import CacheWarning, obstacle
-from modal.compiler.kinds import Row, Stack, Table, Three, Whole
+from modal.compiler.kinds import Number, NumberRow, Procedure, Row, Stack, Table, Three, Whole, WholeRow
+from modal.compiler.lanes import LANES, choose, in_lanes
 
 LEVEL = 3
 
@@ -148,6 +151,70 @@ def test_what_cannot_be_compiled_is_refused_by_name(folder, function):
     (compiled,) = native.native("refused", function)
     with pytest.raises((Untranslatable, AttributeError), match=function.__name__):
         compiled(np.zeros(3) if function is _strides else 1.0)
+
+
+class Pair(NamedTuple):
+    """What goes together."""
+
+    row: Row
+    counts: WholeRow
+
+
+def squared(x: Number, row: NumberRow, out: NumberRow) -> Number:
+    total: Number = 0.0
+    for i in range(row.size):
+        total += min(row[i] * x, 4.0)
+        out[i] = -abs(row[i])
+    return np.sqrt(max(total, 0.25))
+
+
+def _handed(procedure: Procedure, pair: Pair, lanes: Table, out: Table, clock: Table) -> int:
+    """Numbers and lane vectors by the same function, named tuples, bits, truth of numbers, rounding."""
+    row, many, found = pair.row, in_lanes(lanes), in_lanes(out)
+    counts, at = pair.counts, 0
+    for lane in range(LANES):
+        if lane >> 1 & 1 or (counts[0] and not row[0]):
+            at |= 1 << lane
+    found[0] = squared(2.0, many, found)
+    found[1] = choose(in_lanes(clock)[0], found[0], 7.0)
+    clock[0, 0] = squared(row[1], row, row)
+    procedure(clock[0, 0], row, found)
+    counts[1] = round(2.5) + round(3.5) + bool(at) + np.isinf(row[2]) + len_of(pair)
+    return at
+
+
+def len_of(pair: Pair) -> int:
+    return pair.row.size
+
+
+class Handed:
+    """A procedure with the arguments that it is called with: the first entries of arrays, without their lengths."""
+
+    def __init__(self):
+        kind = ctypes.CFUNCTYPE(None, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)
+        self.given = []
+        self._kept = kind(lambda *own: self.given.append(own))
+        self.address = ctypes.cast(self._kept, ctypes.c_void_p).value
+
+
+def test_lane_vectors_named_tuples_and_procedures(folder):
+    del folder
+    (compiled,) = native.native("handed", _handed)
+    random = np.random.default_rng(9)
+    lanes, out, clock = random.normal(size=(2, LANES)), np.zeros((3, LANES)), random.integers(0, 2, (1, LANES)) * 1.0
+    wanted = clock[0].copy()
+    pair, procedure = Pair(np.array([0.0, 3.0, -np.inf]), np.array([1, 0])), Handed()
+    assert compiled(procedure, pair, lanes, out, clock) == 0xFF
+    for lane in range(LANES):
+        # Written after the function, which writes into the same rows.
+        single = squared(2.0, lanes[:, lane], np.zeros(2))
+        assert out[0, lane] == single
+        assert out[1, lane] == (single if wanted[lane] else 7.0)
+    assert procedure.given == [(0.5, pair.row.ctypes.data, out.ctypes.data)]
+    assert pair.counts.tolist() == [1, 2 + 4 + 1 + 1 + 3]
+    assert pair.row.tolist() == [-0.0, -3.0, -np.inf]
+    pair.counts[0] = 0
+    assert compiled(procedure, pair, lanes, out, clock) == 0b11001100
 
 
 def emptied(_):

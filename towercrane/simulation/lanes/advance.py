@@ -76,7 +76,7 @@ def _advance(
     Parameters
     ----------
     rhs : compiled function
-        As in :func:`towercrane.kernels.arrays.lane_rhs_signature`.
+        As in :class:`towercrane.kernels.straight.code.StraightCode`, of lanes.
     observe : compiled function
         Outputs in place of slopes, and the guards.
     queue, answers, lanes
