@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+AT_REST = 1e-9
+"""Resultant, beside the largest output of its unit, that is nothing."""
+
 NOTHING = 1e-12
 """Entries of the matrices smaller than this, relative to the largest of their row, are differences' rounding."""
 
@@ -53,8 +56,8 @@ def linearise(
         wind at its mean (see :func:`towercrane.simulation.system.start_inputs`); with it, all is as it is at
         ``time``.
     outputs : sequence of str, optional
-        Names of what the model observes, by default every number but energies. A vector becomes one output for each
-        component.
+        Names of what the model observes, by default every number but energies and resultants that are
+        nothing there. A vector becomes one output for each component.
     inputs : {"acceleration", "motion"}
         "acceleration": a channel's value and rate are states and its acceleration is the input, as drives are
         controlled. "motion": value, rate and acceleration are three inputs; they must be consistent. A channel that
@@ -91,7 +94,11 @@ def linearise(
     alone = state[None], drives[None]
     quantities = _observed(model, *alone, *_slopes(model, *alone))
     if outputs is None:
-        outputs = [name for name, q in quantities.items() if q.dims == ("time",) and q.units != "J"]
+        outputs = [
+            name
+            for name, q in quantities.items()
+            if q.dims == ("time",) and q.units != "J" and not _kinked(model, name, quantities)
+        ]
     if unknown := [name for name in outputs if name not in quantities]:
         raise ValueError(f"outputs: {unknown[0]!r} is none of {', '.join(quantities)}")
     seen = tuple(signal for name in outputs for signal in _components(name, quantities[name]))
@@ -136,6 +143,16 @@ def linearise(
         point=OperatingPoint(arguments[states], arguments[given], here[size:], slope, state, chart.inclination),
         error=float(np.max(relative[:size], initial=0.0)),
     )
+
+
+def _kinked(model: Model, name: str, quantities: Mapping[str, Quantity]) -> bool:
+    """Whether an output is a resultant that is nothing there, and so has no slope."""
+    about = getattr(model, "about", {})
+    if name not in about or not about[name].kink:
+        return False
+    own = quantities[name]
+    sizes = (float(abs(other.values).max()) for other in quantities.values() if other.units == own.units)
+    return float(abs(own.values).max()) < AT_REST * max(sizes)
 
 
 def _roles(size: int, by_value: NDArray[np.bool_], inputs: str) -> tuple[list[int], list[int]]:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-MOST_EXPANDED, FREE = 100, 16 * 2**20
+MOST_EXPANDED, FREE = 100, 64 * 2**20
 """Bytes in memory over bytes in the file, and bytes besides, beyond which a file asks for more than it holds."""
 
 MOST_MEMBERS = 1000

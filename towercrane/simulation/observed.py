@@ -41,12 +41,16 @@ class Instant(NamedTuple):
 
 
 class About(NamedTuple):
-    """What an output is: units, a long name, and what its components are along, if it is a vector of so many."""
+    """What an output is: units, a long name, and what its components are along, if it is a vector of so many.
+
+    A resultant has a kink where what it is of is nothing: there no linear model has it.
+    """
 
     units: str
     long_name: str
     dims: tuple[str, ...] = ()
     size: int = 1
+    kink: bool = False
 
 
 class Observed(Protocol):

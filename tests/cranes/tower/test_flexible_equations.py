@@ -216,9 +216,19 @@ def test_sections_carry_what_moves_beyond_them(name):
         moments[2] += inertia @ (instant.found[:-2][part] @ instant.cloud.twists)
         base = [seen[name].values[0] for name in ("base_moment_x", "base_moment_y", "base_torque")]
         assert np.max(abs(base + moments)) < 1e-11 * sizes
+        assert abs(seen["overturning_moment"].values[0] - np.hypot(*moments[:2])) < 1e-11 * sizes
+        forces, weights = sum(own.sum(axis=0) for own in felt.values()), sum(abs(own).sum() for own in felt.values())
+        base = [seen[f"base_force_{axis}"].values[0] for axis in "xyz"]
+        assert np.max(abs(base + forces)) < 1e-11 * weights
+        assert abs(seen["base_shear"].values[0] - np.hypot(*forces[:2])) < 1e-11 * weights
 
         top = np.zeros(3)
         top[:2] = model.constants.motions[[SLIDE_X, SLIDE_Y]] @ instant.q
+        # A tower that bears its loads undeformed: its points on the axis, its top over its foot.
+        arms = {part: cloud.derivative(0) - top + foot for part, cloud in points.items()}
+        arms["tower"] = np.stack([0.0 * instant.cloud.height, 0.0 * instant.cloud.height, instant.cloud.height], 1)
+        upright = sum(np.cross(arms[part], felt[part]).sum(axis=0) for part in points)
+        assert abs(seen["overturning_moment_first_order"].values[0] - np.hypot(*upright[:2])) < 1e-11 * sizes
         roots = {}
         for member, more in (("jib", ("trolley", "load")), ("counter-jib", ("counterweight",))):
             roots[member] = np.zeros(3)

@@ -8,8 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.jib.equations import AXES, JOINTS, PLAN, ROPE, TENSION, TORQUE, Constants, structure
+from towercrane.cranes.parts.base import (
+    NONE,
+    Reaction,
+    added,
+    base_about,
+    base_outputs,
+    rope_on_crane,
+    together,
+)
 from towercrane.cranes.parts.points import Point, load_places, load_places_about, turned_back
-from towercrane.kernels.algebra import dot
+from towercrane.kernels.algebra import Vector, cross, dot
 from towercrane.kernels.payload import state_of
 from towercrane.simulation.observed import About
 
@@ -38,6 +47,7 @@ ABOUT = {
     ),
     "joint_torque": About("N m", "torque of each joint's drive; at a jump the right limit", ("joint",), JOINTS),
     "hoist_rope_force": About("N", "rope tension"),
+    **base_about(),
     **load_places_about("the post's foot"),
     "total_energy": About("J", "kinetic and potential energy, zero level at the post's foot"),
     "input_work": About("J", "work of joints and winch less what damping and drag took, since the start"),
@@ -66,15 +76,16 @@ class Seen:
 
 def planned_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
     """Outputs of a crane on its plan, see :data:`ABOUT`."""
-    angles, rates, _ = zip(*instant.drives[:JOINTS], strict=True)
+    angles, rates, accelerations = zip(*instant.drives[:JOINTS], strict=True)
     state = state_of(instant.state, 0, AXES)._replace(coordinates=angles, rates=rates)
-    return _outputs(seen.crane, instant, state, instant.state[-1])
+    return _outputs(seen.crane, instant, state, accelerations, instant.state[-1])
 
 
 def driven_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
     """Outputs of a crane under torques, see :data:`ABOUT`."""
     own = instant.state[:PLAN]
-    return _outputs(seen.crane, instant, state_of(own, JOINTS, AXES), own[-1])
+    moved = state_of(instant.slopes[:PLAN], JOINTS, AXES).rates
+    return _outputs(seen.crane, instant, state_of(own, JOINTS, AXES), moved, own[-1])
 
 
 def tracking_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
@@ -89,24 +100,71 @@ def sway_outputs(_seen: Seen, instant: Instant) -> dict[str, Any]:
     return dict(zip(SWAY_ABOUT, turned_back(instant.drives[0][0], instant.state), strict=True))
 
 
-def _outputs(own: Constants, instant: Instant, state: State, work: Any) -> dict[str, Any]:
-    """Outputs of joints and rope in a state, with the work put in."""
+def _outputs(own: Constants, instant: Instant, state: State, accelerations: Any, work: Any) -> dict[str, Any]:
+    """Outputs of joints and rope in a state, with the joints' accelerations and the work put in."""
     crane, angles, (length, hauling, _) = own.crane, state.coordinates, instant.drives[ROPE]
     suspension, energy = survey(crane, angles, state.rates)
     load = suspension.hung(length, hauling, state.direction, state.swing)
     outward, sideways = turned_back(angles[0], state.direction)
-    down = -state.direction[2]
+    down, tension = -state.direction[2], instant.guards[TENSION]
+    pull, couple = rope_on_crane(tension, own.load.rope_damping, length, state.direction, state.swing)
+    base = base_of(crane, state, accelerations, pull)
     return {
         "joint_angle": [*angles],
         "rope_length": length,
         "sway_in_plane": np.arctan2(outward, down),
         "sway_lateral": np.arctan2(sideways, np.sqrt(outward * outward + down * down)),
         "joint_torque": [*instant.guards[TORQUE : TORQUE + JOINTS]],
-        "hoist_rope_force": instant.guards[TENSION],
+        "hoist_rope_force": tension,
+        **base_outputs(base._replace(moment=added(base.moment, couple))),
         **load_places(load.place, angles[0]),
         "total_energy": energy + load.energy(own.load.mass, crane.gravity),
         "input_work": work,
     }
+
+
+def base_of(crane: JibCrane, state: State, accelerations: Any, pull: Vector) -> Reaction:
+    """What booms and a force at their end do to the base, the moment about the post's foot; the post has no weight.
+
+    Parameters
+    ----------
+    crane : JibCrane
+    state : State
+        Of the joints.
+    accelerations : sequence of 3
+        Of the joints [rad/s^2].
+    pull : sequence of 3
+        Force at the end of the booms [N].
+    """
+    (slew, luff, fold), (turning, luffing, folding), (slewed, luffed, folded) = (
+        state.coordinates, state.rates, accelerations,
+    )  # fmt: skip
+    c, s = np.cos(slew), np.sin(slew)
+    place, felt, pushed, moment = (0.0, 0.0, crane.post_height), (0.0, 0.0, crane.gravity), [], NONE
+    for mass, length, angle, rate, acceleration in (
+        (crane.primary_mass, crane.primary_length, luff, luffing, luffed),
+        (crane.secondary_mass, crane.secondary_length, luff + fold, luffing + folding, luffed + folded),
+    ):
+        # A boom's points are at p + x d and feel p'' + g + x d'': outward, to the left, up.
+        flat, rise = np.cos(angle), np.sin(angle)
+        outward = -flat * (rate * rate + turning * turning) - rise * acceleration
+        left = flat * slewed - 2.0 * rise * rate * turning
+        along = length * flat * c, length * flat * s, length * rise
+        moved = (
+            length * (outward * c - left * s), length * (outward * s + left * c),
+            length * (flat * acceleration - rise * rate * rate),
+        )  # fmt: skip
+        middle, at_middle = (
+            added(own, (0.5 * x, 0.5 * y, 0.5 * z)) for own, (x, y, z) in ((place, along), (felt, moved))
+        )
+        x, y, z = at_middle
+        pushed.append((middle, (-mass * x, -mass * y, -mass * z)))
+        x, y, z = cross(along, moved)
+        own = mass / 12.0
+        moment = added(moment, (-own * x, -own * y, -own * z))
+        place, felt = added(place, along), added(felt, moved)
+    base = together([*pushed, (place, pull)])
+    return Reaction(base.force, added(base.moment, moment, (0.0, 0.0, -crane.post_inertia * slewed)))
 
 
 def survey(crane: JibCrane, angles: Any, rates: Any) -> tuple[Point, Any]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.overhead.equations import AXES, BRIDGE, ROPE, TROLLEY
+from towercrane.cranes.parts.base import BASE, NONE, Reaction, rope_on_crane
 from towercrane.cranes.parts.points import Point
 from towercrane.kernels.payload import state_of
 from towercrane.simulation.observed import About
@@ -15,6 +16,9 @@ from towercrane.simulation.observed import About
 if TYPE_CHECKING:
     from towercrane.cranes.overhead.equations import Constants
     from towercrane.simulation.observed import Instant
+
+RUNWAY = {name: BASE[name] for name in ("base_force_x", "base_force_y", "base_force_z", "base_shear")}
+"""Outputs of the base: forces alone, since a runway is nothing that a crane could overturn."""
 
 ABOUT = {
     "bridge_position": About("m", "bridge along the runway"),
@@ -33,6 +37,7 @@ ABOUT = {
     "trolley_force": About("N", "force of the trolley's drive; at a jump the right limit"),
     "first_rail_load": About("N", "wheel loads of the bridge on the rail where the trolley's zero is"),
     "second_rail_load": About("N", "wheel loads of the bridge on the other rail"),
+    **{name: shown for name, (_, shown) in RUNWAY.items()},
     "payload_position": About(
         "m",
         "load from the floor where runway and first rail begin: along the runway, along the bridge, up",
@@ -56,7 +61,7 @@ class Seen:
 def overhead_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
     """Outputs at an instant, see :data:`ABOUT`."""
     crane, height, state = seen.crane, seen.runway_height, state_of(instant.state, 1, AXES)
-    (bridge, bridge_rate, _), (trolley, trolley_rate, _), (length, hauling, _) = (
+    (bridge, bridge_rate, _), (trolley, trolley_rate, trolley_more), (length, hauling, _) = (
         instant.drives[row] for row in (BRIDGE, TROLLEY, ROPE)
     )
     tension, bridge_force, trolley_force, first_rail, second_rail = instant.guards
@@ -73,6 +78,8 @@ def overhead_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
     energy = energy + 0.25 * crane.girder_mass * rate * rate + 0.5 * crane.stiffness * uplift * uplift
     energy = energy + crane.gravity * crane.girder_mass * (height + 2.0 / np.pi * uplift)
     energy = energy + suspension.energy(crane.trolley_mass, crane.gravity)
+    pull, _ = rope_on_crane(tension, crane.load.rope_damping, length, direction, state.swing)
+    runway = -bridge_force, pull[1] - crane.trolley_mass * trolley_more, -(first_rail + second_rail)
     return {
         "bridge_position": bridge,
         "bridge_speed": bridge_rate,
@@ -88,6 +95,7 @@ def overhead_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
         "trolley_force": trolley_force,
         "first_rail_load": first_rail,
         "second_rail_load": second_rail,
+        **{name: read(Reaction(runway, NONE)) for name, (read, _) in RUNWAY.items()},
         "payload_position": load.place,
         "total_energy": energy + load.energy(crane.load.mass, crane.gravity),
         "input_work": instant.state[-1],

@@ -160,6 +160,8 @@ class LumpedCrane:
         Moments of inertia of coordinates that are angles [kg m^2].
     steady_force : Row
         Constant generalised forces.
+    counter_moments : Row
+        Weights times radius [N m] that no point has, opposite to the arms that a coordinate turns.
     suspension : str
         Point that the rope hangs from.
     jib_angle : str
@@ -181,6 +183,7 @@ class LumpedCrane:
     jib_angle: str
     linear_outputs: Mapping[str, LinearOutput]
     steady_force: Row = field(default_factory=dict)
+    counter_moments: Row = field(default_factory=dict)
     rope_stiffness: float = 0.0
     rope_damping: float = 0.0
     gravity: float = 9.81

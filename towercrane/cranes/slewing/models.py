@@ -65,6 +65,7 @@ def enhanced(p: EnhancedParameters | MultiMassParameters) -> LumpedCrane:
         drive=_drive(p),
         inertias={TOWER: p.inertia_tower_top, PLATFORM: p.inertia_platform},
         steady_force={TOWER_X: -slope * p.gravity * counter_moment},
+        counter_moments={TOWER: p.gravity * counter_moment},
         suspension="jib tip",
         jib_angle=JIB,
         linear_outputs={

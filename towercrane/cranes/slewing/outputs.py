@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.cranes.parts.base import Reaction, added, base_about, base_outputs, rope_on_crane, together
 from towercrane.cranes.parts.coupling import coupling_energy, coupling_torque
 from towercrane.cranes.parts.points import Point, load_places, load_places_about, turned_back
-from towercrane.cranes.slewing.equations import AXES, ROPE, SHAFT, TENSION, turned
+from towercrane.cranes.slewing.equations import AXES, ROPE, SHAFT, TENSION, drag_on, motion_of, turned
 from towercrane.kernels.algebra import dot
 from towercrane.kernels.payload import state_of
 from towercrane.simulation.observed import About
@@ -45,13 +46,15 @@ class Spring:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Seen:
-    """The crane as its equations know it, its springs, names of its coordinates, and which turns with the jib."""
+    """The crane as its equations know it, its springs, names of its coordinates, which turns with the jib, and its
+    counter moments by coordinate."""
 
     crane: Constants
     springs: tuple[Spring, ...]
     coordinates: tuple[str, ...]
     jib_angle: int
     linear: tuple[Linear, ...]
+    counter_moments: Floats
 
 
 def seen_of(crane: LumpedCrane, constants: Constants) -> Seen:
@@ -62,7 +65,8 @@ def seen_of(crane: LumpedCrane, constants: Constants) -> Seen:
         for name, output in crane.linear_outputs.items()
     )
     names, jib = crane.coordinates, crane.coordinates.index(crane.jib_angle)
-    return Seen(constants, tuple(springs), names, jib, tuple(linear))
+    counter = crane.row(crane.counter_moments)[:-1]
+    return Seen(constants, tuple(springs), names, jib, tuple(linear), counter)
 
 
 def about_of(crane: LumpedCrane) -> dict[str, About]:
@@ -81,6 +85,7 @@ def about_of(crane: LumpedCrane) -> dict[str, About]:
             name: About("rad" if name in crane.angles else "m", f"coordinate: {name.replace('_', ' ')}")
             for name in crane.coordinates
         },
+        **base_about(),
         **load_places_about("the slewing axis"),
         "total_energy": About("J", "kinetic and potential energy"),
         "input_work": About(
@@ -119,10 +124,44 @@ def lumped_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
         "hoist_rope_force": instant.guards[TENSION],
         **{output.name: dot(output.of, q) + dot(output.of_rates, rates) for output in seen.linear},
         **dict(zip(seen.coordinates, q, strict=True)),
+        **base_outputs(base_of(seen, instant)),
         **load_places(place, heading),
         "total_energy": energy + structure_energy(seen, q, rates, points),
         "input_work": instant.state[-1],
     }
+
+
+def base_of(seen: Seen, instant: Instant) -> Reaction:
+    """What the crane does to its base, the moment about the tower's foot: by the motion of every mass."""
+    crane, count = seen.crane, len(seen.coordinates)
+    state, moved = (state_of(rows, count, AXES) for rows in (instant.state, instant.slopes))
+    q, rates, accelerations = state.coordinates, state.rates, moved.rates
+    pushed = []
+    for body in crane.bodies:
+        motion = motion_of(body, q, rates)
+        felt = [
+            bias + dot([column[k] for column in motion.columns], accelerations)
+            for k, bias in enumerate(motion.bias)
+        ]  # fmt: skip
+        air, weight = drag_on(body, motion), (0.0, 0.0, crane.gravity)
+        x, y, z = (f - body.mass * (a + g) for f, a, g in zip(air, felt, weight, strict=True))
+        at = point_of(body, q, rates).place
+        pushed.append(((at[0], at[1], at[2]), (x, y, z)))
+    stretch = state.stretch[0] if len(state.stretch) else 0.0
+    pull, couple = rope_on_crane(
+        instant.guards[TENSION],
+        crane.load.rope_damping,
+        instant.drives[ROPE][0] + stretch,
+        state.direction,
+        state.swing,
+    )
+    pushed.append((pushed[crane.suspension][0], pull))
+    force, moment = together(pushed)
+    moment = added(moment, couple, (0.0, 0.0, -dot(crane.inertia, accelerations)))
+    for weight, angle in zip(seen.counter_moments, q, strict=True):
+        # A weight behind the tower's axis tips it backward.
+        moment = added(moment, (np.sin(angle) * weight, np.cos(angle) * -weight, 0.0))
+    return Reaction(force, moment)
 
 
 def structure_energy(seen: Seen, q: Any, rates: Any, points: Sequence[Point]) -> Any:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.cranes.parts.base import BASE, length
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
 from towercrane.cranes.tower.equations.coordinates import ANGLES, BOWS
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
@@ -21,6 +22,7 @@ from towercrane.simulation.observed import About
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from towercrane.cranes.parts.base import Reaction
     from towercrane.cranes.tower.equations.flexible import Equations
     from towercrane.cranes.tower.outputs.seen import Seen
     from towercrane.simulation.observed import Instant
@@ -106,6 +108,12 @@ BOW_NAMES = {
     "tie": "sag of a tie bar's middle beyond that under the crane's own weight",
     "tie_sideways": "bow of a tie bar's middle to the left",
 }
+
+
+def at_base(read: Callable[[Reaction], Any], at: Sight) -> Any:
+    """An output of the base."""
+    return read(at.support.base)
+
 
 ORIGIN, TURNING_AXES = "the undeformed tower top", "outward along its jib, sideways, up"
 
@@ -196,26 +204,10 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
         lambda at: -at.sections.counter_root.moment[2],
         About("N m", "bending moment at the counter-jib's root, positive where it speeds up the turning"),
     ),
-    "base_moment_x": (
-        lambda at: at.support.base.moment[0],
-        About("N m", "moment of the crane on its base about x, positive: tips towards -y"),
-    ),
-    "base_moment_y": (
-        lambda at: at.support.base.moment[1],
-        About("N m", "moment of the crane on its base about y, positive: tips towards +x"),
-    ),
-    "base_torque": (
-        lambda at: at.support.base.moment[2], About("N m", "moment of the crane on its base about the vertical"),
-    ),
-    "base_force_x": (
-        lambda at: at.support.base.force[0], About("N", "force of the crane on its base along x"),
-    ),
-    "base_force_y": (
-        lambda at: at.support.base.force[1], About("N", "force of the crane on its base along y"),
-    ),
-    "base_force_z": (
-        lambda at: at.support.base.force[2],
-        About("N", "force of the crane on its base, upward: its weight is negative"),
+    **{name: (partial(at_base, read), shown) for name, (read, shown) in BASE.items()},
+    "overturning_moment_first_order": (
+        lambda at: length(at.support.upright.moment[:2]),
+        About("N m", "the same of a tower that bears its loads where it stands undeformed", kink=True),
     ),
     **collar_outputs(),
     "total_energy": (total_energy, About("J", "kinetic and potential energy")),

@@ -11,11 +11,12 @@ from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
+from towercrane.cranes.parts.base import rope_on_crane
 from towercrane.cranes.tower.equations.actions.wind import pressures
 from towercrane.cranes.tower.equations.body import Body, body_of
 from towercrane.cranes.tower.equations.jib import Sums
 from towercrane.cranes.tower.equations.motion import TENSION
-from towercrane.kernels.algebra import Row, Vector, cross, dot, form
+from towercrane.kernels.algebra import Row, Vector, dot, form
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.head import Head
@@ -117,15 +118,9 @@ class Sections:
     @cached_property
     def hung(self) -> tuple[Vector, Vector]:
         """Force of the rope on what it hangs from, and couple of its damper, which turns the jib."""
-        at, load = self.at, self.at.seen.crane.load
-        # The damper pulls the load back and the rope's upper end along.
-        away = dot(at.swing, at.rope)
-        across = tuple(p - away * n for p, n in zip(at.swing, at.rope, strict=True))
-        held = load.rope_damping / at.below[0]
-        x, y, z = (at.instant.guards[TENSION] * n + held * p for n, p in zip(at.rope, across, strict=True))
-        force = self.head.to_head((x, y, z))
-        x, y, z = (load.rope_damping * own for own in self.head.to_head(cross(at.rope, across)))
-        return force, (x, y, z)
+        at, damping = self.at, self.at.seen.crane.load.rope_damping
+        force, couple = rope_on_crane(at.instant.guards[TENSION], damping, at.below[0], at.rope, at.swing)
+        return self.head.to_head(force), self.head.to_head(couple)
 
     def loaded(self, body: Body) -> Body:
         """A part of what turns with trolley and load."""

@@ -11,19 +11,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane.cranes.parts.base import Reaction, added
 from towercrane.cranes.tower.equations.actions.ground import floors_of
 from towercrane.kernels.algebra import Vector, cross, dot, form
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.outputs.kinematics import Kinematics
     from towercrane.cranes.tower.outputs.sections import Sections
-
-
-class Reaction(NamedTuple):
-    """Force and moment by the crane, along the fixed axes."""
-
-    force: Vector
-    moment: Vector
 
 
 class Tied(NamedTuple):
@@ -73,11 +67,23 @@ class Support:
     @cached_property
     def base(self) -> Reaction:
         """What the crane does to the ground, the moment about the place of its undeformed foot."""
+        force, upright, leaning = self._loads
+        return self._fixed(force, added(upright, leaning))
+
+    @cached_property
+    def upright(self) -> Reaction:
+        """The same of a tower that bears its loads where it stands undeformed."""
+        force, upright, _ = self._loads
+        return self._fixed(force, upright)
+
+    @cached_property
+    def _loads(self) -> tuple[Vector, Vector, Vector]:
+        """Force on the ground, its moment, what the tower's deflection adds to it, along the coordinates' axes."""
         at, seen, crane, top = self.at, self.at.seen, self.at.seen.crane, self.sections.tower_top
         head, qdd = self.sections.head, self.sections.accelerations
         force, moment = head.to_fixed(top.force), head.to_fixed(top.moment)
         u_x, u_y, *_ = at.placed
-        moment = added(moment, cross((u_x, u_y, seen.tower_height), force))
+        moment = added(moment, cross((0.0, 0.0, seen.tower_height), force))
         count, bent = len(crane.part("tower_x")), crane.part("torsion").start
         (q_x, q_y), (a_x, a_y) = ((values[:count], values[count:bent]) for values in (at.state.coordinates, qdd))
         shaken_x, shaken_y, shaken_z = at.ground.acceleration
@@ -90,35 +96,33 @@ class Support:
             -dot(a_y, seen.zeroth) - seen.tower_mass * shaken_y,
             -seen.tower_mass * falls,
         )
-        turn = s_y * shaken_x - s_x * shaken_y - dot(qdd[bent : bent + len(seen.torsion)], seen.torsion)
+        tipping = (
+            dot(a_y, seen.first) + seen.tower_moment * shaken_y,
+            -dot(a_x, seen.first) - seen.tower_moment * shaken_x,
+            -dot(qdd[bent : bent + len(seen.torsion)], seen.torsion),
+        )
+        turn = s_y * shaken_x - s_x * shaken_y
         if len(q_y):
             turn = turn - form(q_x, own, a_y) + form(q_y, own, a_x)
-        tipping = (
-            dot(a_y, seen.first) + seen.tower_moment * shaken_y - falls * s_y,
-            falls * s_x - dot(a_x, seen.first) - seen.tower_moment * shaken_x,
-            turn,
-        )
+        leaning = added(cross((u_x, u_y, 0.0), force), (-falls * s_y, falls * s_x, turn))
         force, moment = added(force, inertia), added(moment, tipping)
         for part in () if seen.exposure is None else seen.exposure.tower:
             wind = at.winds[part.node]
             speed = np.sqrt(dot(wind, wind))
             press = tuple(speed * own for own in wind)
-            arm = dot(q_x, part.swept), dot(q_y, part.swept), part.moment
-            force, moment = added(force, tuple(part.area * own for own in press)), added(moment, cross(arm, press))
-        for place, held, couple in self.tied:
+            force = added(force, tuple(part.area * own for own in press))
+            moment = added(moment, cross((0.0, 0.0, part.moment), press))
+            leaning = added(leaning, cross((dot(q_x, part.swept), dot(q_y, part.swept), 0.0), press))
+        for (x, y, z), held, couple in self.tied:
             # The collars take their part.
-            force, moment = less(force, held), less(less(moment, couple), cross(place, held))
-        return self._fixed(force, moment)
+            force, moment = less(force, held), less(less(moment, couple), cross((0.0, 0.0, z), held))
+            leaning = less(leaning, cross((x, y, 0.0), held))
+        return force, moment, leaning
 
     def _fixed(self, force: Vector, moment: Vector) -> Reaction:
         """Along the fixed axes, of what is along the axes of the coordinates."""
         along, about = (self.at.from_plane(*vector[:2]) for vector in (force, moment))
         return Reaction((*along, force[2]), (*about, moment[2]))
-
-
-def added(first: Any, *others: Any) -> Any:
-    """Sum of vectors."""
-    return tuple(sum(own, start) for start, *own in zip(first, *others, strict=True))
 
 
 def less(one: Vector, other: Vector) -> Vector:

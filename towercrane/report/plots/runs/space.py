@@ -120,10 +120,20 @@ PICTURES: Pictures = {
         ),
     ),
     "base.png": (
-        "Moments on the base",
+        "Loads on the base",
         (
-            Panel("overturning [kN m]", 1e-3, {"base_moment_x": "about x", "base_moment_y": "about y"}),
+            Panel(
+                "overturning [kN m]",
+                1e-3,
+                {"base_moment_x": "about x", "base_moment_y": "about y", "overturning_moment": "resultant"},
+            ),
             Panel("torque [kN m]", 1e-3, {"base_torque": "about the vertical"}),
+            Panel(
+                "horizontal [kN]",
+                1e-3,
+                {"base_force_x": "along x", "base_force_y": "along y", "base_shear": "resultant"},
+            ),
+            Panel("vertical [kN]", 1e-3, {"base_force_z": "up"}),
         ),
     ),
 }
