@@ -18,6 +18,7 @@ from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.payload import Load
 from towercrane.motions.profiles import s_curve, smooth_ramps
 from towercrane.schema.targets import Tolerance
+from towercrane.simulation.starts.start import Start
 
 POSITIONS = OUTPUTS[:3]
 SCENE = Scene(CRANE, Load(800.0), motions(), 80.0, planar=True)
@@ -26,8 +27,8 @@ SCENES = {
     "s-curve": replace(SCENE, motions={**motions(), "trolley": s_curve(5.0, 41.0, 0.8, 0.2, 0.2)}),
     "smooth": replace(SCENE, motions={**motions(), "trolley": smooth_ramps(41.0, -0.6, 2.5, 40.0)}),
     "hoist": replace(SCENE, motions={**standing(30.0, 18.0), "rope": s_curve(18.0, 9.0, 0.5, 0.3, 0.6)}),
-    "swinging": replace(SCENE, swing_angle=0.2, damping=ModalDamping(tower=0.01, vertical=0.01)),
-    "let fall": replace(SCENE, state="zero", self_weight=False, rope_as_rod=True),
+    "swinging": replace(SCENE, start=Start(along=0.2), damping=ModalDamping(tower=0.01, vertical=0.01)),
+    "let fall": replace(SCENE, start=Start("zero"), self_weight=False, rope_as_rod=True),
 }
 
 
@@ -169,10 +170,10 @@ def test_a_method_that_was_not_measured_promises_nothing():
 
 
 def test_parametric_resonance_cannot_be_promised():
-    tuned = replace(SCENE, motions=motions(rope=10.0), state="zero", rope_as_rod=True, duration=120.0)
+    tuned = replace(SCENE, motions=motions(rope=10.0), start=Start("zero"), rope_as_rod=True, duration=120.0)
     (doubt,) = choose(tuned, {"sway_radial": Tolerance(1e-2, relative=True)}).doubts
     assert "twice the swing's 0.15" in doubt
-    wide = choose(replace(SCENE, swing_angle=0.8), {"sway_radial": Tolerance(1e-2, relative=True)}).doubts
+    wide = choose(replace(SCENE, start=Start(along=0.8)), {"sway_radial": Tolerance(1e-2, relative=True)}).doubts
     assert "the load swings 0.74" in wide[0]
 
 

@@ -25,6 +25,7 @@ from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.results.measures import gap, peak
 from towercrane.runs.run import record_case
 from towercrane.schema.targets import Tolerance
+from towercrane.simulation.starts.start import Start
 
 OPEN = "qtz5613/within-1e-3"
 SCENE = Scene(CRANE, Load(800.0), motions(), 80.0, planar=True)
@@ -38,8 +39,8 @@ BLOWN = replace(
 STILL_AIR = {
     "trapezoid": SCENE,
     "hoist": replace(SCENE, motions={**standing(30.0, 18.0), "rope": s_curve(18.0, 9.0, 0.5, 0.3, 0.6)}),
-    "swinging": replace(SCENE, swing_angle=0.2, damping=ModalDamping(tower=0.01, vertical=0.01)),
-    "let fall": replace(SCENE, state="zero", self_weight=False, rope_as_rod=True),
+    "swinging": replace(SCENE, start=Start(along=0.2), damping=ModalDamping(tower=0.01, vertical=0.01)),
+    "let fall": replace(SCENE, start=Start("zero"), self_weight=False, rope_as_rod=True),
 }
 
 

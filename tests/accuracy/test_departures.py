@@ -22,11 +22,12 @@ from towercrane.kernels.payload import Load
 from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.results.measures import gap, peak
 from towercrane.schema.targets import Tolerance
+from towercrane.simulation.starts.start import Start
 
 TURN = Scene(CRANE, Load(1500.0), {**standing(30.0, 15.0), "slewing": manoeuvre()["slewing"]}, 30.0, 0.1)
 DAMPED = replace(TURN, damping=ModalDamping(0.01, 0.01, 0.01, 0.01))
 AREAS = WindAreas(tower=0.5, jib=0.3, counter_jib=0.3, counterweight=4.0)
-RELEASED = replace(TURN, motions=standing(40.0, 12.0), swing_angle=0.2)
+RELEASED = replace(TURN, motions=standing(40.0, 12.0), start=Start(along=0.2))
 HOIST = replace(TURN, motions=standing(40.0, 12.0) | {"rope": s_curve(12.0, 8.0, 0.5, 2.0, 20.0)})
 # Calm in the mean and at the start: nothing but what the run itself swings.
 SPEEDS = np.array([[0.0, 0.0, 0.0], [0.0, 8.0, 0.0], [0.0, 0.0, 0.0], [0.0, -8.0, 0.0], [0.0, 0.0, 0.0]])

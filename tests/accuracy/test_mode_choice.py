@@ -26,6 +26,7 @@ from towercrane.runs.run import record_case, run_case
 from towercrane.runs.summary import summarise
 from towercrane.schema.faults import CaseError
 from towercrane.schema.targets import Tolerance
+from towercrane.simulation.starts.start import Start
 
 NAME = "qtz5613/manoeuvre-within-2e-2"
 SHORT = ["run.duration=25 s", "run.output_step=0.1 s"]
@@ -46,7 +47,7 @@ SCENES = {
 PLANE = replace(
     SLEW,
     motions={**standing(20.0, 12.0), "trolley": trapezoid(20.0, 35.0, 0.8, 0.2)},
-    swing_angle=0.05,
+    start=Start(along=0.05),
     duration=30.0,
     planar=True,
 )

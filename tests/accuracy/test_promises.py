@@ -45,6 +45,7 @@ from towercrane.results.measures import gap, peak
 from towercrane.results.recording import Recording
 from towercrane.runs.run import record_case
 from towercrane.schema.targets import Tolerance
+from towercrane.simulation.starts.start import Start
 
 OPEN = "qtz5613/within-1e-3"
 STEEL = 206e9
@@ -83,7 +84,7 @@ HEAVY_ON_A_LONG_ROPE = Scene(
         "rope": moves(39.32588873908789, (2.498037, 53.4207476), speed=0.80166165, acceleration=0.2944925),
     },
     90.0,
-    swing_angle=-0.19552973284747477,
+    start=Start(along=-0.19552973284747477),
     planar=True,
 )
 
@@ -100,7 +101,7 @@ LEANING = Scene(
     Load(178.0),
     {"trolley": trapezoid(39.3, 4.7, 0.18, 1.03), "rope": rest(11.8)},
     60.0,
-    state="zero",
+    start=Start("zero"),
     rope_as_rod=True,
     planar=True,
 )
@@ -110,7 +111,7 @@ STUBBY = Scene(
     Load(2000.0),
     {"trolley": trapezoid(30.0, 38.0, 0.8, 0.4), "rope": rest(12.0)},
     20.0,
-    state="zero",
+    start=Start("zero"),
     rope_as_rod=True,
     planar=True,
 )
@@ -137,7 +138,7 @@ def test_a_wide_swing_of_a_heavy_load_wants_the_jib_to_bend():
 
 @pytest.mark.parametrize("jib", [1, 2])
 def test_a_swing_is_slower_on_a_crane_that_yields(jib):
-    scene = Scene(CRANE, Load(2000.0), standing(45.0, 25.0), 60.0, swing_angle=0.1, planar=True)
+    scene = Scene(CRANE, Load(2000.0), standing(45.0, 25.0), 60.0, start=Start(along=0.1), planar=True)
     nodes = nodes_of(scene)
     soft, stiff = plane_setting(0, jib, rtol=1e-9, atol=1e-12), plane_setting(0, 0, rtol=1e-9, atol=1e-12)
 
@@ -182,7 +183,7 @@ def test_kinds_of_modes_that_matter_only_together_are_found():
             **steady(11.502808452542551 * np.array([np.cos(1.2500140610395718), np.sin(1.2500140610395718), 0.0])),
         },
         24.0,
-        swing_angle=0.09696847017336818,
+        start=Start(along=0.09696847017336818),
         drive=Drive("slewing", 625526.5, 1850726.25, 0.007491784613272428, 93671.9, "none"),
         drive_inertia=85588.83560023922,
         areas=WindAreas(0.3763079210279971, 0.5446676470074858, 0.6543574277545426, 6.987401582339675),

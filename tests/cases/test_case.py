@@ -32,7 +32,7 @@ def test_values_are_si_and_defaults_hold(write):
     model, modes = case.checked.model, modes_of(case.checked, motions_of(case)["trolley"])
     assert (model.tower_modes, model.jib_vertical_modes, model.weight_softening) == (2, 3, False)
     assert (model.tower_damping_ratio, model.jib_vertical_damping_ratio) == (0.0, 0.0)
-    assert (case.start.state, case.start.swing_angle) == ("equilibrium", 0.0)
+    assert (case.start.state, case.start.sway_radial) == ("equilibrium", None)
     assert (case.run.duration, case.run.output_step) == (60.0, 0.05)
     assert (case.solver.method, case.solver.rtol, case.solver.atol) == ("dop853", 1e-8, 1e-10)
     assert (modes.count, modes.trolley_positions, modes.elements) == (4, pytest.approx((5.0, 30.0)), 32)
@@ -49,7 +49,7 @@ tower_damping_ratio = "2 %"
 jib_vertical_damping_ratio = 0.01
 [start]
 state = "zero"
-swing_angle = "-5 deg"
+sway_radial = "-5 deg"
 [solver]
 method = "scipy-radau"
 rtol = 1e-5
@@ -70,7 +70,7 @@ elements = 64
     assert (model.tower_modes, model.jib_vertical_modes, model.weight_softening) == (0, 14, True)
     assert model.tower_damping_ratio == pytest.approx(0.02)
     assert model.jib_vertical_damping_ratio == 0.01
-    assert case.start.swing_angle == pytest.approx(math.radians(-5))
+    assert case.start.sway_radial == pytest.approx(math.radians(-5))
     assert case.start.state == "zero"
     assert case.run.output_step == pytest.approx(0.02)
     assert (case.solver.method, case.solver.rtol, case.solver.atol) == ("scipy-radau", 1e-5, 1e-7)

@@ -133,7 +133,7 @@ IMPLAUSIBLE = [
     ("crane.counter_jib.counterweight", 15.13, "t meant?"),
     ("payload.mass", 0.8, "t meant?"),
     ("motion.trolley.speed", 48, "m/min meant?"),
-    ("start.swing_angle", -20, "deg meant?"),
+    ("start.sway_radial", -20, "deg meant?"),
     ("model.tower_damping_ratio", 2, "% meant?"),
     ("run.duration", 1e7, "ms meant?"),
     ("crane.gravity", 981, "cm/s^2 meant?"),

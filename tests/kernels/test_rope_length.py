@@ -17,6 +17,8 @@ from towercrane.simulation.lanes.many import integrate_many
 from towercrane.simulation.lanes.run import LaneRun
 from towercrane.simulation.methods.registry import METHODS
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 GRAVITY = qtz5613.CRANE.gravity
 SPAN = 1800.0
@@ -88,7 +90,7 @@ def test_a_bound_on_the_turn_leaves_loads_that_sway_little_and_flexible_cranes_t
     crane, cut, short = qtz5613.model(1, 1), phases(tuple(qtz5613.motions().values()), 5.0), np.linspace(0.0, 5.0, 7)
 
     def swings():
-        rocked = integrate(crane.system, cut, crane.start(cut.inputs[0], "zero", 0.0), short, method=method)
+        rocked = integrate(crane.system, cut, crane.start(cut.inputs[0], "zero"), short, method=method)
         return [rocked.states, *(swing(Pendulum(5.0, angle), short, method=method)[0] for angle in (0.0, 1e-4, 0.5))]
 
     bounded = swings()
@@ -137,7 +139,7 @@ def test_every_crane_s_ropes_are_directions(name):
     case = load_case(name)
     model = model_of(case)
     cut = phases(tuple(motions_of(case)[channel] for channel in model.channels), 3.0)
-    start = model.start(cut.inputs[0], "equilibrium", 0.4)
+    start = begin(model, cut.inputs[0], Start("equilibrium", along=0.4))
     run = integrate(model.system, cut, start, np.linspace(0.0, 3.0, 50), rtol=1e-4, atol=1e-6)
     assert len(model.system.directions) == 1
     assert off_its_length(model.system.directions, run.states) < 1e-14
@@ -158,7 +160,7 @@ def test_every_crane_s_ropes_are_directions(name):
 
 def test_the_drawn_rope_has_its_length_and_the_energy_stays():
     crane = qtz5613.model(0, 0, rope_as_rod=True)
-    run = simulate(crane, qtz5613.standing(20.0, 5.0), 300.0, output_step=0.17, swing_angle=1.5)
+    run = simulate(crane, qtz5613.standing(20.0, 5.0), 300.0, output_step=0.17, start=Start(along=1.5))
     load = run["payload_position"].values - [20.0, 0.0, 0.0]
     assert_allclose(np.linalg.norm(load, axis=1), 5.0, rtol=0.0, atol=1e-12)
     assert run.hoist_rope_force.min() > 0.0
@@ -172,9 +174,9 @@ def test_a_wide_swing_in_lanes_has_the_bits_of_a_single_run(modes):
     cut = phases((rest(20.0), rest(5.0)), 60.0)
     grid, loose = np.linspace(0.0, 60.0, 61), {"rtol": 1e-5, "atol": 1e-7}
     angles = (1.5, 2.5, 1.2)
-    found = integrate_many([LaneRun(crane, cut, "zero", angle) for angle in angles], grid, threads=1, **loose)
+    found = integrate_many([LaneRun(crane, cut, Start("zero", angle)) for angle in angles], grid, threads=1, **loose)
     for angle, state, evaluations in zip(angles, found.end_states, found.evaluations, strict=True):
-        single = integrate(crane.system, cut, crane.start(cut.inputs[0], "zero", angle), grid, **loose)
+        single = integrate(crane.system, cut, begin(crane, cut.inputs[0], Start("zero", along=angle)), grid, **loose)
         assert np.array_equal(state, single.end_state)
         assert evaluations == single.evaluations
         assert off_its_length(crane.system.directions, state) < 1e-14

@@ -14,6 +14,8 @@ from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 G = 9.81
 TIGHT = {"rtol": 1e-13, "atol": 1e-16}
@@ -107,7 +109,7 @@ def test_a_rope_in_mid_swing(axes, angle, rate):
     # s = sin(theta - theta0), so s'' = -g cos(theta0) / l s - theta0'^2 s at first order.
     crane = dataclasses.replace(model(0, 0), axes=axes)
     inputs = np.array([[20.0, 0.0, 0.0], [18.0, 0.0, 0.0]])
-    state = crane.start(inputs, "zero", angle)
+    state = begin(crane, inputs, Start("zero", along=angle))
     state[axes], state[2 * axes - 1] = rate * np.cos(angle), rate * np.sin(angle)
     linear = linearise(crane, inputs, state=state, outputs=["sway_radial", "swing_rate"])
     assert_allclose(linear.a[axes - 1, 0], -G * np.cos(angle) / 18.0 - rate**2, rtol=1e-11)
@@ -223,7 +225,7 @@ def assert_responses_agree(found, expected):
 def test_free_sway_of_the_simulator():
     crane, step = model(2, 3, damping=(0.01, 0.0)), 0.05
     runs = [
-        simulate(crane, standing(20.0, 18.0), 30.0, swing_angle=angle, output_step=step, **TIGHT)
+        simulate(crane, standing(20.0, 18.0), 30.0, start=Start(along=angle), output_step=step, **TIGHT)
         for angle in (1e-4, -1e-4)
     ]
     linear = linearise(crane, standing(20.0, 18.0), outputs=SHOWN)

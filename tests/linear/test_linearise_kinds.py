@@ -13,6 +13,7 @@ from towercrane.motions.profiles import speed_trapezoid
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import summarise
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.start import Start
 
 STILL = {"shaft": rest(0.0), "rope": rest(2.0)}
 
@@ -54,7 +55,7 @@ def test_sways_along_fixed_axes_have_their_names():
 def test_small_motion_of_the_full_model_has_the_linear_frequency():
     model = undamped("basic")
     linear = frequencies(linearise(model, STILL, outputs=[]))
-    result = simulate(model, STILL, 60.0, swing_angle=1e-4, output_step=0.01, rtol=1e-11, atol=1e-14)
+    result = simulate(model, STILL, 60.0, start=Start(along=1e-4), output_step=0.01, rtol=1e-11, atol=1e-14)
     angle = result["sway_radial"].values
     up = np.flatnonzero((angle[:-1] < 0) & (angle[1:] >= 0))
     crossings = 0.01 * (up - angle[up] / (angle[up + 1] - angle[up]))

@@ -59,7 +59,7 @@ class Arm:
         system = plain_system(equations, size, None if inertia is None else Platform(inertia))
         self.system = dataclasses.replace(system, scale=np.full(size, np.inf))
 
-    def start(self, inputs, state="equilibrium", swing_angle=0.0):
+    def start(self, inputs, state="equilibrium"):
         y = np.zeros(self.system.size)
         y[self.n + 2] = -1.0
         return y

@@ -16,6 +16,8 @@ from towercrane.kernels.payload import Load
 from towercrane.motions.motion import Motion, phases, rest, sequence
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import evaluate, integrate
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 from towercrane.simulation.system import Model
 from towercrane.simulation.trajectory import Trajectory
 
@@ -35,7 +37,7 @@ class Driven:
         """Rows at any times, tightly solved."""
         cut = phases(tuple(self.motions[channel] for channel in self.model.channels), duration)
         if start is None:
-            start = self.model.start(cut.inputs[0], options.pop("state", "equilibrium"), 0.05)
+            start = begin(self.model, cut.inputs[0], Start(options.pop("state", "equilibrium"), along=0.05))
         options = {"rtol": 1e-9, "atol": 1e-11} | options
         found = integrate(self.model.system, cut, start, np.asarray(times, dtype=float), **options)
         slopes, guards = evaluate(self.model.system, cut, found.times, found.states)

@@ -56,8 +56,9 @@ def standing(trolley: float, rope: float, heading: float = 0.0) -> dict:
 
 def start(scene: FlexibleModel, motions: dict, **options) -> np.ndarray:
     from towercrane.motions.motion import phases
+    from towercrane.simulation.starts.begin import begin
 
-    return scene.start(phases(tuple(motions[c] for c in scene.channels), 1.0).inputs[0], **options)
+    return begin(scene, phases(tuple(motions[c] for c in scene.channels), 1.0).inputs[0], **options)
 
 
 def kinematics(scene: FlexibleModel, motions: dict, times: np.ndarray, states: np.ndarray) -> Kinematics:

@@ -21,6 +21,7 @@ from towercrane.simulation.lanes.many import integrate_many
 from towercrane.simulation.lanes.run import LaneRun
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import record, rows_of
+from towercrane.simulation.starts.start import Start
 
 
 def heavier(factor):
@@ -32,7 +33,7 @@ def heavier(factor):
 
 
 def swung(model, **options):
-    return record(model, qtz5613.standing(20.0, 18.0), 10.0, state="zero", swing_angle=0.3, **options)
+    return record(model, qtz5613.standing(20.0, 18.0), 10.0, start=Start("zero", along=0.3), **options)
 
 
 @pytest.mark.parametrize("factor", [0.5, 0.999, 1.001, 1.5])
@@ -55,7 +56,7 @@ def test_right_equations_are_not_suspected():
 def test_in_lanes_it_is_the_outcome_of_its_run_alone():
     drives = qtz5613.standing(20.0, 18.0)
     cut = phases((drives["trolley"], drives["rope"]), 10.0)
-    runs = [LaneRun(heavier(factor), cut, "zero", 0.3) for factor in (1.0, 1.001, 1.0)]
+    runs = [LaneRun(heavier(factor), cut, Start("zero", along=0.3)) for factor in (1.0, 1.001, 1.0)]
     found = integrate_many(runs, rows_of(10.0, 0.5), threads=1)
     assert found.outcomes == ["finished", NOT_CONSERVED, "finished"]
 
@@ -70,8 +71,8 @@ def test_a_vibration_fed_by_the_method_is_not_called_a_slack_rope():
 
 def test_wide_swings_finish_with_their_energy():
     for changes in (
-        ["start.swing_angle=1.5 rad", "run.duration=300 s"],
-        ["start.swing_angle=1.5 rad", "run.duration=60 s", "solver.rtol=1e-6", "solver.atol=1e-8"],
+        ["start.sway_radial=1.5 rad", "run.duration=300 s"],
+        ["start.sway_radial=1.5 rad", "run.duration=60 s", "solver.rtol=1e-6", "solver.atol=1e-8"],
     ):
         case = load_case("hard/swing-1.2-rad", [*changes, "model.tower_modes=0", "model.jib_vertical_modes=0"])
         result = record_case(case)

@@ -144,7 +144,7 @@ class SprungMass:
     def outputs(seen, instant):
         return {"force": instant.slopes[1] + 0.0 * seen.offset}
 
-    def start(self, inputs, state, swing_angle):
+    def start(self, inputs, state):
         return np.array([1.0, 0.0, 0.0])
 
     def provenance(self):

@@ -17,14 +17,15 @@ from towercrane.simulation.lanes.many import integrate_many
 from towercrane.simulation.lanes.run import LaneRun
 from towercrane.simulation.observed import scalars
 from towercrane.simulation.simulate import rows_of, simulate
+from towercrane.simulation.starts.start import Start
 
 DURATION = 12.0
 ROWS = rows_of(DURATION, 0.05)
 LOOSE = {"rtol": 1e-5, "atol": 1e-7}
 
 
-def lane_run(crane, drives, state="equilibrium", swing_angle=0.0):
-    return LaneRun(crane, phases(tuple(drives[name] for name in crane.channels), DURATION), state, swing_angle)
+def lane_run(crane, drives, *start):
+    return LaneRun(crane, phases(tuple(drives[name] for name in crane.channels), DURATION), Start(*start))
 
 
 def in_lanes(scenes, **options):
@@ -32,8 +33,8 @@ def in_lanes(scenes, **options):
     return integrate_many([lane_run(*scene) for scene in scenes], ROWS, **{**LOOSE, "threads": 1, **options})
 
 
-def alone(crane, drives, state="equilibrium", swing_angle=0.0, **options):
-    return simulate(crane, drives, DURATION, state=state, swing_angle=swing_angle, **{**LOOSE, **options})
+def alone(crane, drives, *start, **options):
+    return simulate(crane, drives, DURATION, start=Start(*start), **{**LOOSE, **options})
 
 
 def assert_same(found, scenes, **options):

@@ -9,6 +9,8 @@ from towercrane import load_case
 from towercrane.motions.motion import phases, rest
 from towercrane.runs.run import record_case
 from towercrane.simulation.simulate import record
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 ANGLE = 1.0
 TIMES = np.linspace(0.0, 4.0, 41)
@@ -91,7 +93,7 @@ def test_a_rope_goes_slack_whether_it_stretches_or_not(kind, earliest, latest):
 def test_a_rope_above_the_horizontal_is_slack_from_the_start(kind):
     for angle, outcome in ((1.5, "finished"), (1.6, "slack rope"), (3.0, "slack rope")):
         motions = {"shaft": rest(0.3), "rope": rest(2.0)}
-        result = record(lumped(kind).model, motions, 0.05, swing_angle=angle)
+        result = record(lumped(kind).model, motions, 0.05, start=Start(along=angle))
         assert (result.attrs["outcome"], result.attrs["end_time"]) == (
             outcome,
             0.05 if outcome == "finished" else 0.0,
@@ -102,6 +104,6 @@ def test_a_rope_that_stretches_starts_by_the_part_of_the_weight_along_it():
     model = lumped("basic").model
     inputs = phases((rest(0.0), rest(2.0)), 1.0).inputs[0]
     for angle in (0.0, 0.7, -1.2):
-        start = model.start(inputs, "equilibrium", angle)
+        start = begin(model, inputs, Start("equilibrium", along=angle))
         stretch = model.load.mass * model.crane.gravity * np.cos(angle) / model.crane.rope_stiffness
         assert start[model.coordinates] == pytest.approx(stretch, rel=1e-14)

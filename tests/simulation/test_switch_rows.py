@@ -9,6 +9,7 @@ from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import evaluate
 from towercrane.simulation.lanes.many import integrate_many
 from towercrane.simulation.lanes.run import LaneRun
+from towercrane.simulation.starts.start import Start
 
 END = 4.0
 """After the last switch of all motions [s]."""
@@ -55,10 +56,10 @@ def test_lanes_look_at_the_right_limit_at_the_end_too():
     scene = KINDS["radial"]()
     end = float(scene.motions["rope"].switch_times[-1])
     grid = np.array([0.0, end])
-    found, _ = scene.run(grid, end, state="equilibrium", rtol=1e-8, atol=1e-10)
+    found, _ = scene.run(grid, end, rtol=1e-8, atol=1e-10)
     cut = phases(tuple(scene.motions[channel] for channel in scene.model.channels), end)
     _, guards = evaluate(scene.model.system, cut, found.times, found.states)
-    runs = [LaneRun(scene.model, cut, "equilibrium", 0.05)]
+    runs = [LaneRun(scene.model, cut, Start(along=0.05))]
     lanes = integrate_many(runs, grid, outputs=["hoist_rope_force"], threads=1, series=True)
     assert lanes.outcomes == ["finished"]
     tension = guards[:, 0]

@@ -190,9 +190,9 @@ def vibration(nodes: Nodes, setting: Setting) -> Vibration:
     turns = (-1j) ** orders[:, None] * omega[at, None] ** -(orders[:, None] + 2.0)
     rings = -(nodes.jumps[:, :, kept] @ small[at] * turns).sum(axis=1)
     first = at[0]
-    swung = np.sin(scene.swing_angle) / nodes.readings[first, SWING, -1]
+    swung = np.sin(scene.start.along or 0.0) / nodes.readings[first, SWING, -1]
     rings[0] += nodes.mass[first, -1, kept] @ small[first] * swung
-    if scene.state == "zero":
+    if scene.start.state == "zero":
         rings[0] -= nodes.weight[first, kept] @ small[first] / omega[first] ** 2
     decay = 0.5 * nodes.damping[kept] @ small**2
     return Vibration(nodes, omega, decay, shapes, weights, held[:, :, 0], held[:, :, 1:], rings)

@@ -161,7 +161,7 @@ def nodes_of(scene: Scene, richest: Setting = RICHEST) -> Nodes:
     jumps = np.einsum("eco,ecn->eon", changes[:, :, 2:], push[place[events]])
     jumps[:, 2:] += np.einsum("eo,en->eon", changes[:, 0, 2:-2], moved[place[events]])
     # A load that is let go from a swing pulls less than its weight.
-    jumps[0, 0] += load * crane.gravity * np.sin(scene.swing_angle) ** 2 * rise[place[0]]
+    jumps[0, 0] += load * crane.gravity * np.sin(scene.start.along or 0.0) ** 2 * rise[place[0]]
     ratios = np.repeat([scene.damping.tower, scene.damping.vertical], [a, n - 1 - a])
     frequencies = np.append(model.angular_frequencies, 0.0)
     return Nodes(

@@ -10,6 +10,7 @@ import numpy as np
 
 from towercrane.accuracy.instants import derivatives_of
 from towercrane.motions.motion import phases
+from towercrane.simulation.starts.begin import begin
 from towercrane.simulation.system import start_inputs
 
 if TYPE_CHECKING:
@@ -181,7 +182,7 @@ class Path:
         now = self._inputs(np.zeros(1, dtype=int))[0]
         now[:, 1:] = 0.0
         calm = start_inputs(self.model, self.scene.motions, now)
-        state = self.model.start(calm, self.scene.state, self.scene.swing_angle)
+        state = begin(self.model, calm, self.scene.start)
         return np.asarray(self._from_head(self._accelerations(state, now)[None], self._slewing[:1])[0])
 
     @property

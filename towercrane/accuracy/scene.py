@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from towercrane.accuracy.setting import Setting
-from towercrane.cases.models import motions_of
+from towercrane.cases.models import motions_of, start_of
 from towercrane.cranes.tower.crane_model import described, moving, tower_crane_model
 from towercrane.cranes.tower.file.build import asked_modes, described_scene
 from towercrane.cranes.tower.file.case_tables import TowerCase
@@ -18,6 +18,7 @@ from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.targets import ALL, FORETOLD, absent
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import looks_per_row, record
+from towercrane.simulation.starts.start import HANGING, Start
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -48,9 +49,7 @@ class Scene:
         [s]
     output_step : float
         [s]
-    state : {"equilibrium", "zero"}
-    swing_angle : float
-        At the start [rad].
+    start : Start
     planar : bool
         Whether nothing drives crane and load out of the plane in which the jib stands.
     heading : float
@@ -67,8 +66,7 @@ class Scene:
     motions: dict[str, Motion]
     duration: float
     output_step: float = 0.05
-    state: str = "equilibrium"
-    swing_angle: float = 0.0
+    start: Start = HANGING
     planar: bool = False
     heading: float = 0.0
     damping: ModalDamping = field(default_factory=ModalDamping)
@@ -94,10 +92,12 @@ class Scene:
     def foretells(self, outputs: Iterable[str]) -> bool:
         """Whether small motions foretell the error of these outputs, so that nothing is run to choose a setting.
 
-        They know bending of tower and jib: where the counter-jib bends too, a run is asked.
+        They know bending of tower and jib, and loads that are let go: where the counter-jib bends too, or the load
+        moves at the start, a run is asked.
         """
         bends = self.crane.counter_jib is not None
-        told = self.planar and not bends and self.areas is None and not self.ground
+        let_go = self.start.state != "quiet" and not self.start.along_rate
+        told = self.planar and not bends and self.areas is None and not self.ground and let_go
         return told and set(outputs) <= set(FORETOLD)
 
     def model(self, setting: Setting) -> FlexibleModel:
@@ -131,8 +131,7 @@ class Scene:
                 self.duration,
                 output_step=self.output_step,
                 looks=looks_per_row(self.duration, self.output_step),
-                state=self.state,
-                swing_angle=self.swing_angle,
+                start=self.start,
                 method=setting.method,
                 rtol=setting.rtol,
                 atol=setting.atol,
@@ -149,8 +148,7 @@ def scene_of(case: Case, run: Run | None = None) -> Scene:
         motions=motions_of(case) if run is None else run.motions,
         duration=tables.run.duration,
         output_step=tables.run.output_step,
-        state="equilibrium" if tables.start.state == "equilibrium" else "zero",
-        swing_angle=tables.start.swing_angle,
+        start=start_of(case),
         planar=heading is not None,
         heading=heading or 0.0,
         **described_scene(tables, None if model is None else model.crane.written),

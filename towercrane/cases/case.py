@@ -157,7 +157,7 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
         faults += [f for f in explain(error, kind) if not (crane_unread and f.key == "crane")]
     allowed = tree.get("allow_implausible", [])
     allowed = [k for k in allowed if isinstance(k, str)] if isinstance(allowed, list) else []
-    faults += [*implausible(tree, allowed, kind), *check_values(tree)]
+    faults += [*implausible(tree, allowed, kind), *check_values(tree, kind)]
     for check in KINDS[kind].checks:
         faults += check(tree)
     motion_faults, plans = check_motions(tree, found.parent, kind)

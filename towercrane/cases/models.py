@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.registry import KINDS
 from towercrane.results.measures import picked_in
+from towercrane.simulation.starts.start import Start
 
 if TYPE_CHECKING:
     import numpy as np
@@ -53,6 +54,17 @@ def motions_of(case: Case, model: Model | None = None) -> dict[str, Motion]:
         key = f"motion.{'hoist' if modelled[0] == 'rope' else modelled[0]}"
         wanted, hint = "frequencies that the model has, or a list of them", "towercrane modes shows what it has"
         raise CaseError([Fault(str(case.path), f"{key}.frequencies", wanted, str(failure), hint)]) from failure
+
+
+def start_of(case: Case) -> Start:
+    """How a case's run starts."""
+    asked, found = case.start, []
+    for name in KINDS[case.kind].sways:
+        found += [getattr(asked, name), getattr(asked, f"{name}_rate")]
+    along, along_rate, across, across_rate = found
+    # Without its own weight a crane is another model.
+    state = "zero" if asked.state.startswith("zero") else asked.state
+    return Start(state, along, across, along_rate, across_rate)
 
 
 def poses_of(case: Case, result: xr.Dataset, times: NDArray[np.float64], model: Model | None = None) -> Poses:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cases.kinds import known_leaves
@@ -158,7 +159,12 @@ RANGES = (
     Range("modes.rope_lengths*", "m", 0.1, 1000, LENGTHS),
     Range("modes.slewing_angles*", "rad", 1e-9, 100, ANGLES, signed=True),
     Range("model.*_damping_ratio", "1", 1e-6, 0.3, ("%",)),
-    Range("start.swing_angle", "rad", 1e-9, 1.6, ANGLES, signed=True),
+    Range("start.sway_*", "rad", 1e-9, 1.6, ANGLES, signed=True),
+    *(
+        Range(f"start.{name}", "rad", 1e-9, 1.57, ANGLES, signed=True)
+        for name in ("sway_tangential", "sway_lateral", "sway_along_bridge")
+    ),
+    Range("start.sway_*_rate", "rad/s", 1e-9, 10, TURNS, signed=True),
     Range("run.duration", "s", 0.01, 1e6, ("ms", "min", "h")),
     Range("run.output_step", "s", 1e-6, 1e4, ("ms",)),
     Range("solver.atol", "1", 1e-20, 1),
@@ -183,10 +189,26 @@ def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> It
     yield from out_of_range(values, ranges, allowed)
 
 
-def check_values(tree: dict[str, Any]) -> Iterator[Fault]:
+def check_values(tree: dict[str, Any], kind: str) -> Iterator[Fault]:
     """Values that do not fit each other, motions and towers apart."""
+    yield from _check_sways(tree, *KINDS[kind].sways)
     for check in (_check_output, _check_elements, _check_drag, _check_friction, _check_method):
         yield from check(tree)
+
+
+def _check_sways(tree: dict[str, Any], first: str, second: str) -> Iterator[Fault]:
+    """Two angles of sway that no rope has."""
+    along, across = (si_at(tree, f"start.{name}", "rad", 0.0) for name in (first, second))
+    if along is None or across is None or not across:
+        return
+    got, allowed = shown(at(tree, f"start.{second}")), at(tree, "allow_implausible")
+    if abs(across) >= 0.5 * pi:
+        # Its range says so too.
+        if isinstance(allowed, list) and f"start.{second}" in allowed:
+            yield Fault("", f"start.{second}", "an angle below 90 deg", got, f"start.{first} may be larger")
+    elif abs(along) >= 0.5 * pi:
+        wanted = f"0 beside a start.{first} of 90 deg and more"
+        yield Fault("", f"start.{second}", wanted, got, "above the horizontal a rope is in one of both planes")
 
 
 def _check_method(tree: dict[str, Any]) -> Iterator[Fault]:

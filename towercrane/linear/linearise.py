@@ -10,6 +10,7 @@ from towercrane.linear.chart import Chart, per_second
 from towercrane.linear.statespace import RATE, OperatingPoint, Signal, StateSpace
 from towercrane.motions.motion import Motion
 from towercrane.simulation.differences import jacobian
+from towercrane.simulation.starts.begin import begin
 from towercrane.simulation.system import start_inputs
 
 if TYPE_CHECKING:
@@ -86,7 +87,7 @@ def linearise(
         drives[1:] = 0.0
         if not isinstance(motions, np.ndarray):
             drives[0] = start_inputs(model, motions, _polynomials(drives))[:, 0]
-        state = model.start(_polynomials(drives), "equilibrium", 0.0)
+        state = begin(model, _polynomials(drives))
     elif np.shape(state) != (model.system.size,):
         raise ValueError(f"state: wanted shape ({model.system.size},), got {np.shape(state)}")
     state = np.array(state, dtype=float)

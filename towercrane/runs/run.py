@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from towercrane.accuracy.promise import chosen, promise, targets_of
 from towercrane.cases.assumptions import as_attribute, rests_on
-from towercrane.cases.models import model_of, motions_of
+from towercrane.cases.models import model_of, motions_of, start_of
 from towercrane.cases.table_notices import table_notices
 from towercrane.cranes.registry import KINDS
 from towercrane.simulation.methods.method import EnergyDriftWarning
@@ -84,8 +84,7 @@ def _as_stated(case: Case, model: Model | None, motions: dict[str, Motion] | Non
         case.run.duration,
         output_step=case.run.output_step,
         looks=looks_per_row(case.run.duration, case.run.output_step),
-        state="equilibrium" if case.start.state == "equilibrium" else "zero",
-        swing_angle=case.start.swing_angle,
+        start=start_of(case),
         method=case.solver.method,
         rtol=case.solver.rtol,
         atol=case.solver.atol,

@@ -12,7 +12,7 @@ import numpy as np
 
 from towercrane.accuracy.promise import targets_of
 from towercrane.cases.case import load_case
-from towercrane.cases.models import model_of, motions_of
+from towercrane.cases.models import model_of, motions_of, start_of
 from towercrane.cranes.registry import KINDS
 from towercrane.kernels.straight.leaves import known_of
 from towercrane.motions.motion import phases
@@ -125,10 +125,9 @@ class Variants:
         if made_of is not None:
             model = self._models.setdefault(made_of(model), model).with_load(model.load)
         cut = phases(tuple(motions[channel] for channel in model.channels), case.run.duration)
-        state = "equilibrium" if case.start.state == "equilibrium" else "zero"
         by_value = getattr(model, "value_channels", ())
         means = {model.channels.index(channel): motions[channel].mean for channel in by_value}
-        return LaneRun(model, cut, state, case.start.swing_angle, means)
+        return LaneRun(model, cut, start_of(case), means)
 
     def _plain_one(self, runs: list[int]) -> Variant | None:
         """A run that differs from these in its load and its resting rope alone; None if they differ in more.

@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
 
 FORMER = {
-    "jib_modes": "jib_vertical_modes",
-    "jib_damping_ratio": "jib_vertical_damping_ratio",
-    "swing_angle": "sway_radial",
-    "swing_angle_sideways": "sway_tangential",
-    "tower_coordinate": "tower_x_coordinate",
-    "jib_coordinate": "jib_vertical_coordinate",
+    "jib_modes": ("jib_vertical_modes",),
+    "jib_damping_ratio": ("jib_vertical_damping_ratio",),
+    "swing_angle": ("sway_radial", "sway_in_plane", "sway_along_runway"),
+    "swing_angle_sideways": ("sway_tangential", "sway_lateral", "sway_along_bridge"),
+    "tower_coordinate": ("tower_x_coordinate",),
+    "jib_coordinate": ("jib_vertical_coordinate",),
 }
-"""What keys and outputs were called, and what they are called now."""
+"""What keys and outputs were called, and what they are called now, of one kind of crane or another."""
 
 LONGEST_LINE = 1000
 """Letters of a line of a message; paths may be long, what somebody sets longer."""
@@ -80,7 +80,7 @@ def closest(word: str, known: Iterable[str]) -> str | None:
 
 def now_called(word: str, known: Iterable[str]) -> str | None:
     """The known word that a former name stands for, if it is one."""
-    return next((name for name in known if name == FORMER.get(word)), None)
+    return next((name for name in known if name in FORMER.get(word, ())), None)
 
 
 def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:

@@ -141,6 +141,7 @@ Root = Annotated[float, Quantity("1", above=0)]
 ModeCount = Annotated[StrictInt, Field(ge=0, le=14)]
 ModeCountIfAny = Annotated[StrictInt | None, Field(ge=0, le=14)]
 
+AngleIfAny = Annotated[float | None, Quantity("rad")]
 MassIfAny = Annotated[float | None, Quantity("kg", above=0)]
 AreaIfAny = Annotated[float | None, Quantity("m^2", least=0)]
 LengthIfAny = Annotated[float | None, Quantity("m", above=0)]

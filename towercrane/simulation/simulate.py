@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec
 
 import numpy as np
 
-from modal.checks import check_positive, number_in
+from modal.checks import check_positive
 from towercrane.motions.motion import Motion, phases
 from towercrane.results.versions import versions
 from towercrane.simulation import energy_balance
@@ -22,6 +22,8 @@ from towercrane.simulation.methods.method import DEFAULT, EnergyDriftWarning
 from towercrane.simulation.methods.registry import method_of
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.run import Run
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import HANGING, Start
 from towercrane.simulation.system import Model, NoEquilibrium, start_inputs
 from towercrane.simulation.trajectory import Trajectory
 
@@ -47,8 +49,7 @@ def record(
     duration: float,
     *,
     output_step: float = 0.05,
-    state: str = "equilibrium",
-    swing_angle: float = 0.0,
+    start: Start = HANGING,
     method: str = DEFAULT,
     rtol: float = 1e-8,
     atol: float = 1e-10,
@@ -68,10 +69,8 @@ def record(
         Simulated time [s].
     output_step : float
         Time between two rows of the result [s].
-    state : {"equilibrium", "zero"}
-        Start from the static solution, where a wind blows in its mean, or undeformed with all weights on.
-    swing_angle : float
-        Rope's angle at the start from where it hangs at rest, positive outward [rad].
+    start : Start
+        By default at rest, where a wind blows in its mean.
     method, rtol, atol, split, progress
         As in :func:`towercrane.simulation.integrate.integrate`.
     looks : int
@@ -99,7 +98,6 @@ def record(
     if output_step > duration:
         raise ValueError(f"output_step, duration: wanted 0 < step <= duration, got {output_step}, {duration}")
     check_tolerances(rtol, atol)
-    number_in("swing_angle", swing_angle, "a finite number")
     solver = method_of(method)
     if reason := solver.refusal(rtol, atol):
         raise ValueError(f"rtol, atol: {reason}, got {rtol:g}, {atol:g}")
@@ -112,13 +110,13 @@ def record(
     sample_times = rows_of(duration, output_step, looks)
     message, inputs = "", start_inputs(model, motions, cut.inputs[0])
     try:
-        start = model.start(inputs, state, swing_angle)
+        began_at = begin(model, inputs, start)
     except NoEquilibrium as failure:
         message = str(failure)
-        run = _nothing(model.start(inputs, "zero", swing_angle), failure.outcome)
+        run = _nothing(begin(model, inputs, replace(start, state="zero")), failure.outcome)
     else:
         run = integrate(
-            model.system, cut, start, sample_times,
+            model.system, cut, began_at, sample_times,
             method=method, rtol=rtol, atol=atol, split=split, progress=progress,
         )  # fmt: skip
     times, states = run.times, run.states

@@ -192,8 +192,8 @@ class Model(Protocol):
     def system(self) -> System:
         """Its equations."""
 
-    def start(self, inputs: Floats, state: str, swing_angle: float) -> Floats:
-        """State at the start, or NoEquilibrium."""
+    def start(self, inputs: Floats, state: str = ...) -> Floats:
+        """State at rest, "equilibrium" or "zero", or NoEquilibrium; see `towercrane.simulation.starts.begin`."""
 
     def observe(
         self, motions: dict[str, Motion], times: Floats, states: Floats, slopes: Floats, guards: Floats

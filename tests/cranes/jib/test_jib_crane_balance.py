@@ -23,6 +23,8 @@ from towercrane.kernels.payload import Load
 from towercrane.motions.motion import Motion, phases, rest
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 
 @pytest.mark.parametrize("motions", [smooth_plan(), trapezoid_plan()], ids=["smooth", "trapezoids"])
@@ -53,14 +55,14 @@ def test_free_booms_keep_energy_and_momentum_about_the_post():
     model = DrivenJibCrane(HEAVY, LOAD, (0.3, 0.9, -0.4), (0.3, 0.2, -0.3), rope_as_rod=True)
     idle = dict(zip(model.channels, constant(0.0, 0.0, 0.0, 20.0), strict=True))
     cut, times = phases(tuple(idle.values()), 3.0), np.linspace(0.0, 3.0, 31)
-    start = model.start(cut.inputs[0], "zero", 0.3)
+    start = begin(model, cut.inputs[0], Start("zero", along=0.3))
     run = integrate(model.system, cut, start, times, rtol=1e-13, atol=1e-15)
     momentum = momentum_about_the_post(run.states, HEAVY, LOAD, 20.0)
     assert peak(momentum) > 1e5
     assert np.ptp(momentum) < 1e-11 * peak(momentum)
     assert np.ptp(run.states[:, 1]) > 0.5
     assert np.all(run.states[:, -1] == 0.0)
-    result = simulate(model, idle, 3.0, swing_angle=0.3, rtol=1e-13, atol=1e-15)
+    result = simulate(model, idle, 3.0, start=Start(along=0.3), rtol=1e-13, atol=1e-15)
     energy = result["total_energy"].values
     assert np.ptp(energy) < 1e-12 * peak(energy)
 
@@ -89,7 +91,9 @@ def test_every_joint_gets_its_own_torque():
 @pytest.mark.parametrize("swing_angle", [0.0, 0.4])
 def test_energy_at_rest_counts_from_the_foot_of_the_post(swing_angle):
     luff, fold, rope = 0.6, -0.2, 20.0
-    result = simulate(planned(), standing(0.7, luff, fold, rope), 0.1, output_step=0.1, swing_angle=swing_angle)
+    result = simulate(
+        planned(), standing(0.7, luff, fold, rope), 0.1, output_step=0.1, start=Start(along=swing_angle)
+    )
     hinge = HEAVY.post_height + 15.0 * np.sin(luff)
     heights = {
         200.0 * 15.0: HEAVY.post_height + 7.5 * np.sin(luff),
@@ -102,8 +106,8 @@ def test_energy_at_rest_counts_from_the_foot_of_the_post(swing_angle):
 
 def test_slewing_the_whole_plan_turns_the_whole_answer():
     options = {"output_step": 0.5, **TIGHT}
-    straight = simulate(planned(), smooth_plan(), 80.0, swing_angle=0.05, **options)
-    turned = simulate(planned(), smooth_plan(2.3), 80.0, swing_angle=0.05, **options)
+    straight = simulate(planned(), smooth_plan(), 80.0, start=Start(along=0.05), **options)
+    turned = simulate(planned(), smooth_plan(2.3), 80.0, start=Start(along=0.05), **options)
     for name in ("sway_in_plane", "sway_lateral", "hoist_rope_force", "total_energy", "joint_torque"):
         assert peak(turned[name] - straight[name]) < 1e-9 * peak(straight[name])
     c, s = np.cos(2.3), np.sin(2.3)

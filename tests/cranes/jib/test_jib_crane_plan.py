@@ -19,6 +19,7 @@ from scipy.optimize import least_squares
 from towercrane.cranes.jib.linear import static_matrices
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.start import Start
 
 
 @pytest.fixture(scope="module")
@@ -97,7 +98,7 @@ def test_torques_at_a_jump_are_right_limits():
 
 
 def test_elevations_and_ways_of_swing_have_the_stated_signs():
-    turned = simulate(planned(), standing(slew=0.5 * np.pi), 0.1, output_step=0.1, swing_angle=0.2)
+    turned = simulate(planned(), standing(slew=0.5 * np.pi), 0.1, output_step=0.1, start=Start(along=0.2))
     assert_allclose(turned["sway_in_plane"][0], 0.2, rtol=1e-12)
     assert_allclose(turned["sway_lateral"][0], 0.0, atol=1e-15)
     reach = 15 * np.cos(0.6) + 10 * np.cos(0.4) + 20 * np.sin(0.2)

@@ -17,6 +17,8 @@ from towercrane.motions.motion import Motion, phases
 from towercrane.motions.profiles import smooth_ramps, trapezoid
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 TIGHT = {"rtol": 1e-11, "atol": 1e-13}
 G = 9.81
@@ -68,7 +70,7 @@ def test_small_sway_while_hoisting_is_the_bessel_solution():
     speed, start, angle = 0.2, 20.0, 1e-5
     motions, duration = hoisted(start, 4.0, speed)
     duration -= 0.5
-    result = simulate(planned(), motions, duration, output_step=0.5, swing_angle=angle, rtol=1e-12, atol=1e-18)
+    result = simulate(planned(), motions, duration, output_step=0.5, start=Start(along=angle), rtol=1e-12, atol=1e-18)
     length = result["rope_length"].values
 
     def basis(rope):
@@ -88,7 +90,7 @@ def test_small_sway_while_hoisting_is_the_bessel_solution():
 def test_rope_hauled_from_20_m_to_1_m():
     motions, duration = hoisted(20.0, 1.0, 0.2)
     motions["rope"] = Motion(np.array([0.0, duration + 1.0]), motions["rope"].coefficients)
-    result = simulate(planned(), motions, duration, output_step=0.01, swing_angle=0.1, rtol=1e-10, atol=1e-12)
+    result = simulate(planned(), motions, duration, output_step=0.01, start=Start(along=0.1), rtol=1e-10, atol=1e-12)
     assert result.attrs["outcome"] == "finished"
 
     def pendulum(t, y):
@@ -138,7 +140,7 @@ def test_one_hour_of_free_swing_keeps_the_rope_s_length_and_its_period():
     angle = np.radians(40)
     model = planned()
     cut = phases(tuple(standing()[channel] for channel in model.channels), 3600.0)
-    start = model.start(cut.inputs[0], "zero", angle)
+    start = begin(model, cut.inputs[0], Start("zero", along=angle))
     for rtol, stretch, loss in ((1e-6, 1e-5, 1e-3), (1e-9, 3e-9, 3e-7)):
         run = integrate(model.system, cut, start, np.linspace(3590, 3600, 41), rtol=rtol, atol=0.01 * rtol)
         assert peak(np.linalg.norm(run.states[:, :3], axis=1) - 1) < stretch
@@ -205,7 +207,7 @@ def test_impossible_arguments_are_refused():
     with pytest.raises(ValueError, match=r"TrackingJibCrane\.damping"):
         TrackingJibCrane(HEAVY, LOAD, 1.0, -1.0)
     with pytest.raises(ValueError, match="state: wanted"):
-        simulate(planned(), standing(), 1.0, state="bent")
+        simulate(planned(), standing(), 1.0, start=Start("bent"))
 
 
 def test_results_say_what_they_are():

@@ -15,6 +15,7 @@ from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import Motion, rest
 from towercrane.runs.run import run_case
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.start import Start
 
 SHIPPED = model_of(load_case("overhead-crane/hoist"))
 CRANE, LOAD = replace(SHIPPED.crane, bridge_damping_ratio=0.0), Load(SHIPPED.load.mass)
@@ -58,14 +59,14 @@ def test_shipped_runs_finish_and_keep_their_energy(name, gap):
 def test_energy_balances_with_every_drive_and_loss():
     motions = {"bridge": steady(5.0, 0.3, 0.2), "trolley": steady(4.0, -0.1, 0.08), "rope": steady(8.0, -0.4, 0.03)}
     lossy = model(Load(LOAD.mass, rope_damping=2e4, drag_area=20.0), bridge_damping_ratio=0.03)
-    result = run(lossy, motions, 15.0, swing_angle=0.4, state="zero", output_step=0.05)
+    result = run(lossy, motions, 15.0, start=Start("zero", along=0.4), output_step=0.05)
     assert abs(result["sway_along_bridge"]).max() > 0.01
     assert np.ptp(result["input_work"].values) > 1e5
     assert imbalance(result) < 1e-11
 
 
 def test_a_load_below_a_rail_is_a_pendulum():
-    result = run(model(), standing(0.0), 20.0, swing_angle=1.2, output_step=0.1)
+    result = run(model(), standing(0.0), 20.0, start=Start(along=1.2), output_step=0.1)
     exact = Pendulum(6.0, 1.2).direction(CRANE.gravity, result["time"].values)
     found = (result["payload_position"].values - [10.0, 0.0, CRANE.runway_height]) / 6.0
     assert_allclose(found, exact, rtol=0, atol=1e-9)
@@ -105,7 +106,7 @@ def test_a_stiffer_bridge_comes_to_the_pendulum_in_proportion():
 def test_bridge_let_fall_vibrates_as_one_mass_on_its_spring(place):
     # At mid-span the bridge would fall away from the load.
     rod = replace(model(), rope_as_rod=True)
-    result = run(rod, standing(place), 3.0, state="zero", output_step=0.01)
+    result = run(rod, standing(place), 3.0, start=Start("zero"), output_step=0.01)
     frequency, stiffness = bridge_frequency(place)
     shape = np.sin(np.pi * place / SPAN)
     weight = 2.0 / np.pi * CRANE.girder_mass + (CRANE.trolley_mass + LOAD.mass) * shape
@@ -116,7 +117,7 @@ def test_bridge_let_fall_vibrates_as_one_mass_on_its_spring(place):
 
 
 def test_a_bridge_that_falls_away_from_its_load_slackens_the_rope():
-    result = simulate(model(), standing(), 3.0, state="zero")
+    result = simulate(model(), standing(), 3.0, start=Start("zero"))
     assert (result.attrs["outcome"], result.attrs["end_time"]) == ("slack rope", 0.0)
 
 
@@ -175,7 +176,7 @@ def test_a_crane_at_rest_stands_on_its_rails_as_moments_say():
 
 def test_sways_are_those_of_the_line_from_trolley_to_load():
     motions = {"bridge": steady(5.0, 0.3, 0.2), "trolley": steady(4.0, 0.1, -0.08), "rope": rest(8.0)}
-    result = run(model(), motions, 3.0, swing_angle=0.3)
+    result = run(model(), motions, 3.0, start=Start(along=0.3))
     x, y, z = result["payload_position"].values.T
     down = CRANE.runway_height - result["trolley_drop"].values - z
     assert_allclose(result["sway_along_runway"], np.arctan2(x - result["bridge_position"], down), atol=1e-12)

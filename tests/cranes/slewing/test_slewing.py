@@ -25,6 +25,8 @@ from towercrane.cranes.slewing.outputs import point_of
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import trapezoid
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 KINDS = tuple(PARAMETERS)
 STILL = {"shaft": rest(0.0), "rope": rest(2.0)}
@@ -33,7 +35,11 @@ HOIST = sequence(rest(2.0, 2.0), trapezoid(2.0, 1.0, 0.3, 0.5), rest(1.0, 1.0), 
 
 def kicked(model: LumpedModel, swing_angle: float, size: float, ahead: float) -> np.ndarray:
     """Start with the load drawn outward and pushed ahead, and random rates of the structure."""
-    state, n, rates = model.start(inputs(), "zero", swing_angle), model.coordinates, (model.size - 1) // 2
+    state, n, rates = (
+        begin(model, inputs(), Start("zero", along=swing_angle)),
+        model.coordinates,
+        (model.size - 1) // 2,
+    )
     state[rates : rates + n] = size * np.random.default_rng(1).normal(size=n)
     state[rates + model.rope + 1] = ahead
     return state

@@ -15,6 +15,8 @@ from towercrane.cranes.slewing.model import LumpedModel
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import phases, rest
 from towercrane.motions.profiles import trapezoid
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 STILL = {"shaft": rest(0.0), "rope": rest(2.0)}
 
@@ -87,7 +89,7 @@ def arm_alone(inertia: float, stiffness: float) -> LumpedModel:
 def test_one_hour_of_free_swing_is_the_exact_pendulum():
     # In the jib's own plane nothing moves but the load: 60 degrees, some 1190 periods.
     model, amplitude = arm_alone(95.0, 750.0), np.radians(60)
-    start = model.start(phases((rest(0.0), rest(2.0)), 1.0).inputs[0], "equilibrium", amplitude)
+    start = begin(model, phases((rest(0.0), rest(2.0)), 1.0).inputs[0], Start("equilibrium", along=amplitude))
     trajectory, outputs, _ = run(model, STILL, 3600.0, start, step=1.0, rtol=1e-11)
     assert trajectory.outcome == "finished"
     k, omega = np.sin(amplitude / 2), np.sqrt(9.81 / 2.0)
@@ -98,7 +100,7 @@ def test_one_hour_of_free_swing_is_the_exact_pendulum():
 
 def test_one_hour_of_free_swing_in_space_keeps_its_energy():
     model = arm_alone(95.0, 20.0)
-    start = model.start(phases((rest(0.0), rest(2.0)), 1.0).inputs[0], "equilibrium", 0.8)
+    start = begin(model, phases((rest(0.0), rest(2.0)), 1.0).inputs[0], Start("equilibrium", along=0.8))
     start[model.size // 2 + 2] = 0.7
     trajectory, outputs, _ = run(model, STILL, 3600.0, start, step=1.0, rtol=1e-10)
     assert trajectory.outcome == "finished"
@@ -133,7 +135,7 @@ def test_small_swing_grows_as_the_rope_is_hauled_slowly():
     # Adiabatic invariant of the pendulum: energy over frequency, so the angle grows with length^(-3/4).
     model = arm_alone(95.0, 750.0)
     drive = {"shaft": rest(0.0), "rope": trapezoid(20.0, 1.0, 0.02, 0.001)}
-    start = model.start(phases((rest(0.0), rest(20.0)), 1.0).inputs[0], "equilibrium", 1e-3)
+    start = begin(model, phases((rest(0.0), rest(20.0)), 1.0).inputs[0], Start("equilibrium", along=1e-3))
     trajectory, outputs, _ = run(model, drive, 1000.0, start, step=0.1)
     assert trajectory.outcome == "finished"
     angle = abs(outputs["sway_radial"])

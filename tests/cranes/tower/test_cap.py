@@ -16,6 +16,7 @@ from towercrane.cranes.tower.modes.parameters import as_chain
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.start import Start
 
 CAP = 8.0
 
@@ -59,7 +60,7 @@ def test_a_capped_crane_keeps_its_energy(tower):
     if tower == "chain":
         crane = replace(crane, tower=as_chain(crane.tower))
     capped = in_plane(crane, model().load, 4, 6, cap=CAP, rope_as_rod=True)
-    run = simulate(capped, motions(), 60.0, state="zero", rtol=1e-10, atol=1e-12)
+    run = simulate(capped, motions(), 60.0, start=Start("zero"), rtol=1e-10, atol=1e-12)
     energy, work = run["total_energy"].values, run["input_work"].values
     assert run.attrs["outcome"] == "finished"
     assert abs(energy - energy[0] - work).max() < 1e-8 * np.ptp(energy)

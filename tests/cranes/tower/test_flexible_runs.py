@@ -23,6 +23,7 @@ from towercrane.motions.motion import phases, rest, sequence
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import evaluate, integrate
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.start import Start
 
 TIGHT = {"rtol": 1e-12, "atol": 1e-14}
 RINGING = {"tower": 1, "torsion": 1, "lateral": 2, "vertical": 2}
@@ -31,7 +32,7 @@ RINGING = {"tower": 1, "torsion": 1, "lateral": 2, "vertical": 2}
 def ringing(scene, motions):
     """Every coordinate away from the equilibrium with its drives held, load 29 degrees off the vertical."""
     rng, n = np.random.default_rng(3), scene.coordinates
-    state = space.start(scene, motions, swing_angle=0.5)
+    state = space.start(scene, motions, start=Start(along=0.5))
     state[:n] += 0.01 * scene.system.scale[:n] * rng.normal(size=n)
     state[n + 3 : 2 * n + 3] = 0.02 * scene.system.scale[:n] * rng.normal(size=n)
     return state
@@ -53,7 +54,7 @@ def course(scene, motions, state, duration, step=0.5):
 
 def test_crane_started_in_its_plane_stays_there_exactly_and_is_the_crane_of_the_plane():
     motions = {"trolley": trapezoid(5.0, 41.0, 0.8, 0.1), "rope": trapezoid(18.0, 12.0, 0.4, 0.2)}
-    options = {"output_step": 0.5, "swing_angle": 0.1, "rtol": 1e-11, "atol": 1e-13}
+    options = {"output_step": 0.5, "start": Start(along=0.1), "rtol": 1e-11, "atol": 1e-13}
     space_run = simulate(space.model(2, 1, 2, 3, load=800.0), motions | {"slewing": rest(0.0)}, 60.0, **options)
     plane_run = simulate(in_plane(space.CRANE, Load(800.0), 2, 3), motions, 60.0, **options)
     for name in (
@@ -80,7 +81,12 @@ def test_heading_does_not_change_the_motion_in_the_jibs_plane():
     motions = {"trolley": trapezoid(5.0, 25.0, 0.8, 0.2), "rope": rest(12.0)}
     runs = [
         simulate(
-            space.model(2, 1, 2, 2), motions | {"slewing": rest(a)}, 30.0, swing_angle=0.2, rtol=1e-11, atol=1e-13
+            space.model(2, 1, 2, 2),
+            motions | {"slewing": rest(a)},
+            30.0,
+            start=Start(along=0.2),
+            rtol=1e-11,
+            atol=1e-13,
         )
         for a in (0.0, 2.2)
     ]
@@ -119,7 +125,7 @@ def test_power_balance_with_every_drive_loss_and_wind():
     scene = space.model(2, 1, 2, 2, load=lossy, areas=areas, damping=damping, wind=True, weight_softening=True)
     rng = np.random.default_rng(2)
     motions = manoeuvre() | gusts(1.0, [12.0, 5.0, 0.0] + 3.0 * rng.normal(size=(40, 3)))
-    _, seen = course(scene, motions, space.start(scene, motions, swing_angle=0.3), 46.0)
+    _, seen = course(scene, motions, space.start(scene, motions, start=Start(along=0.3)), 46.0)
     assert imbalance(seen) < 1e-10
     assert abs(seen["input_work"][-1]) > 1e4
 
@@ -131,10 +137,10 @@ def test_power_balance_on_a_ground_that_moves_every_way():
     rng = np.random.default_rng(2)
     times = np.linspace(0.0, 20.0, 101)
     motions = manoeuvre() | earthquake(times, 0.8 * rng.normal(size=(101, 3)), 60.0)
-    _, seen = course(scene, motions, space.start(scene, motions, swing_angle=0.1), 30.0)
+    _, seen = course(scene, motions, space.start(scene, motions, start=Start(along=0.1)), 30.0)
     assert imbalance(seen) < 1e-10
     held = {name: rest(motion.end) if name.startswith("ground") else motion for name, motion in motions.items()}
-    _, still = course(scene, held, space.start(scene, held, swing_angle=0.1), 30.0)
+    _, still = course(scene, held, space.start(scene, held, start=Start(along=0.1)), 30.0)
     assert abs(seen["input_work"] - still["input_work"]).max() > 1e4
 
 

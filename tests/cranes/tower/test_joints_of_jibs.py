@@ -16,6 +16,8 @@ from towercrane.simulation.integrate import integrate
 from towercrane.simulation.lanes.many import integrate_many
 from towercrane.simulation.lanes.run import LaneRun
 from towercrane.simulation.simulate import record
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 END = 1.4
 PLANES = pytest.mark.parametrize("planar", [True, False], ids=["in the plane", "in space"])
@@ -41,7 +43,7 @@ def begun(planar):
     """Model, motions, phases and a state in which all moves."""
     crane, motions = model(planar), jointed.motions(planar)
     cut = phases(tuple(motions[channel] for channel in crane.channels), END)
-    state, n, rng = crane.start(cut.inputs[0], swing_angle=0.1), crane.coordinates, np.random.default_rng(3)
+    state, n, rng = begin(crane, cut.inputs[0], Start(along=0.1)), crane.coordinates, np.random.default_rng(3)
     state[n + crane.axes : 2 * n + crane.axes] = 0.05 * crane.system.scale[:n] * rng.normal(size=n)
     return crane, motions, cut, state
 
@@ -114,12 +116,12 @@ def test_energy_is_the_work_of_the_drives_past_joints(way, planar):
     duration = 2.0 if way.startswith(("in motion", "touching")) else 4.0
     cut = crane.system.crossings.cut(phases(tuple(motions[channel] for channel in crane.channels), duration))
     assert np.count_nonzero(np.diff(cut.inputs[:, -1, 0])) == joints
-    assert balance(crane, motions, duration, swing_angle=0.2, rtol=1e-11, atol=1e-13) < 1e-11
+    assert balance(crane, motions, duration, start=Start(along=0.2), rtol=1e-11, atol=1e-13) < 1e-11
 
 
 def balance(crane, motions, duration, **options):
     """Largest gap in the balance of energy, over what the energy changes by."""
-    run = record(crane, motions, duration, state="zero", **options)
+    run = record(crane, motions, duration, start=Start("zero"), **options)
     assert run.attrs["outcome"] == "finished"
     energy, work = (np.asarray(run[name].values) for name in ("total_energy", "input_work"))
     return float(np.max(abs(energy - energy[0] - work + work[0])) / np.ptp(energy))

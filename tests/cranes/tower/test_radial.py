@@ -14,8 +14,9 @@ from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.start import Start
 
-RUN_OPTIONS = ("state", "rtol", "atol", "output_step", "method")
+RUN_OPTIONS = ("start", "rtol", "atol", "output_step", "method")
 TIGHT = {"rtol": 1e-11, "atol": 1e-13}
 
 
@@ -39,7 +40,9 @@ def test_rigid_crane_is_the_nonlinear_pendulum_on_a_moving_winch(angle):
         "rope": sequence(rest(18, 10), trapezoid(18, 7, 0.6, 0.2), rest(7, 5), trapezoid(7, 15, 0.6, 0.1)),
     }
     # Coarse enough bounds for a slack rope are irrelevant here: the pendulum itself knows no tension.
-    result = simulate(model(0, 0, rope_as_rod=True), drives, 60.0, swing_angle=angle, output_step=0.25, **TIGHT)
+    result = simulate(
+        model(0, 0, rope_as_rod=True), drives, 60.0, start=Start(along=angle), output_step=0.25, **TIGHT
+    )
     switches = np.unique(np.r_[0.0, drives["trolley"].switch_times, drives["rope"].switch_times, 60.0])
     y, expected = np.array([angle, 0.0]), [[0.0, angle]]
     for start, stop in itertools.pairwise(switches):
@@ -109,7 +112,7 @@ def test_energy_balance_with_every_drive_and_every_loss_over_600_seconds():
 
 def test_undamped_free_vibration_keeps_its_energy():
     result = simulate(
-        model(2, 3), standing(20.0, 12.0), 120.0, swing_angle=0.5, output_step=0.5, rtol=1e-12, atol=1e-14
+        model(2, 3), standing(20.0, 12.0), 120.0, start=Start(along=0.5), output_step=0.5, rtol=1e-12, atol=1e-14
     )
     energy = result["total_energy"].values
     scale = 800 * 9.81 * 12 * (1 - np.cos(0.5))
@@ -117,7 +120,7 @@ def test_undamped_free_vibration_keeps_its_energy():
 
 
 def test_settings_of_the_source_pump_energy_and_the_default_does_not():
-    free = {"swing_angle": 0.02, "output_step": 1.0, "state": "zero"}
+    free = {"start": Start("zero", along=0.02), "output_step": 1.0}
     weightless = model(2, 3, self_weight=False, rope_as_rod=True)
 
     def gain(**solver):
@@ -169,7 +172,7 @@ def test_rope_length_hardly_moves_the_tower_and_mass_does():
 
 
 def test_slack_rope_ends_the_zero_start_of_condition_4():
-    result = condition(4, state="zero")
+    result = condition(4, start=Start("zero"))
     assert result.attrs["outcome"] == "slack rope"
     assert_allclose(result.attrs["end_time"], 17.5659, atol=2e-3)
     assert float(result["hoist_rope_force"].min()) > -1e-4
@@ -178,11 +181,11 @@ def test_slack_rope_ends_the_zero_start_of_condition_4():
 
 def test_parametric_resonance_of_condition_4_if_the_rope_could_push():
     # Structure at 0.312 Hz, pendulum at 0.158 Hz: two to one. It needs a tension below zero, down to -0.49 m g.
-    result = condition(4, state="zero", rope_as_rod=True)
+    result = condition(4, start=Start("zero"), rope_as_rod=True)
     assert result.attrs["outcome"] == "finished"
     assert_allclose(peak(result), 0.603, atol=2e-3)
     assert float(result["hoist_rope_force"].min()) < -0.45 * 800 * 9.81
-    assert peak(condition(3, state="zero", rope_as_rod=True)) < 0.030
+    assert peak(condition(3, start=Start("zero"), rope_as_rod=True)) < 0.030
 
 
 # --- outputs and tolerances ----------------------------------------------------------------------------
@@ -265,9 +268,9 @@ def test_slack_rope_of_a_falling_winch():
 
 
 def test_loose_tolerance_does_not_step_over_a_slack_rope():
-    tight = condition(4, 2, 3, state="zero")
+    tight = condition(4, 2, 3, start=Start("zero"))
     with pytest.warns(EnergyDriftWarning, match="loses energy"):
-        loose = condition(4, 2, 3, state="zero", rtol=1e-4, atol=1e-6)
+        loose = condition(4, 2, 3, start=Start("zero"), rtol=1e-4, atol=1e-6)
     assert loose.attrs["outcome"] == tight.attrs["outcome"] == "slack rope"
     assert_allclose(loose.attrs["end_time"], tight.attrs["end_time"], atol=1e-3)
     assert float(loose.time[-1]) == loose.attrs["end_time"]

@@ -11,6 +11,7 @@ from towercrane.cranes.tower.equations.small_motions import plane_modes
 from towercrane.cranes.tower.file.build import frame_of
 from towercrane.kernels.payload import Load
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.start import Start
 from towercrane.simulation.system import NoEquilibrium
 
 # --- equilibrium ---------------------------------------------------------------------------------------
@@ -58,7 +59,7 @@ def test_buckling_tower_is_named_with_its_load_factor():
         plane_modes(slender, 20.0, 18.0)
     result = simulate(slender, standing(20.0, 18.0), 10.0)
     assert (result.attrs["outcome"], result.attrs["end_time"]) == ("tower buckled", 0.0)
-    falling = simulate(slender, standing(20.0, 18.0), 100.0, state="zero")
+    falling = simulate(slender, standing(20.0, 18.0), 100.0, start=Start("zero"))
     assert falling.attrs["outcome"] in ("tower buckled", "slack rope")
     assert 0.0 < falling.attrs["end_time"] < 100.0
 
@@ -120,7 +121,7 @@ def test_small_swing_has_the_linear_frequency():
         model(2, 3, self_weight=False),
         standing(20.0, 18.0),
         200.0,
-        swing_angle=1e-4,
+        start=Start(along=1e-4),
         output_step=0.01,
         rtol=1e-11,
     )

@@ -13,6 +13,7 @@ from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.outcomes import SLACK_TIE
 from towercrane.simulation.simulate import simulate
+from towercrane.simulation.starts.start import Start
 
 MOTIONS = {
     "trolley": trapezoid(14.0, 47.0, 1.2, 0.3),
@@ -37,7 +38,7 @@ def test_energy_of_a_manoeuvre_is_what_drives_put_in():
 def test_a_slack_tie_ends_the_run():
     """A heavy load far out, dropped into its rope, throws the jib up at the tie within it."""
     model = sample.model(load=12000.0, vertical=1, back=0, lateral=0, planes=1, axes=2, slewing="fixed")
-    run = simulate(model, {"trolley": rest(58.0), "rope": rest(10.0)}, 4.0, output_step=0.02, state="zero")
+    run = simulate(model, {"trolley": rest(58.0), "rope": rest(10.0)}, 4.0, output_step=0.02, start=Start("zero"))
     assert run.attrs["outcome"] == SLACK_TIE
     assert abs(float(run["jib_tie_1_tension"][-1])) < 1e-3
     assert float(run["jib_tie_2_tension"].min()) > 1.6e5

@@ -46,7 +46,7 @@ def scene(name, options):
 
 def drawn(model, inputs, rng):
     """A state at random about the start, its directions turned anywhere, and a time."""
-    state = model.start(inputs, "zero", 0.0)
+    state = model.start(inputs, "zero")
     state = state + 0.05 * rng.normal(size=state.size)
     for first, rate, axes in model.system.directions:
         direction, turning = rng.normal(size=(2, axes))

@@ -35,7 +35,7 @@ REFERENCE = Setting(tower_modes=10, jib_vertical_modes=14, planar=True, rtol=1e-
 CAPPED_REFERENCE = replace(REFERENCE, rtol=1e-6, atol=1e-9)
 """For positions, in which modes far above those that are never capped are not seen to vibrate."""
 
-REFERENCE_CAPS = {"equilibrium": (40.0, 5.0), "zero": (150.0, 12.0)}
+REFERENCE_CAPS = {"equilibrium": (40.0, 5.0), "quiet": (40.0, 5.0), "zero": (150.0, 12.0)}
 """Least cap of that [Hz], and over the fastest of those modes, by start: a crane let fall rings all its modes."""
 
 CYCLES = 1e4
@@ -123,7 +123,7 @@ def reference_of(scene: Scene, *, tension: bool) -> Setting:
     if tension:
         return REFERENCE
     free = free_frequency(Indicators(scene))
-    least, factor = REFERENCE_CAPS[scene.state]
+    least, factor = REFERENCE_CAPS[scene.start.state]
     return replace(CAPPED_REFERENCE, cap=max(least, factor * free))
 
 

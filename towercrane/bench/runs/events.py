@@ -87,8 +87,8 @@ def _run(scene: EventScene, method: str, rtol: float) -> Recording:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         found = record(
-            scene.model, scene.motions, scene.duration, output_step=TICK, state=scene.state,
-            swing_angle=scene.swing_angle, method=method, rtol=rtol, atol=1e-2 * rtol,
+            scene.model, scene.motions, scene.duration, output_step=TICK, start=scene.start,
+            method=method, rtol=rtol, atol=1e-2 * rtol,
         )  # fmt: skip
     if found.attrs["outcome"] == INTERRUPTED:
         raise KeyboardInterrupt

@@ -15,6 +15,8 @@ from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.motions.motion import phases, rest
 from towercrane.simulation.integrate import evaluate, integrate
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -84,7 +86,7 @@ def _run(modes: tuple[int, int], span: float) -> Callable[[], Any]:
         load_case("qtz5613/condition-3").tables(TowerCase), tower_modes=modes[0], jib_vertical_modes=modes[1]
     )
     cut = phases((rest(23.0), rest(18.0)), span)
-    start, grid = model.start(cut.inputs[0], "zero", 0.1), np.linspace(0.0, span, round(20 * span) + 1)
+    start, grid = begin(model, cut.inputs[0], Start("zero", along=0.1)), np.linspace(0.0, span, round(20 * span) + 1)
     return lambda: whole(integrate(unwatched(model.system), cut, start, grid, rtol=RTOL, atol=1e-2 * RTOL))
 
 

@@ -17,6 +17,7 @@ from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import s_curve, smooth_ramps, table, trapezoid
 from towercrane.motions.shaping import minimum_jerk
+from towercrane.simulation.starts.start import Start
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -69,8 +70,10 @@ def _scene(rng: Generator) -> Scene:
         load=_load(rng, crane),
         motions={"trolley": _travel(rng, crane.jib.length, 1.5), "rope": hoist},
         duration=float(np.round(rng.uniform(20.0, 150.0))),
-        state="zero" if begin.let_go else "equilibrium",
-        swing_angle=float(rng.uniform(0.01, 0.35) * rng.choice([-1.0, 1.0])) if begin.swings else 0.0,
+        start=Start(
+            "zero" if begin.let_go else "equilibrium",
+            float(rng.uniform(0.01, 0.35) * rng.choice([-1.0, 1.0])) if begin.swings else None,
+        ),
         planar=True,
         damping=ModalDamping(tower=ratio, vertical=ratio),
         # A whole crane let fall would leave its rope slack at once.
@@ -106,7 +109,7 @@ def _space_scene(rng: Generator) -> Scene:
         load=load,
         motions=motions,
         duration=float(np.round(rng.uniform(20.0, 80.0))),
-        swing_angle=float(rng.uniform(0.01, 0.25) * rng.choice([-1.0, 1.0])) if swinging else 0.0,
+        start=Start(along=float(rng.uniform(0.01, 0.25) * rng.choice([-1.0, 1.0])) if swinging else None),
         rope_as_rod=bool(rng.random() < 0.2),
         damping=ModalDamping(*ratios),
         drive=drive,

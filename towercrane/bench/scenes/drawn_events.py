@@ -27,6 +27,7 @@ from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import speed_trapezoid
+from towercrane.simulation.starts.start import Start
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -48,8 +49,7 @@ class EventScene:
     model: Model
     motions: dict[str, Motion]
     duration: float
-    state: str
-    swing_angle: float
+    start: Start
 
 
 def event_scenes(count: int, seed: int) -> Iterator[EventScene]:
@@ -59,8 +59,8 @@ def event_scenes(count: int, seed: int) -> Iterator[EventScene]:
         kind = SCENE_KINDS[number % len(SCENE_KINDS)]
         model, motions = _MAKERS[kind](rng)
         state = "zero" if rng.random() < 0.2 else "equilibrium"
-        swing = float(rng.uniform(-1.7, 1.7)) if rng.random() < 0.3 else 0.0
-        yield EventScene(kind, model, motions, _ticks(rng, 4, 12), state, swing)
+        swing = float(rng.uniform(-1.7, 1.7)) if rng.random() < 0.3 else None
+        yield EventScene(kind, model, motions, _ticks(rng, 4, 12), Start(state, swing))
 
 
 def _ticks(rng: np.random.Generator, low: int, high: int) -> float:

@@ -19,6 +19,8 @@ from towercrane.simulation.integrate import integrate
 from towercrane.simulation.methods.method import ATOL_SHARE
 from towercrane.simulation.observed import Instant
 from towercrane.simulation.outcomes import FINISHED
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import Start
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -50,7 +52,7 @@ class FreeVibration:
     def run(self, method: str, rtol: float, span: float, step: float = 1.0) -> Trajectory:
         """Run over ``span`` seconds with rows ``step`` apart."""
         cut = phases((self.motions["trolley"], self.motions["rope"]), span)
-        start = self.model.start(cut.inputs[0], "zero", SWING)
+        start = begin(self.model, cut.inputs[0], Start("zero", along=SWING))
         grid = np.linspace(0.0, span, round(span / step) + 1)
         with np.errstate(all="ignore"):  # A run that blows up says so by its outcome.
             return whole(

@@ -149,7 +149,7 @@ def lumped_scene(kind: str) -> Scene:
     rope: int = model.rope  # type: ignore[attr-defined]
     return Scene(
         kind, f"Example 1 of the slewing crane, {kind} model, {loaded.run.duration:g} s",
-        unwatched(model.system), cut, model.start(cut.inputs[0], "equilibrium", 0.0),
+        unwatched(model.system), cut, model.start(cut.inputs[0]),
         np.arange(0.0, loaded.run.duration, 0.01),
         lambda states: states[:, rope : rope + 2], "the rope's direction",
     )  # fmt: skip
@@ -160,7 +160,7 @@ def jib_scene() -> Scene:
     loaded = load_case("jib-crane/combined")
     model = model_of(loaded)
     cut = phases(tuple(motions_of(loaded)[channel] for channel in model.channels), loaded.run.duration)
-    start = model.start(cut.inputs[0], "equilibrium", 0.0)
+    start = model.start(cut.inputs[0])
     return Scene(
         "jib", f"Jib crane: slewing, luffing, folding and hoisting at once, {loaded.run.duration:g} s",
         unwatched(model.system), cut, start, np.linspace(0.0, loaded.run.duration, 2401),

@@ -16,6 +16,7 @@ from towercrane.cranes.jib import equations
 from towercrane.cranes.jib.model import PlannedJibCrane
 from towercrane.cranes.jib.outputs import SWAY_ABOUT, Seen, sway_outputs
 from towercrane.simulation.observed import observe
+from towercrane.simulation.starts.start import OUT_OF_PLANE
 from towercrane.simulation.system import System
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ class LinearSway:
     outputs = staticmethod(sway_outputs)
     about = SWAY_ABOUT
     observe = observe
+    sways = OUT_OF_PLANE
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -72,10 +74,21 @@ class LinearSway:
             constants=equations.Constants(self.crane, self.load, heave=self.heave),
         )
 
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+    def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State at rest; arguments as of :meth:`towercrane.cranes.jib.model.PlannedJibCrane.start`."""
-        hanging = self._planned.start(inputs, state, swing_angle)
-        return np.array([hanging[0], hanging[1], 0.0, 0.0])
+        return np.zeros_like(self._planned.start(inputs, state)[:4])
+
+    def rope_direction(self, state: Floats, _inputs: Floats) -> Floats:
+        """Unit vector from where the rope hangs to the load; shape (3,)."""
+        return np.array([*state[:2], -np.sqrt(1.0 - state[:2] @ state[:2])])
+
+    def hang(self, _state: Floats, _inputs: Floats, direction: Floats, rate: Floats) -> Floats:
+        """State with the load along a direction."""
+        return np.concatenate([direction[:2], rate[:2]])
+
+    def jib_heading(self, _state: Floats, inputs: Floats) -> float:
+        """Slewing angle of the booms [rad]."""
+        return float(inputs[0, 0])
 
     @property
     def seen(self) -> Seen:

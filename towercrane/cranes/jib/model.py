@@ -20,6 +20,8 @@ from towercrane.cranes.jib.outputs import ABOUT, Seen, driven_outputs, planned_o
 from towercrane.kernels.payload import SLACK
 from towercrane.simulation.observed import observe
 from towercrane.simulation.outcomes import SLACK_ROPE
+from towercrane.simulation.starts.start import OUT_OF_PLANE
+from towercrane.simulation.starts.turning import Turning
 from towercrane.simulation.system import System, check_start
 
 if TYPE_CHECKING:
@@ -60,6 +62,7 @@ class JibModel:
 
     about = ABOUT
     observe = observe
+    sways = OUT_OF_PLANE
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -109,6 +112,10 @@ class JibModel:
             directions=np.array([(*rope, equations.AXES) for rope in ropes]),
         )
 
+    def jib_heading(self, _state: Floats, inputs: Floats) -> float:
+        """Slewing angle of the booms [rad]."""
+        return float(inputs[0, 0])
+
     def provenance(self) -> dict[str, Any]:
         """Crane and load, for a result's attributes."""
         return {"crane": self.crane.name, "payload_mass": self.load.mass, "gravity": self.crane.gravity}
@@ -132,13 +139,14 @@ class PlannedJibCrane(JibModel):
     """
 
     outputs = staticmethod(planned_outputs)
+    turning = Turning(((0, 1), (equations.AXES, equations.AXES + 1)), (), 0)
 
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
         return self.make_system(equations.planned, (2 * equations.AXES,), ((0, equations.AXES),))
 
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+    def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State in which the load hangs at rest in inertial axes.
 
         Parameters
@@ -147,8 +155,6 @@ class PlannedJibCrane(JibModel):
             Polynomials of the first phase.
         state : str
             "equilibrium" or "zero", the same for rigid booms.
-        swing_angle : float
-            In-plane angle of the rope from the vertical, positive outward [rad].
 
         Returns
         -------
@@ -159,7 +165,7 @@ class PlannedJibCrane(JibModel):
         ValueError
             If the state is not one of the two.
         """
-        return np.concatenate([hanging(float(inputs[0, 0]), state, swing_angle), np.zeros(equations.AXES + 1)])
+        return np.concatenate([hanging(state), np.zeros(equations.AXES + 1)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,19 +213,21 @@ class DrivenJibCrane(JibModel):
         """The model as the solver sees it."""
         return self.make_system(equations.driven, (equations.PLAN - 1,), (DRIVEN_ROPE,))
 
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+    def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State at the start angles with the load at rest; arguments as of :meth:`PlannedJibCrane.start`."""
-        return driven_start(self.start_angles, self.start_rates, state, swing_angle)
+        return driven_start(self.start_angles, self.start_rates, state)
+
+    def jib_heading(self, state: Floats, _inputs: Floats) -> float:
+        """Slewing angle of the booms [rad]."""
+        return float(state[0])
 
 
-def hanging(slew: float, state: str, swing_angle: float) -> Floats:
-    """Direction of a rope that hangs in the booms' plane; shape (3,)."""
+def hanging(state: str) -> Floats:
+    """Direction of a rope that hangs; shape (3,)."""
     check_start(state)
-    outward = np.sin(swing_angle)
-    return np.array([outward * np.cos(slew), outward * np.sin(slew), -np.cos(swing_angle)])
+    return np.array([0.0, 0.0, -1.0])
 
 
-def driven_start(angles: ArrayLike, rates: ArrayLike, state: str, swing_angle: float) -> Floats:
+def driven_start(angles: ArrayLike, rates: ArrayLike, state: str) -> Floats:
     """State (theta, n, theta', p, work) with the load at rest."""
-    theta = np.asarray(angles, dtype=float)
-    return np.concatenate([theta, hanging(theta[0], state, swing_angle), rates, np.zeros(equations.AXES + 1)])
+    return np.concatenate([np.asarray(angles, dtype=float), hanging(state), rates, np.zeros(equations.AXES + 1)])

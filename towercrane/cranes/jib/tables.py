@@ -8,6 +8,8 @@ from pydantic import Field
 
 from towercrane.cranes.parts.tables import CaseTable, CraneTable, StartTable
 from towercrane.schema.fields import (
+    AngleIfAny,
+    EitherTurning,
     Inertia,
     Length,
     MassPerLength,
@@ -53,6 +55,10 @@ class JibStart(StartTable):
     """Initial state of a jib crane, whose booms go where their joints do."""
 
     state: Literal["equilibrium"] = "equilibrium"
+    sway_in_plane: AngleIfAny = None
+    sway_lateral: AngleIfAny = None
+    sway_in_plane_rate: EitherTurning = 0.0
+    sway_lateral_rate: EitherTurning = 0.0
 
 
 class JibCase(CaseTable):

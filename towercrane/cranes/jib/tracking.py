@@ -67,8 +67,7 @@ class TrackingJibCrane(JibModel):
         works = (equations.PLAN - 1, equations.PLAN + 2 * equations.AXES)
         return self.make_system(equations.tracking, works, ropes, (f"{SLACK_ROPE} in the plan",))
 
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+    def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State on the plan with both loads at rest; arguments as of :meth:`PlannedJibCrane.start`."""
-        angles, rates = inputs[: equations.JOINTS, 0], inputs[: equations.JOINTS, 1]
-        crane = driven_start(angles, rates, state, swing_angle)
-        return np.concatenate([crane, hanging(float(angles[0]), state, swing_angle), np.zeros(equations.AXES + 1)])
+        crane = driven_start(inputs[: equations.JOINTS, 0], inputs[: equations.JOINTS, 1], state)
+        return np.concatenate([crane, hanging(state), np.zeros(equations.AXES + 1)])

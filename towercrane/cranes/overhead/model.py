@@ -86,7 +86,7 @@ class OverheadModel:
             fastest=lambda: crane.frequency,
         )  # fmt: skip
 
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
+    def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State in which bridge and load are at rest.
 
         Parameters
@@ -95,8 +95,6 @@ class OverheadModel:
             Polynomials of the first phase.
         state : str
             "equilibrium" under all weights, or "zero", the bridge straight.
-        swing_angle : float
-            Angle of the rope from the vertical, positive along the runway [rad].
 
         Returns
         -------
@@ -111,8 +109,7 @@ class OverheadModel:
         y = np.zeros(equations.SIZE)
         if state == "equilibrium":
             y[equations.UPLIFT] = self.crane.uplift_at_rest(inputs[equations.TROLLEY, 0], self.load.mass)
-        direction = np.sin(swing_angle), 0.0, -np.cos(swing_angle)
-        y[equations.ROPE_DIRECTION : equations.ROPE_DIRECTION + equations.AXES] = direction
+        y[equations.ROPE_DIRECTION + equations.AXES - 1] = -1.0
         return y
 
     @property

@@ -6,8 +6,10 @@ from typing import Literal
 
 from pydantic import Field
 
-from towercrane.cranes.parts.tables import CaseTable, CraneTable, Start
+from towercrane.cranes.parts.tables import CaseTable, CraneTable, StartTable
 from towercrane.schema.fields import (
+    AngleIfAny,
+    EitherTurning,
     Length,
     Mass,
     MassOrNone,
@@ -61,9 +63,19 @@ class OverheadMotions(Table):
     hoist: HoistMotion | None = None
 
 
+class OverheadStart(StartTable):
+    """Initial state of an overhead crane."""
+
+    state: Literal["equilibrium", "quiet", "zero"] = "equilibrium"
+    sway_along_runway: AngleIfAny = None
+    sway_along_bridge: AngleIfAny = None
+    sway_along_runway_rate: EitherTurning = 0.0
+    sway_along_bridge_rate: EitherTurning = 0.0
+
+
 class OverheadCase(CaseTable):
     """Case of an overhead crane, whose outward is along the runway."""
 
     crane: OverheadCrane
     motion: OverheadMotions
-    start: Start = Field(default_factory=Start)
+    start: OverheadStart = Field(default_factory=OverheadStart)

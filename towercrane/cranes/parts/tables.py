@@ -8,8 +8,9 @@ from pydantic import Field
 
 from towercrane.schema.fields import (
     Acceleration,
-    Angle,
+    AngleIfAny,
     Corner,
+    EitherTurning,
     Expect,
     HingeDamping,
     Payload,
@@ -33,16 +34,24 @@ class CraneTable(Table):
 
 
 class StartTable(Table):
-    """Initial state; the angle is the rope's from the vertical, positive outward."""
+    """Initial state; sways and their rates are named as the outputs are, as which they begin."""
 
     state: str = "equilibrium"
-    swing_angle: Angle = 0.0
 
 
-class Start(StartTable):
-    """Initial state of a crane that hangs still, or of one that is let go undeformed."""
+class SwayStart(StartTable):
+    """Initial state of a crane with a jib; what is not stated of the sway is as it hangs."""
 
-    state: Literal["equilibrium", "zero"] = "equilibrium"
+    sway_radial: AngleIfAny = None
+    sway_tangential: AngleIfAny = None
+    sway_radial_rate: EitherTurning = 0.0
+    sway_tangential_rate: EitherTurning = 0.0
+
+
+class Start(SwayStart):
+    """Initial state of a crane that hangs still, whose load swings, or that is let go undeformed."""
+
+    state: Literal["equilibrium", "quiet", "zero"] = "equilibrium"
 
 
 class CaseTable(Table):
@@ -53,7 +62,7 @@ class CaseTable(Table):
     payload: Payload
     rope: Rope
     motion: Table
-    start: StartTable = Field(default_factory=Start)
+    start: StartTable = Field(default_factory=StartTable)
     run: Run
     solver: Solver = Field(default_factory=Solver)
     allow_implausible: tuple[str, ...] = ()

@@ -17,6 +17,7 @@ from towercrane.kernels.straight.leaves import place_of
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, UNSTABLE
+from towercrane.simulation.starts.turning import Turning
 from towercrane.simulation.system import NoEquilibrium, System, check_start
 
 if TYPE_CHECKING:
@@ -161,8 +162,8 @@ class LumpedSystem:
         carried = [self.load.mass * np.outer(along, along) for along in loads]
         return float(np.sqrt(max(eigh(stiffness, mass + own, eigvals_only=True)[-1] for own in carried)))
 
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
-        """State at rest at the start: "equilibrium", or "zero" with all weights on; swing positive outward.
+    def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
+        """State at rest, the load hanging at rest: "equilibrium", or "zero" with all weights on.
 
         Returns
         -------
@@ -179,11 +180,29 @@ class LumpedSystem:
         n, y = self.coordinates, np.zeros(self.size)
         y[:n] = self.equilibrium(inputs) if state == "equilibrium" else self.undeformed(inputs)
         if self.elastic and state == "equilibrium":
-            y[n] = self.load.mass * self.crane.gravity * np.cos(swing_angle) / self.crane.rope_stiffness
-        heading = y[self.crane.coordinates.index(self.crane.jib_angle)]
-        sideways = np.sin(swing_angle)
-        y[self.rope : self.rope + 3] = sideways * np.cos(heading), sideways * np.sin(heading), -np.cos(swing_angle)
+            y[n] = self.load.mass * self.crane.gravity / self.crane.rope_stiffness
+        y[self.rope + 2] = -1.0
         return y
+
+    def hang(self, state: Floats, _inputs: Floats, direction: Floats, rate: Floats) -> Floats:
+        """The state with its load along another direction, an elastic rope stretched by the part of the weight
+        along it."""
+        found, moved = np.array(state), self.size // 2 + self.rope
+        found[self.coordinates : self.rope] *= direction[2] / state[self.rope + 2]
+        found[self.rope : self.rope + 3], found[moved : moved + 3] = direction, rate
+        return found
+
+    def jib_heading(self, state: Floats, _inputs: Floats) -> float:
+        """Angle of the jib from the fixed x axis [rad]."""
+        return float(state[self.crane.coordinates.index(self.crane.jib_angle)])
+
+    @cached_property
+    def turning(self) -> Turning:
+        """What turns with the platform."""
+        rates = self.size // 2
+        angles = [i for i, name in enumerate(self.crane.coordinates) if name in self.crane.angles]
+        vectors = (self.rope, self.rope + 1), (rates + self.rope, rates + self.rope + 1)
+        return Turning(vectors, angles, equations.SHAFT)
 
     def undeformed(self, inputs: Floats) -> Floats:
         """Coordinates that stretch no spring and do not twist the drive's coupling; shape (n,)."""

@@ -215,7 +215,7 @@ def _queue(
     found: dict[tuple[Any, ...], tuple[Floats, int]] = {}
     for number, run in enumerate(runs):
         data = run.start_inputs, run.model.system.numbers
-        key = (run.state, run.swing_angle, *(array.tobytes() for array in data))
+        key = (run.begins, *(array.tobytes() for array in data))
         if key not in found:
             state, refusal = run.start()
             found[key] = state, NO_START if refusal else WAITING

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.start import HANGING, Start
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
@@ -33,18 +35,14 @@ class LaneRun:
         Of the kind of crane that shares the lanes.
     phases : Phases
         Its motions.
-    state : str
-        "equilibrium" or "zero", as the model's start takes it.
-    swing_angle : float
-        Rope's angle from the vertical at the start [rad].
+    begins : Start
     means : mapping of int to float
         Channels that a start knows by their mean, see :func:`towercrane.simulation.system.start_inputs`.
     """
 
     model: LaneModel
     phases: Phases
-    state: str = "equilibrium"
-    swing_angle: float = 0.0
+    begins: Start = HANGING
     means: Mapping[int, float] = field(default_factory=dict)
 
     def cut(self) -> LaneRun:
@@ -65,6 +63,6 @@ class LaneRun:
         """State at the start, and the outcome of a run that has no equilibrium to start from, else nothing."""
         inputs = self.start_inputs
         try:
-            return self.model.start(inputs, self.state, self.swing_angle), ""
+            return begin(self.model, inputs, self.begins), ""
         except NoEquilibrium as failure:
-            return self.model.start(inputs, "zero", self.swing_angle), failure.outcome
+            return begin(self.model, inputs, replace(self.begins, state="zero")), failure.outcome

@@ -11,7 +11,7 @@ import numpy as np
 from towercrane.cranes.parts.corner import Corner
 from towercrane.cranes.tower.equations import motion
 from towercrane.cranes.tower.equations.actions.wind import winds_of
-from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, Constants, constants_of
+from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TURN, Constants, constants_of
 from towercrane.cranes.tower.equations.coordinates import Coordinates
 from towercrane.cranes.tower.equations.joints import Joints
 from towercrane.cranes.tower.equations.matrices import geometric_stiffness, scale, softening, stiffness
@@ -20,6 +20,7 @@ from towercrane.kernels.payload import SLACK, Load, State, Structure
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB
+from towercrane.simulation.starts.turning import Turning
 from towercrane.simulation.system import NoEquilibrium, System, check_start
 
 if TYPE_CHECKING:
@@ -103,8 +104,8 @@ class Equations(Coordinates):
         )
         return other
 
-    def start(self, inputs: Floats, state: str = "equilibrium", swing_angle: float = 0.0) -> Floats:
-        """State at rest at the start.
+    def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
+        """State at rest, the load hanging at rest.
 
         Parameters
         ----------
@@ -113,8 +114,6 @@ class Equations(Coordinates):
             :func:`towercrane.simulation.system.start_inputs`.
         state : str
             "equilibrium" (the static solution, in the wind) or "zero" (undeformed, all weights on, in still air).
-        swing_angle : float
-            Turn of the rope in the vertical plane of the head from where it would hang, positive outward [rad].
 
         Returns
         -------
@@ -129,22 +128,33 @@ class Equations(Coordinates):
         """
         check_start(state)
         n, y = self.coordinates, np.zeros(self.size)
-        heading = 0.0 if self.slewing == "fixed" else float(inputs[SLEWING, 0])
         y[:n] = self.undeformed(inputs)
-        hung, outward = -np.eye(self.axes)[-1], np.zeros(self.axes)
+        hung = -np.eye(self.axes)[-1]
         if state == "equilibrium":
             y[:n] = self.equilibrium(inputs)
             *_, air = winds_of(self.constants, [[value] for value in inputs[:, 0]])
             force = np.array(load_force(self.constants, [air[k] for k in self.constants.fixed_axes]))
             # Without weight and wind any direction will do.
             hung = force / np.linalg.norm(force) if force.any() else hung
-        outward[: self.axes - 1] = np.array([np.cos(heading), np.sin(heading)])[: self.axes - 1]
-        along, rise = hung @ outward, hung[-1]
-        c, s = np.cos(swing_angle), np.sin(swing_angle)
-        hung += (along * (c - 1.0) - rise * s) * outward
-        hung[-1] = rise * c + along * s
         y[n : n + self.axes] = hung
         return y
+
+    def jib_heading(self, state: Floats, inputs: Floats) -> float:
+        """Angle from the first axis of the coordinates to the jib's root [rad]."""
+        given = float(inputs[SLEWING, 0]) if self.slewing == "prescribed" else 0.0
+        n = self.constants.movers
+        return given + float(self.constants.motions[TURN, :n] @ state[:n])
+
+    @cached_property
+    def turning(self) -> Turning | None:
+        """What turns with the head, where a motion turns it."""
+        if self.slewing == "fixed" or self.counts["tower_x"] != self.counts["tower_y"]:
+            return None
+        n, parts, half = self.coordinates, self.parts, self.size // 2
+        x, y = (range(parts[kind].start, parts[kind].stop) for kind in ("tower_x", "tower_y"))
+        places = [*zip(x, y, strict=True), (n, n + 1)]
+        rates = [(half + one, half + other) for one, other in places]
+        return Turning((*places, *rates), range(parts["slewing"].start, parts["slewing"].stop), SLEWING)
 
     def equilibrium(self, inputs: Floats) -> Floats:
         """Coordinates at rest under all weights and the wind; shape (coordinates,).

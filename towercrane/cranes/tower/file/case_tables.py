@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from modal.elements.beam_elements import MOST_ELEMENTS
-from towercrane.cranes.parts.tables import CaseTable, StartTable
+from towercrane.cranes.parts.tables import CaseTable, SwayStart
 from towercrane.cranes.tower.file.luffing_tables import without_trolley
 from towercrane.cranes.tower.file.tables import Crane  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.targets import ALL, FORETOLD, MOTIONS
@@ -99,10 +99,10 @@ class Earthquake(Table):
     floors: tuple[FileName, ...] = ()
 
 
-class Start(StartTable):
-    """Initial state of a tower crane; its equilibrium is that in the wind's mean, the angle counts from there."""
+class Start(SwayStart):
+    """Initial state of a tower crane; its equilibrium is that in the wind's mean."""
 
-    state: Literal["equilibrium", "zero", "zero-no-self-weight"] = "equilibrium"
+    state: Literal["equilibrium", "quiet", "zero", "zero-no-self-weight"] = "equilibrium"
 
 
 class ModesRequest(Table):

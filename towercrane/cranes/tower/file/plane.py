@@ -31,11 +31,13 @@ def stays_in_plane(tables: TowerCase) -> bool:
 def heading_of(tables: TowerCase) -> float | None:
     """Angle from the fixed x axis at which the jib stands all through a run [rad].
 
-    None where crane and load leave the jib's plane: where the head turns within the run, a wind blows across the jib,
-    or the ground moves across it. What a CSV file holds is not known here: its turn or its gusts leave the plane, and
-    so does each axis of an earthquake that acts.
+    None where crane and load leave the jib's plane: where the head turns within the run, the load swings across the
+    jib at the start, a wind blows across it, or the ground moves across it. What a CSV file holds is not known here:
+    its turn or its gusts leave the plane, and so does each axis of an earthquake that acts.
     """
     turn, wind = tables.motion.slewing or tables.motion.shaft, tables.wind
+    if tables.start.sway_tangential or tables.start.sway_tangential_rate:
+        return None
     blows = wind is not None and bool(wind.series or wind.speed)
     pushed = [None if wind is None or wind.series else wind.direction] if blows else []
     shaken = tables.earthquake.axes if tables.earthquake is not None else ()
@@ -48,6 +50,8 @@ def heading_written(tree: dict[str, Any]) -> float | None:
     try:
         turn = reader(JointMotion).validate_python(written) if isinstance(written, dict) else None
     except ValidationError:
+        return None
+    if any(si_at(tree, f"start.sway_tangential{end}", unit, 0.0) for end, unit in (("", "rad"), ("_rate", "rad/s"))):
         return None
     series = at(tree, "wind.series")
     blows = bool(series) or si_at(tree, "wind.speed", "m/s", 0.0) != 0.0

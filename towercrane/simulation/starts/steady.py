@@ -1,0 +1,212 @@
+"""States at rest as a turning head sees them: steady rotations, and a structure that is quiet while its load swings.
+
+A scene that is turned about the vertical goes on alike. So a state y turns steadily at the rate W where y' = W G(y),
+with G its derivative per angle of a turn, see :class:`towercrane.simulation.starts.turning.Turning`: rates are W G of
+places, and the slopes of rates less W G of them vanish. That is so for every crane, whatever its coordinates are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.simulation.differences import jacobian
+from towercrane.simulation.equilibrium import MOST_STEPS, SETTLED
+from towercrane.simulation.outcomes import UNSTABLE
+from towercrane.simulation.system import NoEquilibrium
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.simulation.starts.turning import Turning
+    from towercrane.simulation.system import Model
+
+    Floats = NDArray[np.float64]
+
+SPEEDS = 8
+"""Equal steps from rest to the rate of a steady rotation."""
+
+BALANCED = 1e-9
+"""Acceleration that is left over, relative to the terms that cancel in it."""
+
+GROWING = 1e-6
+"""Rate at which departures grow, relative to the fastest of their motions, that is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Axes that turn with the head, whose drives are held but for the one that turns it.
+
+    Parameters
+    ----------
+    turning : Turning, optional
+        Without, nothing turns.
+    spin : float
+        [rad/s]
+    inputs : ndarray, shape (channels, k)
+        Polynomials of the channels at rest.
+    """
+
+    turning: Turning | None
+    spin: float
+    inputs: Floats
+
+    @classmethod
+    def of(cls, model: Model, inputs: Floats) -> Frame:
+        """Axes that turn as a model's head does with these polynomials."""
+        turning: Turning | None = getattr(model, "turning", None)
+        held = np.array(inputs)
+        held[:, 1:] = 0.0
+        return cls(turning, 0.0 if turning is None else float(inputs[turning.channel, 1]), held)
+
+    def at(self, spin: float) -> Frame:
+        """The same at another rate."""
+        return Frame(self.turning, spin, self.inputs)
+
+    def per_time(self, state: Floats) -> Floats:
+        """Slope of a state that turns with the axes."""
+        return np.zeros_like(state) if self.turning is None else self.spin * self.turning.per_angle(state)
+
+    def carried(self, state: Floats) -> Floats:
+        """The state with the rates that rest in these axes means."""
+        half, found = len(state) // 2, np.array(state)
+        if self.spin:
+            found[half : 2 * half] = self.per_time(state)[:half]
+        return found
+
+    def slope(self, model: Model, state: Floats) -> Floats:
+        """Slope of a state as seen in these axes."""
+        inputs = np.array(self.inputs)
+        if self.turning is not None:
+            inputs[self.turning.channel, 1] = self.spin
+        return np.asarray(model.system.slope(0.0, state, inputs)[0] - self.per_time(state))
+
+    def guards(self, model: Model, state: Floats) -> Floats:
+        """Guards in a state."""
+        inputs = np.array(self.inputs)
+        if self.turning is not None:
+            inputs[self.turning.channel, 1] = self.spin
+        return np.asarray(model.system.slope(0.0, state, inputs)[1])
+
+
+def steady_rotation(model: Model, state: Floats, frame: Frame) -> Floats:
+    """State that turns steadily with its head, followed from rest.
+
+    Parameters
+    ----------
+    model : Model
+    state : ndarray
+        At rest.
+    frame : Frame
+
+    Raises
+    ------
+    NoEquilibrium
+        If there is none, it is not stable, or one of the model's guards has fallen.
+    """
+    turned = f"at {frame.spin * 30.0 / np.pi:.4g} rpm"
+    by_value = [model.channels.index(name) for name in getattr(model, "value_channels", ())]
+    if np.any(frame.inputs[by_value, 0]):
+        raise NoEquilibrium(UNSTABLE, f"in a wind nothing turns steadily, as it would {turned}")
+    for step in range(1, SPEEDS + 1):
+        now = frame.at(frame.spin * step / SPEEDS)
+        state = _at_rest(model, state, now, _basis(model, state), f"no steady rotation {turned}: ")
+    guards = frame.guards(model, state)
+    fallen = np.flatnonzero(guards < np.maximum(model.system.floors, np.where(np.arange(len(guards)), -np.inf, 0.0)))
+    if len(fallen):
+        raise NoEquilibrium(model.system.guards[fallen[0]], f"in steady rotation {turned}")
+    values = np.linalg.eigvals(_small_motions(model, state, frame))
+    if values.real.max() > GROWING * abs(values).max():
+        growth = float(values.real.max())
+        raise NoEquilibrium(UNSTABLE, f"the steady rotation {turned} is left at a rate of {growth:.3g} 1/s")
+    return state
+
+
+def quiet(model: Model, state: Floats, frame: Frame) -> Floats:
+    """State in which the load swings as it does, and the structure is at rest and is not accelerated.
+
+    Raises
+    ------
+    NoEquilibrium
+        If there is none.
+    """
+    places = len(state) // 2
+    swinging = [first + k for first, _, count in model.system.directions for k in range(count)]
+    free = [place for place in range(places) if place not in swinging]
+    return _at_rest(model, state, frame, np.eye(places)[:, free], "no structure is quiet under this swing: ")
+
+
+def _at_rest(model: Model, state: Floats, frame: Frame, basis: Floats, why: str) -> Floats:
+    """State near one whose places, along a basis, rest in the frame, with the rates of all other places kept.
+
+    Newton's method; rates of what is solved for are those that rest in the frame means.
+    """
+    half = len(state) // 2
+    mine = np.any(basis != 0.0, axis=1)
+    scale = np.max(basis * np.where(np.isfinite(model.system.scale), model.system.scale, 1.0)[:half, None], axis=0)
+
+    def moved(change: Floats) -> Floats:
+        found = np.array(state)
+        found[:half] += basis @ change
+        found[half : 2 * half] = np.where(mine, frame.per_time(found)[:half], state[half : 2 * half])
+        return found
+
+    def residual(changes: Floats) -> Floats:
+        slopes = np.array([frame.slope(model, moved(change)) for change in changes.T])
+        return np.asarray(basis.T @ slopes[:, half : 2 * half].T)
+
+    if not basis.shape[1]:
+        return state
+    before, none = np.inf, np.zeros(basis.shape[1])
+    for _ in range(MOST_STEPS):
+        matrix, _ = jacobian(residual, none, scale)
+        left = residual(none[:, None])[:, 0]
+        try:
+            change = np.asarray(np.linalg.solve(matrix, -left), dtype=np.float64)
+        except np.linalg.LinAlgError:
+            break
+        state = _restored(model, moved(change))
+        size = float(np.max(abs(change) / scale))
+        if not np.isfinite(size):
+            break
+        if size < 1e-13 or 0.5 * before < size < SETTLED:
+            left, terms = residual(none[:, None])[:, 0], abs(matrix) @ (abs(basis.T @ state[:half]) + scale)
+            if np.all(abs(left) <= BALANCED * terms):
+                return state
+            break
+        before = size
+    raise NoEquilibrium(UNSTABLE, f"{why}the search did not settle")
+
+
+def _small_motions(model: Model, state: Floats, frame: Frame) -> Floats:
+    """Matrix of small departures from a state at rest in a frame."""
+    half, basis = len(state) // 2, _basis(model, state)
+    wide = np.zeros((len(state), 2 * basis.shape[1]))
+    wide[:half, : basis.shape[1]] = wide[half : 2 * half, basis.shape[1] :] = basis
+    scale = np.ones(wide.shape[1])
+
+    def slope(departures: Floats) -> Floats:
+        return np.asarray(wide.T @ np.array([frame.slope(model, state + wide @ own) for own in departures.T]).T)
+
+    return jacobian(slope, np.zeros(wide.shape[1]), scale)[0]
+
+
+def _basis(model: Model, state: Floats) -> Floats:
+    """Directions in which places can depart: of a unit vector, those at right angles to it; shape (places, k)."""
+    basis, kept = np.eye(len(state) // 2), np.ones(len(state) // 2, dtype=bool)
+    for first, _, count in model.system.directions:
+        rope = slice(first, first + count)
+        # What is left of the unit vectors at right angles to the rope: their plane has one direction less.
+        basis[rope, rope] = np.linalg.svd(state[None, rope])[2].T
+        kept[first] = False
+    return basis[:, kept]
+
+
+def _restored(model: Model, state: Floats) -> Floats:
+    """The state with unit vectors of length one."""
+    found: Any = np.array(state)
+    for first, _, count in model.system.directions:
+        found[first : first + count] /= np.linalg.norm(found[first : first + count])
+    return np.asarray(found)
