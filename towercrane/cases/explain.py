@@ -49,7 +49,7 @@ def _resolve(loc: tuple[int | str, ...], kind: str) -> tuple[str, list[type[Tabl
         parts.append(str(part))
         if isinstance(part, str):
             owners = inside
-            field = next((t.model_fields[part] for t in owners if part in t.model_fields), None)
+            field = next((t.named()[part] for t in owners if part in t.named()), None)
             inside = list(tables(field.annotation)) if field else []
     return ".".join(parts), owners, field
 
@@ -61,7 +61,7 @@ def _annotation(table: type[Table], name: str) -> Any:
 def _unknown(key: str, detail: ErrorDetails, kind: str) -> tuple[Fault, str]:
     """Fault for a key that is not known, and the dotted key that was probably meant."""
     parent, _, name = key.rpartition(".")
-    names = list(dict.fromkeys(n for t in _resolve(detail["loc"], kind)[1] for n in t.model_fields))
+    names = list(dict.fromkeys(n for t in _resolve(detail["loc"], kind)[1] for n in t.named()))
     elsewhere = known_to(plain_key(key))
     meant = closest(name, names) if kind in elsewhere or not elsewhere else None
     if former := now_called(name, names):

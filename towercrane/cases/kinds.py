@@ -95,9 +95,9 @@ def unit_of(kind: str, key: str) -> str | None:
     within: list[type[Table]] = [KINDS[kind].tables]
     *parents, last = plain_key(key).split(".")
     for name in parents:
-        fields = [table.model_fields[name] for table in within if name in table.model_fields]
+        fields = [table.named()[name] for table in within if name in table.named()]
         within = [inner for field in fields for inner in tables(field.annotation)]
-    metadata = [m for table in within if last in table.model_fields for m in table.model_fields[last].metadata]
+    metadata = [m for table in within if last in table.named() for m in table.named()[last].metadata]
     return next((m.unit for m in metadata if isinstance(m, Quantity)), None)
 
 

@@ -9,6 +9,8 @@ from towercrane.results.measures import picked_in
 from towercrane.simulation.starts.start import Start
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import numpy as np
     import xarray as xr
     from numpy.typing import NDArray
@@ -56,9 +58,19 @@ def motions_of(case: Case, model: Model | None = None) -> dict[str, Motion]:
         raise CaseError([Fault(str(case.path), f"{key}.frequencies", wanted, str(failure), hint)]) from failure
 
 
-def start_of(case: Case) -> Start:
-    """How a case's run starts."""
+def start_of(case: Case, model: Model | None = None, motions: Mapping[str, Motion] | None = None) -> Start:
+    """How a case's run starts; from the end of another run only with the case's own model and motions.
+
+    Raises
+    ------
+    CaseError
+        If it cannot go on from there.
+    """
     asked, found = case.start, []
+    if asked.from_:
+        from towercrane.cases.result_case import saved_start
+
+        return saved_start(case, model, motions)
     for name in KINDS[case.kind].sways:
         found += [getattr(asked, name), getattr(asked, f"{name}_rate")]
     along, along_rate, across, across_rate = found

@@ -191,9 +191,27 @@ def implausible(tree: dict[str, Any], allowed: Collection[str], kind: str) -> It
 
 def check_values(tree: dict[str, Any], kind: str) -> Iterator[Fault]:
     """Values that do not fit each other, motions and towers apart."""
+    yield from _check_from(tree)
     yield from _check_sways(tree, *KINDS[kind].sways)
     for check in (_check_output, _check_elements, _check_drag, _check_friction, _check_method):
         yield from check(tree)
+
+
+SAYS_NOTHING = ("state", "equilibrium"), ("state", "zero-no-self-weight")
+"""What of a start a run may say that goes on from another: the default, and that its crane has no weight."""
+
+
+def _check_from(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Keys that say otherwise how a run begins that goes on from another."""
+    start = at(tree, "start")
+    if not isinstance(start, dict) or not start.get("from"):
+        return
+    others = [key for key, value in start.items() if key != "from" and (key, value) not in SAYS_NOTHING]
+    if others:
+        yield Fault("", "start.from", "it alone in [start]", f"{', '.join(others)} beside it", "all states are saved")
+    if at(tree, "accuracy.target") is not None:
+        hint = "take the modes of the run that it goes on from"
+        yield Fault("", "start.from", "the modes of that run", "[accuracy], which chooses some", hint)
 
 
 def _check_sways(tree: dict[str, Any], first: str, second: str) -> Iterator[Fault]:

@@ -180,6 +180,8 @@ class Kind:
 
     def refusal(self, use: str, tables: Any) -> str:
         """Why a case of this kind cannot be used so, of its tables; nothing where it can."""
+        if use == "verify" and tables.start.from_:
+            return "a richer model cannot go on from where the run of this one does"
         return self.refuses(tables).get(use, "") if self.refuses is not None else ""
 
 

@@ -55,7 +55,10 @@ def record_case(
     result.attrs["changes"] = json.dumps(case.changes)
     result.attrs["case_text"] = json.dumps(case.as_written)
     said = KINDS[case.kind].notices
-    result.attrs["notices"] = json.dumps([*table_notices(case), *(said(case.checked, result.model) if said else ())])
+    before = json.loads(result.attrs["end"])["time"] - result.attrs["end_time"]
+    goes_on = [f"goes on from {case.start.from_} after {before:g} s: the clock is set back, the work is not"]
+    notices = [*table_notices(case), *(goes_on if case.start.from_ else [])]
+    result.attrs["notices"] = json.dumps([*notices, *(said(case.checked, result.model) if said else ())])
     result.attrs["assumed"] = as_attribute(rests_on(case))
     return result
 
@@ -78,13 +81,15 @@ def _as_stated(case: Case, model: Model | None, motions: dict[str, Motion] | Non
     if model is None:
         model = model_of(case)
         motions = motions_of(case, model)
+    motions = motions or motions_of(case, model)
+    start = start_of(case, model, motions)
     return record(
         model,
-        motions or motions_of(case, model),
+        motions,
         case.run.duration,
         output_step=case.run.output_step,
         looks=looks_per_row(case.run.duration, case.run.output_step),
-        start=start_of(case),
+        start=start,
         method=case.solver.method,
         rtol=case.solver.rtol,
         atol=case.solver.atol,

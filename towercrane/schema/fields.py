@@ -14,6 +14,8 @@ from towercrane.schema.units import UnitError, to_si, wanted
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from pydantic.fields import FieldInfo
+
 
 @dataclass(frozen=True)
 class Quantity:
@@ -161,6 +163,11 @@ class Table(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
+    @classmethod
+    def named(cls) -> dict[str, FieldInfo]:
+        """Its fields by their keys, of which some are no names in Python."""
+        return {field.alias or name: field for name, field in cls.model_fields.items()}
+
 
 class Payload(Table):
     """Load on the rope; its drag as an area or as a force per squared speed."""
@@ -216,7 +223,7 @@ def tables(annotation: Any) -> Iterator[type[Table]]:
 def known_keys(table: type[Table], prefix: str = "") -> list[str]:
     """Every dotted key of a table, without the numbers of list items."""
     found = []
-    for name, field in table.model_fields.items():
+    for name, field in table.named().items():
         found.append(prefix + name)
         for inner in tables(field.annotation):
             found += known_keys(inner, f"{prefix}{name}.")

@@ -72,7 +72,7 @@ def first_off(values: Mapping[str, Floats], weight: float, steps: int, rtol: flo
     steps, rtol, atol
         As in :func:`explained`.
     """
-    energy, work = values["total_energy"], values["input_work"]
+    energy, work = values["total_energy"], values["input_work"] - values["input_work"][0]
     with np.errstate(invalid="ignore"):
         gap = abs(energy - energy[0] - work)
     # What is wrong in the balance would itself widen a range over all rows; up to a row it is not yet.

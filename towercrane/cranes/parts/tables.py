@@ -34,9 +34,13 @@ class CraneTable(Table):
 
 
 class StartTable(Table):
-    """Initial state; sways and their rates are named as the outputs are, as which they begin."""
+    """Initial state; sways and their rates are named as the outputs are, as which they begin.
+
+    A run that goes on from the end of another names its result alone.
+    """
 
     state: str = "equilibrium"
+    from_: str = Field(default="", alias="from")
 
 
 class SwayStart(StartTable):

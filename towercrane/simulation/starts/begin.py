@@ -43,12 +43,16 @@ def begin(model: Model, inputs: Floats, start: Start = HANGING) -> Floats:
     NoEquilibrium
         If there is none that is stable.
     ValueError
-        If the sways are of no rope.
+        If the sways are of no rope, or what was saved is no state of the model.
 
     Notes
     -----
     Where the drive of the head turns already, "equilibrium" and "quiet" are those of a steady rotation at its rate.
     """
+    if start.saved:
+        if len(start.saved) != model.system.size:
+            raise ValueError(f"saved: wanted {model.system.size} states, got {len(start.saved)}")
+        return np.array(start.saved)
     asked: Any = model
     state = asked.start(inputs, "zero" if start.state == "zero" else "equilibrium")
     frame = Frame.of(model, inputs)

@@ -29,6 +29,10 @@ class Start:
         Sway of the load along and across the jib, as the crane's outputs have it [rad]; without, as it hangs.
     along_rate, across_rate : float
         Their rates, as a crane that turns sees them [rad/s].
+    saved : tuple of float
+        All states, as another run has left them; nothing else is then asked.
+    time : float
+        That had passed until then [s].
 
     Raises
     ------
@@ -41,6 +45,8 @@ class Start:
     across: float | None = None
     along_rate: float = 0.0
     across_rate: float = 0.0
+    saved: tuple[float, ...] = ()
+    time: float = 0.0
 
     def __post_init__(self) -> None:
         if self.state not in STATES:

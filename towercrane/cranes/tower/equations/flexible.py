@@ -215,6 +215,16 @@ class Equations(Coordinates):
         state = State(q.tolist(), (), (), [0.0] * self.coordinates, (), ())
         return structure(self.constants, state, held).hanging
 
+    @property
+    def basis(self) -> Floats:
+        """Numbers that tell the coordinates from those of another crane, or of modes of other signs: mass matrix of
+        the undeformed crane, and what a rate of each moves the point that the rope hangs from."""
+        inputs = np.zeros((len(self.channels), 3))
+        own = self.crane.luffing
+        inputs[:2, 0] = 0.7 * self.crane.jib_length if own is None else own.reference_angle, self.crane.jib_length
+        there = self.at_rest(self.undeformed(inputs), inputs)
+        return np.concatenate([there.mass_matrix().ravel(), np.ravel(there.jacobian)])
+
     def rope_at_rest(self, _q: Floats, inputs: Floats) -> float:
         """Length of the rope below what it hangs from [m]."""
         return float(inputs[ROPE, 0])

@@ -1,0 +1,134 @@
+"""Runs that go on from the saved end of another."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from towercrane import load_case
+from towercrane.cases.models import model_of, motions_of
+from towercrane.motions.motion import phases
+from towercrane.results.files import load, save
+from towercrane.runs.run import record_case
+from towercrane.runs.sweep import sweep
+from towercrane.schema.faults import CaseError
+from towercrane.simulation.integrate import integrate
+from towercrane.simulation.simulate import record
+from towercrane.simulation.starts.start import Start
+
+FEW = ["model.tower_modes=1", "model.jib_vertical_modes=1"]
+TIGHT = ["solver.rtol=1e-10", "solver.atol=1e-12"]
+OUT = ["motion.trolley.start=10 m", "motion.trolley.end=13 m", "motion.trolley.speed=1 m/s"]
+STANDS = ["motion.trolley={shape='rest', start='13 m'}"]
+PLANE = "qtz5613/condition-3"
+
+
+@pytest.fixture(scope="module")
+def ended(tmp_path_factory):
+    """Result of a run of six seconds in which the trolley comes to rest, and the run itself."""
+    run = record_case(
+        load_case(PLANE, [*FEW, *TIGHT, *OUT, "motion.trolley.acceleration=1 m/s^2", "run.duration=6 s"])
+    )
+    path = tmp_path_factory.mktemp("ended") / "result.nc"
+    save(run, path)
+    return path, run
+
+
+def going_on(path, changes=(), stands=STANDS):
+    return load_case(PLANE, [*FEW, *TIGHT, *stands, "run.duration=5 s", f"start.from={path}", *changes])
+
+
+def test_a_run_goes_on_to_the_last_bit_and_is_the_run_that_never_stopped(ended):
+    path, before = ended
+    after = record_case(going_on(path))
+    cut = phases(tuple(after.motions[channel] for channel in after.model.channels), 5.0)
+    straight = integrate(after.model.system, cut, before.attrs["end_state"], np.array([5.0]), rtol=1e-10, atol=1e-12)
+    assert np.array_equal(after.attrs["end_state"], straight.end_state)
+    whole = record_case(
+        load_case(PLANE, [*FEW, *TIGHT, *OUT, "motion.trolley.acceleration=1 m/s^2", "run.duration=11 s"])
+    )
+    size = np.where(np.isfinite(after.model.system.scale), after.model.system.scale, 1.0)
+    gap = abs(after.attrs["end_state"] - whole.attrs["end_state"])[:-1] / size[:-1]
+    assert gap.max() < 3e-10
+    place = after["payload_position"].values[-1] - whole["payload_position"].values[-1]
+    assert np.max(abs(place)) < 3e-12
+    assert_allclose(after["input_work"].values[-1], whole["input_work"].values[-1], rtol=1e-8)
+    assert "after 6 s" in after.attrs["notices"]
+
+
+def test_lanes_go_on_too(ended):
+    path, _ = ended
+    case = going_on(path, ["solver.rtol=1e-6", "solver.atol=1e-8", "run.duration=2 s"])
+    swept = sweep(case, {"payload.drag_area": ["1 m^2", "3 m^2"]}, outputs=["sway_radial"])
+    for number, area in enumerate(("1 m^2", "3 m^2")):
+        alone = record_case(load_case(case.path, [*case.changes, f"payload.drag_area={area}"]))
+        assert float(swept["sway_radial_max"].values[number]) == alone.rows["sway_radial"].values.max()
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (["start.from=nowhere.nc"], ["a result.nc of `towercrane run`, nowhere.nc", "No such file"]),
+        (["crane.jib.length=50 m"], ["a run of this crane", "crane.jib.length = 55.6", "50.0"]),
+        (["model.jib_vertical_modes=2"], ["a run in these modes", "jib_vertical_mode_2"]),
+        (["motion.trolley.start=11 m"], ["motions that begin as", "trolley at 13 m, not 11 m"]),
+        (["rope.length=17 m"], ["motions that begin as", "rope at 18 m, not 17 m"]),
+    ],
+)
+def test_what_does_not_fit_is_told_in_one_message(ended, changes, words):
+    path, _ = ended
+    case = going_on(path, changes)
+    with pytest.raises(CaseError) as caught:
+        record_case(case)
+    (fault,) = caught.value.faults
+    assert fault.key == "start.from"
+    for word in words:
+        assert word in str(fault)
+
+
+@pytest.mark.parametrize(
+    ("changes", "got"),
+    [
+        (["start.sway_radial=1 deg", "start.state=zero"], "state, sway_radial beside it"),
+        (["accuracy.target=1e-3"], "[accuracy], which chooses some"),
+    ],
+)
+def test_nothing_else_says_how_a_run_begins_that_goes_on(changes, got):
+    with pytest.raises(CaseError) as caught:
+        going_on("result.nc", changes)
+    (fault,) = caught.value.faults
+    assert (fault.key, fault.got) == ("start.from", got)
+
+
+def test_modes_of_another_sign_and_ends_that_are_none_are_refused(ended, tmp_path):
+    path, _ = ended
+    result = load(path)
+    other = {
+        "sign": ("end", result.attrs["end"].replace('"basis": [', '"basis": [-'), "modes of other shapes or signs"),
+        "outcome": ("outcome", "slack rope", 'one that ended as "slack rope"'),
+        "state": ("end_state", np.full_like(result.attrs["end_state"], np.nan), "5 finite states"),
+        "old": ("end", None, "one that does not hold its end"),
+    }
+    for name, (attribute, value, said) in other.items():
+        changed = result.copy()
+        changed.attrs = {k: v for k, v in result.attrs.items() if k != attribute}
+        if value is not None:
+            changed.attrs[attribute] = value
+        save(changed, tmp_path / f"{name}.nc")
+        with pytest.raises(CaseError, match=said.replace("5 finite", "finite")):
+            record_case(going_on(tmp_path / f"{name}.nc"))
+
+
+def test_another_model_of_the_crane_does_not_go_on(ended):
+    case = going_on(ended[0])
+    model = model_of(case, tower_modes=2)
+    with pytest.raises(CaseError, match="a run in these modes"):
+        record_case(case, model=model)
+    with pytest.raises(ValueError, match=r"saved: wanted 11 states, got 2"):
+        record(model, motions_of(case), 1.0, start=Start(saved=(0.0, 1.0)))
+
+
+def test_a_crane_may_be_renamed_and_its_load_changed(ended):
+    case = going_on(ended[0], ["crane.name=another", "payload.mass=900 kg", "run.duration=1 s"])
+    run = record_case(case)
+    assert run.attrs["outcome"] == "finished"
+    assert run["hoist_rope_force"].values[0] == pytest.approx(900 * 9.81, rel=0.02)

@@ -1,0 +1,63 @@
+"""What is known of the end of a run beside its state, so that another run can go on from there."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from towercrane.motions.motion import Motion
+    from towercrane.simulation.system import Model
+
+SAME = 1e-6
+"""Relative difference below which numbers of two runs are equal: files may state a millionth less."""
+
+
+def end_of(model: Model, motions: Mapping[str, Motion], time: float) -> dict[str, Any]:
+    """End of a run, ready for JSON.
+
+    Returns
+    -------
+    dict
+        ``coordinates`` by name, ``basis`` (numbers that tell modes from those of another crane or of other signs),
+        ``drives``: value and rate of each [m or rad, and per s], by channel.
+    """
+    by_value = getattr(model, "value_channels", ())
+    drives = [channel for channel in model.channels if channel not in by_value]
+    return _described(model) | {
+        "drives": {name: [float(motions[name](time, order)) for order in range(2)] for name in drives}
+    }
+
+
+def other_states(end: Mapping[str, Any], model: Model) -> str:
+    """In what the states of a model are others than those of a run that ended so; nothing where they are the same."""
+    own = _described(model)
+    if own["coordinates"] != end["coordinates"]:
+        there, here = (", ".join(names) or "none" for names in (end["coordinates"], own["coordinates"]))
+        return f"the coordinates {there}, where this run has {here}"
+    before, now = (np.array(found["basis"], dtype=float) for found in (end, own))
+    if before.shape != now.shape or np.any(abs(before - now) > SAME * abs(now).max(initial=1.0)):
+        return "modes of other shapes or signs"
+    return ""
+
+
+def leaps(end: Mapping[str, Any], model: Model, motions: Mapping[str, Motion]) -> Iterator[tuple[str, str, str]]:
+    """Drives that begin elsewhere, or at another speed, than a run ended: name, where that was, where this is."""
+    for channel, (value, rate) in end["drives"].items():
+        if channel not in model.channels:
+            continue
+        unit = dict(zip(model.channels, getattr(model, "channel_units", ()), strict=False)).get(channel, "")
+        begins = [float(motions[channel](0.0, order)) for order in range(2)]
+        for was, now, per in zip((value, rate), begins, (unit, f"{unit}/s"), strict=True):
+            if abs(was - now) > SAME * max(1.0, abs(was)):
+                yield channel, f"{was:.9g} {per}", f"{now:.9g} {per}"
+
+
+def _described(model: Model) -> dict[str, Any]:
+    return {
+        "coordinates": list(getattr(model, "state_names", ())),
+        "basis": np.asarray(getattr(model, "basis", ())).tolist(),
+    }
