@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 from towercrane.cases.case import load_case
 from towercrane.cli import app
+from towercrane.cranes.tower.file.members import luffing_of
 from towercrane.report.plots.studies.comparison import paths
 from towercrane.results.measures import departures
 from towercrane.runs.run import record_case, run_case
@@ -173,3 +174,39 @@ def test_command_answers_for_space_and_for_the_plane(tmp_path):
         refused = runner.invoke(app, [*wrong, "--out", str(tmp_path)])
         assert refused.exit_code == 2
         assert words in refused.output
+
+
+def test_cranes_that_hang_on_ties_or_pivot_are_compared_without_modes_too():
+    """Without modes they still move in what holds the jib; the richest has modes that ties stand for otherwise."""
+    case = load_case(
+        "luffing/manoeuvre", ["run.duration=6 s", "run.output_step=0.1 s", "motion.slewing.speed=0 rad/s"]
+    )
+    report, results = compare(case, 0.05)
+    names = [row["name"] for row in report["rows"]]
+    assert names == ["no modes", "tower", "vertical", ONE_OF_EACH, OWN, RICHEST]
+    assert report["rows"][-1]["modes"] == {"tower_modes": 3, "jib_vertical_modes": 4}
+    # Where the load would hang on a rigid crane follows the winches alone, and the rope that luffing pays out.
+    hung = results["no modes"]["payload_position"].values - departures(results["no modes"])
+    assert_allclose(hung, results[RICHEST]["payload_position"].values - departures(results[RICHEST]), atol=1e-12)
+    own, without = (row_of(report, name) for name in (OWN, "no modes"))
+    assert own["relative_error"] < 0.02 < without["relative_error"]
+    assert 0.9 < own["slowest_hz"]["along"] / report["rows"][-1]["slowest_hz"]["along"] < 1.01
+    paths(report, results).canvas.draw()
+    tied = variants(load_case("hammerhead/travel"))
+    assert [v.name for v in tied] == names
+    assert [v.counter["counter_jib_vertical_modes"] for v in tied] == [0, 0, 0, 0, 0, 1]
+
+
+def test_the_load_of_a_luffing_crane_is_told_from_where_it_would_hang_on_a_rigid_one():
+    """By hand: the jib's straight head at the commanded angle, and the rope that its winch has left below it."""
+    rigid = [f"model.{kind}_modes=0" for kind in ("tower", "torsion", "jib_lateral", "jib_vertical")]
+    stiff = [f"crane.jib.luffing.{key}_stiffness=100 GN" for key in ("rope", "axial")]
+    case = load_case("luffing/manoeuvre", ["run.duration=3 s", "motion.hoist.delay=10 s", *rigid, *stiff])
+    run = record_case(case)
+    assert np.linalg.norm(departures(run)[0]) < 2e-3
+    place = run["commanded_place"].values
+    jib = luffing_of(case.checked)
+    for row, angle in zip(place, run["luffing_command"].values, strict=True):
+        x, z = jib.head(50.0, angle)
+        paid = (jib.hoist_way(50.0, angle) - jib.hoist_way(50.0, np.radians(30.0))) / 2.0
+        assert_allclose(row, [x, 0.0, z - 30.0 + paid], atol=1e-9)

@@ -20,7 +20,7 @@ from towercrane.accuracy.foretold import MEASURED
 from towercrane.accuracy.readings import ROUNDING
 from towercrane.accuracy.setting import Setting
 from towercrane.cranes.tower.crane_model import MODE_KINDS, moving
-from towercrane.cranes.tower.targets import MOTIONS
+from towercrane.cranes.tower.targets import ANY_MOTION
 from towercrane.results.measures import PLACE, gap, peak
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.system import NoEquilibrium
@@ -109,38 +109,45 @@ def measured_choice(
     free = [kind for kind in kinds if kind not in stated]
     plain = Setting(planar=scene.planar, weight_softening=stated.get("weight_softening", True))
     single = replace(plain, rtol=LOOSEST, atol=ABSOLUTE * LOOSEST).with_counts(dict.fromkeys(kinds, 1))
-    coarse = _run(scene, single)
+    coarse = run_of(scene, single)
     most = {kind: max(MOST[kind], stated.get(kind, 0)) + LAST[kind] for kind in kinds}
     departures = Departures(scene, coarse, single.with_counts(most))
-    peaks, surprise = _peaks(scene, coarse), np.ones(len(scene.outputs))
+    peaks, surprise = peaks_of(scene, coarse), np.ones(len(scene.outputs))
     allowed = limits(scene.outputs, targets, peaks)
-    setting = replace(single, **(_tolerances(scene, allowed / peaks) | stated))
+    setting = replace(single, **(tolerances(scene, allowed / peaks) | stated))
     counts = _counts(departures, setting.counts, free, MODELLED * allowed)
     while True:
         setting = setting.with_counts(counts)
-        result = known or (coarse if setting == single else _run(scene, setting, progress))
-        peaks = _peaks(scene, result)
+        result = known or (coarse if setting == single else run_of(scene, setting, progress))
+        peaks = peaks_of(scene, result)
         allowed = limits(scene.outputs, targets, peaks)
         surprise = np.maximum(surprise, _surprise(departures, single.counts, counts, result))
-        estimate = Estimate(surprise * _expected(departures, counts), _stepping(scene, setting))
-        kept = _ratios(estimate.errors(peaks), allowed).max() <= 1.0
+        estimate = Estimate(surprise * _expected(departures, counts), stepping(scene, setting))
+        kept = ratios(estimate.errors(peaks), allowed).max() <= 1.0
         higher = counts if kept else _counts(departures, counts, free, MODELLED * allowed / surprise)
-        if higher == counts or _ratios(surprise * _expected(departures, higher), allowed).max() > 1.0:
+        if higher == counts or ratios(surprise * _expected(departures, higher), allowed).max() > 1.0:
             break
         counts = higher
     early = coarse.attrs["outcome"]
     doubts: tuple[str, ...] = () if early == FINISHED else (f"a model beside it ends early: {early}",)
-    exact = [name for name, part in zip(scene.outputs, allowed / peaks, strict=True) if part < FORCES]
-    if forces := [name.replace("_", " ") for name in exact if name not in MOTIONS]:
-        doubts += (f"small motions tell too little of {forces[0]} for less than {FORCES:g} of its peak",)
-    if scene.ground:
-        doubts += ("small motions do not tell how an earthquake rings modes that are left out",)
+    doubts += doubts_of(scene, allowed / peaks)
     left_out = tuple(_left_out(departures, kinds, free, setting, np.where(np.isfinite(allowed), peaks, np.inf)))
     spent = time.process_time() - began - (0.0 if known else result.attrs["solver_cpu_seconds"])
     return Choice(setting, estimate, peaks, bool(kept), doubts, departures.looked, spent, left_out), result
 
 
-def _run(scene: Scene, setting: Setting, progress: Progress | None = None) -> Run:
+def doubts_of(scene: Scene, relative: Floats) -> tuple[str, ...]:
+    """Why no error can be promised, of what is allowed over the peaks."""
+    exact = [name for name, part in zip(scene.outputs, relative, strict=True) if part < FORCES]
+    doubts: tuple[str, ...] = ()
+    if forces := [name.replace("_", " ") for name in exact if name not in ANY_MOTION]:
+        doubts += (f"too little is known of {forces[0]} for less than {FORCES:g} of its peak",)
+    if scene.ground:
+        doubts += ("it is not known how an earthquake rings modes that are left out",)
+    return doubts
+
+
+def run_of(scene: Scene, setting: Setting, progress: Progress | None = None) -> Run:
     """The scene in a setting."""
     found = scene.run(setting, progress=progress)
     if found.attrs["outcome"] == INTERRUPTED:
@@ -150,23 +157,23 @@ def _run(scene: Scene, setting: Setting, progress: Progress | None = None) -> Ru
     return found
 
 
-def _peaks(scene: Scene, run: Run) -> Floats:
+def peaks_of(scene: Scene, run: Run) -> Floats:
     """Largest magnitudes of the outputs in a run, shape (outputs,)."""
     return np.maximum([peak(run, name) for name in scene.outputs], SMALLEST_PEAK)
 
 
-def _tolerances(scene: Scene, relative: Floats) -> dict[str, Any]:
+def tolerances(scene: Scene, relative: Floats) -> dict[str, Any]:
     """Tolerances of the solver for relative errors of the outputs."""
-    per_rtol = _stepping(scene, Setting(rtol=1.0))
+    per_rtol = stepping(scene, Setting(rtol=1.0))
     rtol = float(np.clip(np.min(SOLVED * relative / per_rtol), TIGHTEST, LOOSEST))
     return {"rtol": rtol, "atol": ABSOLUTE * rtol}
 
 
-def _stepping(scene: Scene, setting: Setting) -> Floats:
+def stepping(scene: Scene, setting: Setting) -> Floats:
     """Largest error of the solver over the output's peak; infinite for methods that were not measured."""
     if setting.method != MEASURED:
         return np.full(len(scene.outputs), np.inf)
-    return setting.rtol * np.array([STEPPING["motions" if n in MOTIONS else "forces"] for n in scene.outputs])
+    return setting.rtol * np.array([STEPPING["motions" if n in ANY_MOTION else "forces"] for n in scene.outputs])
 
 
 def _surprise(departures: Departures, few: dict[str, int], more: dict[str, int], result: Run) -> Floats:
@@ -176,7 +183,7 @@ def _surprise(departures: Departures, few: dict[str, int], more: dict[str, int],
     """
     scene, foretold = departures.scene, departures.between(few, more).sum(axis=0)
     found = np.array([gap(departures.path.run, result, name) for name in scene.outputs])
-    smallest = ROUNDING * _peaks(scene, result)
+    smallest = ROUNDING * peaks_of(scene, result)
     further = np.maximum(found - foretold, 0.0)
     parts = further / np.maximum(foretold, smallest), further / np.maximum(_expected(departures, more), smallest)
     return np.asarray(1.0 + np.minimum(*parts))
@@ -186,12 +193,12 @@ def _expected(departures: Departures, counts: dict[str, int]) -> Floats:
     """Errors of a model by what it leaves out; shape (outputs,)."""
     scene = departures.scene
     likely = (SAFETY * departures.beyond(counts)).sum(axis=0)
-    peaks = _peaks(scene, departures.path.run)
+    peaks = peaks_of(scene, departures.path.run)
     of_load = [number for number, name in enumerate(scene.outputs) if name in LOAD]
     return np.asarray(np.maximum(likely, SPILL * (likely / peaks)[of_load].max() * peaks))
 
 
-def _ratios(errors: Floats, allowed: Floats) -> Floats:
+def ratios(errors: Floats, allowed: Floats) -> Floats:
     """Errors over the allowed ones, of what has a target."""
     wanted = np.isfinite(allowed)
     return np.asarray(errors[wanted] / allowed[wanted])
@@ -200,21 +207,21 @@ def _ratios(errors: Floats, allowed: Floats) -> Floats:
 def _counts(departures: Departures, start: dict[str, int], free: list[str], allowed: Floats) -> dict[str, int]:
     """Fewest modes that are expected to keep within allowed errors, or where none do those that come nearest."""
 
-    def ratios(counts: dict[str, int]) -> Floats:
-        return _ratios(_expected(departures, counts), allowed)
+    def over(counts: dict[str, int]) -> Floats:
+        return ratios(_expected(departures, counts), allowed)
 
-    counts, now = dict(start), ratios(start)
+    counts, now = dict(start), over(start)
     while now.max() > 1.0 and (short := [kind for kind in free if counts[kind] < MOST[kind]]):
-        found = {kind: ratios({**counts, kind: counts[kind] + 1}) for kind in short}
+        found = {kind: over({**counts, kind: counts[kind] + 1}) for kind in short}
         best = min(short, key=lambda kind: float(found[kind] @ found[kind]))
         # Some kinds help only together.
         raised = [best] if found[best] @ found[best] < HELPS * (now @ now) else short
         counts |= {kind: counts[kind] + 1 for kind in raised}
-        now = ratios(counts)
+        now = over(counts)
     limit = max(1.0, NEAREST * float(now.max()))
     while True:
         fewer = [{**counts, kind: counts[kind] - 1} for kind in free if counts[kind]]
-        enough = [one for one in fewer if ratios(one).max() <= limit]
+        enough = [one for one in fewer if over(one).max() <= limit]
         if not enough:
             return counts
         counts = min(enough, key=lambda one: cost(*departures.fastest(one)))

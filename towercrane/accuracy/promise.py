@@ -12,6 +12,7 @@ from towercrane.accuracy.choice import choose
 from towercrane.accuracy.estimate import Choice, Estimate, limits
 from towercrane.accuracy.foretold import Indicators
 from towercrane.accuracy.instants import BEYOND
+from towercrane.accuracy.ladder import RUNG, laddered_choice
 from towercrane.accuracy.mode_choice import measured_choice
 from towercrane.accuracy.scene import Scene, scene_of, setting_of
 from towercrane.accuracy.setting import Setting, setting_from
@@ -44,12 +45,6 @@ AS_ASKED = (KEPT, VERIFIED)
 FINER, FINE = 1e-2, 1e-8
 """Rtol of the run that verifies: over that of the run, and at most; fast modes that only it has need the latter."""
 
-MORE = {
-    "tower_modes": 1, "torsion_modes": 1, "jib_lateral_modes": 2, "jib_vertical_modes": 2,
-    "counter_jib_lateral_modes": 1, "counter_jib_vertical_modes": 1,
-}  # fmt: skip
-"""Modes that the model of such a run has more where nothing is foretold."""
-
 
 def targets_of(case: Case) -> Targets:
     """Errors that a case asks for, by output; none for kinds of crane whose errors cannot be asked for."""
@@ -81,6 +76,8 @@ def chosen(case: Case, progress: Progress | None = None) -> tuple[Choice, Run]:
         If one of the runs that a choice may need was interrupted.
     """
     scene, targets = scene_of(case), targets_of(case)
+    if scene.laddered:
+        return laddered_choice(scene, targets, stated(case, scene), progress)
     if not scene.foretells(targets):
         return measured_choice(scene, targets, stated(case, scene), progress)
     choice = choose(scene, targets, stated(case, scene))
@@ -131,12 +128,13 @@ def promise(case: Case, choice: Choice, result: Run) -> dict[str, Any]:
     }
 
 
-def finer(setting: Setting, scene: Scene, *, foretold: bool) -> Setting:
-    """The next richer model with a tighter tolerance.
+def finer(setting: Setting, scene: Scene, *, foretold: bool, rungs: int = 1) -> Setting:
+    """The next richer model, or one so many rungs richer, with a tighter tolerance.
 
     It leaves the plane where the scene does. Small motions foretell what the modes beyond `BEYOND` matter.
     """
-    more = BEYOND if foretold else {kind: MORE[kind] for kind in moving(scene.planar) if kind in scene.described}
+    kinds = [kind for kind in moving(scene.planar) if kind in scene.described]
+    more = BEYOND if foretold else {kind: rungs * RUNG[kind] for kind in kinds}
     # Fast modes that only it has need a tolerance of their own.
     tighter = min(FINER, FINE / setting.rtol)
     return replace(setting.with_more(more).tightened(tighter), planar=scene.planar, cap=np.inf)
@@ -160,14 +158,18 @@ def verification(case: Case, result: Run) -> dict[str, Any]:
     setting = setting_from(picked) if picked else setting_of(case)
     foretold = scene.foretells(targets_of(case))
     units = _outputs(scene, targets_of(case))
-    if foretold:
+    doubts: tuple[str, ...] = ()
+    # The next rung has told what is expected of a run on a ladder: another is asked.
+    better = finer(setting, scene, foretold=foretold, rungs=2 if scene.laddered and picked else 1)
+    if scene.laddered:
+        estimate = _told(result, list(units))
+    elif foretold:
         indicators = Indicators(scene, setting.tower_modes, setting.jib_vertical_modes)
         estimate, doubts = indicators.estimate(setting), indicators.doubts(setting.weight_softening)
     else:
         anything = dict.fromkeys(scene.outputs, Tolerance(1e-3, relative=True))
         checked, _ = measured_choice(scene, anything, vars(setting), known=result)
         estimate, doubts = checked.estimate, checked.doubts
-    better = finer(setting, scene, foretold=foretold)
     richer = scene.run(better)
     if richer.attrs["outcome"] == INTERRUPTED:
         raise KeyboardInterrupt
@@ -220,6 +222,13 @@ def settle(result: Recording, report: dict[str, Any]) -> None:
     else:
         reasons = promised["reasons"]
     result.attrs["accuracy"] = json.dumps({**promised, "outcome": outcome, "reasons": reasons})
+
+
+def _told(result: Run, names: list[str]) -> Estimate:
+    """What a run itself says of its errors, unknown without a promise."""
+    said = json.loads(result.attrs.get("accuracy", '{"outputs": {}}'))["outputs"]
+    found = [said.get(name, {}).get("estimated") for name in names]
+    return Estimate(np.array([np.inf if error is None else error for error in found]), np.zeros(len(names)))
 
 
 def _outputs(scene: Scene, targets: Targets) -> dict[str, str]:

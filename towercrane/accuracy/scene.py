@@ -15,7 +15,7 @@ from towercrane.cranes.tower.file.effects import softened
 from towercrane.cranes.tower.file.plane import heading_of, stays_in_plane
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
-from towercrane.cranes.tower.targets import ALL, FORETOLD, absent
+from towercrane.cranes.tower.targets import ALL, FORETOLD, absent, lacking
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import looks_per_row, record
 from towercrane.simulation.starts.start import HANGING, Start
@@ -81,8 +81,19 @@ class Scene:
     @property
     def outputs(self) -> dict[str, str]:
         """Outputs whose error can be measured, and their units."""
-        missing = absent(self.heading) if self.planar else ()
-        return {name: unit for name, unit in ALL.items() if name not in missing}
+        bars = self.crane.tie_bars
+        ties = (0, 0) if bars is None else (len(bars.jib), len(bars.counter_jib))
+        none = lacking(self.crane.luffing is not None, *ties)
+        still = absent(self.heading) if self.planar else ()
+        return {name: unit for name, unit in ALL.items() if name not in none and name not in still}
+
+    @property
+    def laddered(self) -> bool:
+        """Whether runs of ever richer models alone tell errors.
+
+        Small motions about an undeformed crane are none of one that hangs on ties or whose jib pivots.
+        """
+        return self.crane.luffing is not None or self.crane.tie_bars is not None
 
     @property
     def described(self) -> tuple[str, ...]:
@@ -97,7 +108,7 @@ class Scene:
         """
         bends = self.crane.counter_jib is not None
         let_go = self.start.state != "quiet" and not self.start.along_rate
-        told = self.planar and not bends and self.areas is None and not self.ground and let_go
+        told = self.planar and not self.laddered and not bends and self.areas is None and not self.ground and let_go
         return told and set(outputs) <= set(FORETOLD)
 
     def model(self, setting: Setting) -> FlexibleModel:

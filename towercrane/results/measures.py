@@ -38,9 +38,12 @@ def gap(one: Result, other: Result, name: str) -> float:
 
 def departures(result: Result) -> Floats:
     """Way of the load from where it would hang on a rigid crane at rest [m], shape (times, 3)."""
-    trolley, rope = result["trolley_position"].values, result["rope_length"].values
-    heading = result["slewing_angle"].values if "slewing_angle" in result else np.zeros_like(trolley)
-    hung = np.stack([trolley * np.cos(heading), trolley * np.sin(heading), -rope], axis=1)
+    if "commanded_place" in result:
+        outward, _, up = result["commanded_place"].values.T
+    else:
+        outward, up = result["trolley_position"].values, -result["rope_length"].values
+    heading = result["slewing_angle"].values if "slewing_angle" in result else np.zeros_like(outward)
+    hung = np.stack([outward * np.cos(heading), outward * np.sin(heading), up], axis=1)
     return np.asarray(result["payload_position"].values - hung)
 
 

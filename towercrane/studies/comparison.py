@@ -41,6 +41,9 @@ ALIKE = {
 MOST = 14
 """Modes of a kind that a case may have."""
 
+RIGID, BARE = "rigid", "no modes"
+"""What a crane without modes is called: one on ties or with a jib that pivots moves in what holds its jib."""
+
 ONE_OF_EACH, OWN, RICHEST = "one mode of each", "the case's own", "richest"
 
 
@@ -79,15 +82,18 @@ def modes_of(case: Case) -> Mapping[str, str]:
 
 def variants(case: Case) -> list[Variant]:
     """Models from rigid to rich: every choice of the kinds that the case includes, the richest last."""
-    from towercrane.cranes.tower.file.build import asked_modes
+    from towercrane.cranes.tower.crane_model import described
+    from towercrane.cranes.tower.file.build import asked_modes, crane_of
     from towercrane.cranes.tower.file.case_tables import TowerCase
 
-    names = modes_of(case)
+    tables, names = case.tables(TowerCase), modes_of(case)
     own = {key: int(getattr(case.checked.model, key)) for key in names}  # type: ignore[union-attr]
     kept = [key for key, count in own.items() if count]
     rigid = dict.fromkeys(own, 0)
-    asked = asked_modes(case.tables(TowerCase)) if own.keys() & ALIKE.keys() else {}
-    bends = {key: other for key, other in ALIKE.items() if asked.get(other, 0)}
+    asked, known = asked_modes(tables), described(crane_of(tables))
+    # What a case leaves out by stating zero stays left out.
+    bends = {key: o for key, o in ALIKE.items() if o in known and getattr(tables.model, o) != 0}
+    bare = RIGID if tables.crane.tower_head is None and tables.crane.jib.luffing is None else BARE
 
     def variant(name: str, counts: dict[str, int], more: int = 0) -> Variant:
         return Variant(name, counts, {o: (asked[o] + more) * bool(counts.get(k)) for k, o in bends.items()})
@@ -95,7 +101,7 @@ def variants(case: Case) -> list[Variant]:
     found = []
     for size in range(len(kept) + 1):
         for chosen in combinations(kept, size):
-            name = " + ".join(names[key] for key in chosen) or "rigid"
+            name = " + ".join(names[key] for key in chosen) or bare
             whole = OWN if size == len(kept) and kept else name
             found.append(variant(whole, rigid | {key: own[key] for key in chosen}))
     single = rigid | dict.fromkeys(kept, 1)
@@ -210,12 +216,12 @@ def slowest(case: Case, variant: Variant, result: xr.Dataset) -> dict[str, float
     from towercrane.cranes.tower.equations.small_motions import natural_modes, plane_modes
 
     model: Any = variant.model(case)
-    trolley, rope = (float(result[name][-1]) for name in ("trolley_position", "rope_length"))
+    motions, end = motions_of(case), float(result["time"][-1])
+    place, rope, *turned = (float(motions[channel](end)) for channel in model.channels[: model.axes])
     try:
         if model.axes == 2:
-            return {"along": float(plane_modes(model, trolley, rope)[0][0] / (2.0 * np.pi))}
-        turned = "shaft_angle" if "shaft_angle" in result else "slewing_angle"
-        modes = natural_modes(model, trolley, rope, float(result[turned][-1]))
+            return {"along": float(plane_modes(model, place, rope)[0][0] / (2.0 * np.pi))}
+        modes = natural_modes(model, place, rope, *turned)
     except NoEquilibrium:
         return {}
     in_plane = [mode.shares["radial"] + mode.shares["radial sway"] > 0.5 for mode in modes]

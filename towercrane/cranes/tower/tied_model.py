@@ -145,7 +145,7 @@ class TiedModel(FlexibleModel):
         tied, q = self._at_rest_alone
 
         def forces(places: Floats) -> Floats:
-            return np.array([pull_ties(tied, own).forces for own in places.T]).T
+            return np.array(np.broadcast_arrays(*pull_ties(tied, list(places)).forces))
 
         slope, _ = jacobian(forces, q, self.system.scale[carried])
         held[carried, carried] -= 0.5 * (slope + slope.T)

@@ -10,7 +10,7 @@ from modal.elements.beam_elements import MOST_ELEMENTS
 from towercrane.cranes.parts.tables import CaseTable, SwayStart
 from towercrane.cranes.tower.file.luffing_tables import without_trolley
 from towercrane.cranes.tower.file.tables import Crane  # noqa: TC001 - pydantic reads annotations
-from towercrane.cranes.tower.targets import ALL, FORETOLD, MOTIONS
+from towercrane.cranes.tower.targets import ALL, ANY_MOTION, FORETOLD
 from towercrane.schema.fields import (
     Angle,
     EitherSpeed,
@@ -47,7 +47,7 @@ class Accuracy(Asked):
     """Errors that are accepted: without a list of all outputs with a target, see `Targets.every`; of frequencies."""
 
     outputs: Annotated[tuple[str, ...], OutputsField(ALL)] = ()
-    target: Annotated[Targets, TargetField(ALL, MOTIONS | FORETOLD)] | None = None
+    target: Annotated[Targets, TargetField(ALL, ANY_MOTION | FORETOLD)] | None = None
     frequency: ToleranceIfAny = None
 
 

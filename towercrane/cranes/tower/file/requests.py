@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from towercrane.cranes.tower.crane_model import MODE_KINDS, moving
-from towercrane.cranes.tower.file.plane import stays_in_plane
-from towercrane.cranes.tower.targets import FORETOLD, MOTIONS
+from towercrane.cranes.tower.file.plane import heading_of, stays_in_plane
+from towercrane.cranes.tower.targets import ANY_MOTION, FORETOLD, absent, lacking
 from towercrane.schema.targets import ForEvery
 
 if TYPE_CHECKING:
@@ -38,8 +38,12 @@ def targets_of(tables: TowerCase) -> Targets:
     asked = tables.accuracy
     if asked.outputs or not isinstance(asked.target, ForEvery):
         return asked.targets
-    fitting = FORETOLD if stays_in_plane(tables) else MOTIONS
-    return {name: asked.targets[name] for name in fitting if name in asked.targets}
+    jib, counter_jib = tables.crane.jib, tables.crane.counter_jib
+    none = lacking(jib.luffing is not None, len(jib.ties), len(counter_jib.ties))
+    heading, clamped = heading_of(tables), jib.luffing is None and not jib.ties
+    still = () if heading is None else absent(heading)
+    fitting = FORETOLD if clamped and heading is not None else ANY_MOTION
+    return {name: asked.targets[name] for name in fitting if name in asked.targets and name not in {*none, *still}}
 
 
 def modes_that_move(tables: TowerCase) -> dict[str, str]:

@@ -5,14 +5,16 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from towercrane.cranes.tower.equations.constants import ROPE
 from towercrane.cranes.tower.equations.luffing.hinge import Hinged, hinge, jib_part, luffing_of, pivot_of
 from towercrane.cranes.tower.equations.luffing.motion import COMMANDED, HOLDING, TENSION
-from towercrane.cranes.tower.equations.luffing.pivot import Pivot, foot_of
+from towercrane.cranes.tower.equations.luffing.pivot import Pivot, foot_of, pivot_at
 from towercrane.cranes.tower.equations.luffing.ropes import Held, hold, tied_at, way_to
 from towercrane.cranes.tower.modes.mass_sums import Straight
 from towercrane.cranes.tower.outputs import energy, tied
-from towercrane.cranes.tower.outputs.observed import OUTPUTS, Outputs, Sight
+from towercrane.cranes.tower.outputs.observed import ORIGIN, OUTPUTS, TURNING_AXES, Outputs, Sight
 from towercrane.cranes.tower.outputs.sections import Sections
 from towercrane.kernels.algebra import Vector, cross, dot, form
 from towercrane.simulation.observed import About
@@ -57,6 +59,15 @@ class LuffingSight(Sight):
         (length, hauling, _), own = self.instant.drives[ROPE], self.own
         way = way_to(own, own.winch, tied_at(own, *jib_part(self.seen.crane, self.state), 0.0), self.pivot)
         return length - (way.length - own.reference_way) / own.falls, hauling - way.rate / own.falls
+
+    @cached_property
+    def commanded(self) -> Vector:
+        """Where the load would hang if the jib stood straight as its winch is told and the crane did not give."""
+        own, (angle, _, _), (length, _, _) = self.own, self.instant.drives[COMMANDED], self.instant.drives[ROPE]
+        x, _, z = pivot_at(angle).to_head((own.length, 0.0, 0.0))
+        x, z = own.foot[0] + x, own.foot[1] + z
+        way = np.sqrt((x - own.winch[0]) ** 2 + (z - own.winch[1]) ** 2)
+        return x, 0.0 * x, z - length + (way - own.reference_way) / own.falls
 
     @cached_property
     def held(self) -> Held:
@@ -182,6 +193,12 @@ OWN: Read = {
     "jib_root_moment_sideways": (
         lambda at: -at.sections.foot.moment[2],
         About("N m", "bending moment at the jib's foot, positive where it speeds the jib up in the turning sense"),
+    ),
+    "commanded_place": (
+        lambda at: at.commanded,
+        About(
+            "m", f"where the load would hang on a rigid crane at rest, from {ORIGIN}: {TURNING_AXES}", ("axis",), 3
+        ),
     ),
     "total_energy": (lambda at: at.energies, About("J", "kinetic and potential energy")),
 }  # fmt: skip

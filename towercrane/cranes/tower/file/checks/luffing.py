@@ -45,7 +45,6 @@ WITHOUT = {
     ),
     "wind": "runs in wind are for cranes with a trolley",
     "earthquake": "earthquakes are for cranes with a trolley",
-    "accuracy": "errors are chosen for cranes with a trolley; state [model] and [solver]",
     "modes.trolley_positions": "give modes.luffing_angles",
     "map": "frequency maps are over the places of a trolley; modes.luffing_angles shows frequencies over the angle",
 }
@@ -55,8 +54,6 @@ WITHOUT = {
 REFUSED = {
     "map": "a frequency map is over the places of a trolley; modes.luffing_angles shows frequencies over the angle",
     "lattice": "the check of its tower's lattice is for a jib that does not pivot",
-    "compare": "models are compared for cranes with a trolley",
-    "verify": "--verify is for cranes with a trolley; choose [model] and [solver] and compare two runs",
     "shape": "motions that leave the load at rest are proposed for cranes with a trolley",
     "members": "modes of its members alone are not drawn",
 }

@@ -8,7 +8,7 @@ from towercrane.cranes.tower.file.case_tables import Model
 from towercrane.cranes.tower.file.checks.jib import laced
 from towercrane.cranes.tower.file.checks.tower import tables_in
 from towercrane.cranes.tower.file.plane import heading_written
-from towercrane.cranes.tower.targets import ALL, absent
+from towercrane.cranes.tower.targets import ALL, absent, lacking
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.ranges import at, si, si_at
 from towercrane.schema.units import wanted
@@ -37,9 +37,8 @@ PRESSED = {
 def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
     """Faults of a scene as a whole. Keys that are wrong by themselves are for others to report."""
     heading = heading_written(tree)
-    if heading is not None:
-        yield from _check_outputs(tree, absent(heading))
-    else:
+    yield from _check_outputs(tree, () if heading is None else absent(heading))
+    if heading is None:
         yield from _check_members(tree)
         yield from _check_bending(tree, "lateral")
         yield from _check_force(tree)
@@ -50,15 +49,18 @@ def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
     yield from _check_floors(tree)
 
 
-def _check_outputs(tree: dict[str, Any], missing: Collection[str]) -> Iterator[Fault]:
-    """Errors that are asked for of outputs which the scene does not have."""
+def _check_outputs(tree: dict[str, Any], still: Collection[str]) -> Iterator[Fault]:
+    """Errors that are asked for of outputs which the crane does not have, or which stay still in its scene."""
+    ties = (tables_in(at(tree, f"crane.{member}.ties")) for member in ("jib", "counter_jib"))
+    none = lacking(at(tree, "crane.jib.luffing") is not None, *map(len, ties))
     outputs, target = at(tree, "accuracy.outputs"), at(tree, "accuracy.target")
     asked = [("outputs", name) for name in outputs] if isinstance(outputs, list) else []
     asked += [("target", name) for name in target] if isinstance(target, dict) else []
     for key, name in asked:
-        if name in missing and name in ALL:
-            what = f"one of {', '.join(output for output in ALL if output not in missing)}"
+        if name in ALL and (name in none or name in still):
+            what = f"one of {', '.join(output for output in ALL if output not in {*none, *still})}"
             hint = "nothing turns the head, blows or shakes across the jib: the scene stays in the jib's plane"
+            hint = "runs of such a crane have no such output" if name in none else hint
             yield Fault("", f"accuracy.{key}", what, shown(name), hint)
 
 

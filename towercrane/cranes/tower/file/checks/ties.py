@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 HEAD = "crane.tower_head"
 
 WITHOUT = {
-    "accuracy": "errors are chosen for jibs that are clamped; state [model] and [solver]",
     "map": "a frequency map is of jibs that are clamped",
     "crane.jib.luffing": "a jib either pivots on its rope or hangs on tie bars",
 }
@@ -28,8 +27,6 @@ WITHOUT = {
 
 REFUSED = {
     "map": "a frequency map is of jibs that are clamped",
-    "compare": "models are compared for jibs that are clamped",
-    "verify": "--verify is for jibs that are clamped; choose [model] and [solver] and compare two runs",
     "shape": "motions that leave the load at rest are proposed for jibs that are clamped",
     "members": "modes of its members alone are not drawn",
 }

@@ -1,0 +1,137 @@
+"""Error-controlled runs of cranes on ties and with a jib that pivots: what a ladder of runs promises, and says."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from samples import hammerhead, luffing_crane
+
+from towercrane import load_case
+from towercrane.accuracy.ladder import RUNG, SAFETY, laddered_choice
+from towercrane.accuracy.promise import AS_ASKED, KEPT, OUT_OF_REACH, finer, settle, targets_of, verification
+from towercrane.accuracy.scene import Scene
+from towercrane.accuracy.setting import Setting
+from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.targets import ALL, ANY_MOTION
+from towercrane.kernels.payload import Load
+from towercrane.motions.motion import rest
+from towercrane.motions.profiles import trapezoid
+from towercrane.results.measures import gap, peak
+from towercrane.runs.run import record_case
+from towercrane.schema.faults import CaseError
+from towercrane.schema.targets import Tolerance
+
+PLANE = {"duration": 5.0, "output_step": 0.1, "planar": True, "damping": ModalDamping(0.01, 0.01, 0.01, 0.01)}
+LUFFING = ["run.duration=6 s", "run.output_step=0.1 s", "motion.slewing.hold=1 s", "motion.hoist.delay=10 s"]
+
+
+def luffed(rng):
+    """A drawn luffing move in the jib's plane."""
+    start, end = np.radians(rng.uniform(25.0, 75.0, 2))
+    move = trapezoid(start, end, np.radians(rng.uniform(1.0, 2.0)), np.radians(rng.uniform(0.5, 1.0)))
+    motions = {"luffing": move, "rope": rest(float(rng.uniform(8.0, 30.0)))}
+    crane = luffing_crane.crane(reference_angle=float(start))
+    return Scene(crane, Load(rng.uniform(1000.0, 5000.0)), motions, **PLANE)
+
+
+def travelled(rng):
+    """A drawn travel of a trolley along a jib on ties."""
+    move = trapezoid(*rng.uniform(10.0, 50.0, 2), rng.uniform(0.5, 1.5), rng.uniform(0.2, 0.6))
+    load, motions = Load(rng.uniform(1000.0, 4000.0)), {"trolley": move, "rope": rest(20.0)}
+    return Scene(hammerhead.CRANE, load, motions, **(PLANE | {"duration": 3.0}))
+
+
+def every(target, scene):
+    return {name: Tolerance(target, relative=True) for name in scene.outputs if name in ANY_MOTION}
+
+
+@pytest.mark.parametrize(("draw", "target"), [(luffed, 3e-3), (luffed, 3e-2), (travelled, 0.1)])
+def test_a_promise_of_a_drawn_scene_holds_against_a_model_that_is_two_rungs_richer(draw, target):
+    scene = draw(np.random.default_rng(int(1e3 * target)))
+    choice, run = laddered_choice(scene, every(target, scene))
+    assert (choice.kept, choice.doubts, run.attrs["outcome"]) == (True, (), "finished")
+    richer = scene.run(finer(choice.setting, scene, foretold=False, rungs=2))
+    wanted = every(target, scene)
+    peaks = {name: peak(richer, name) for name in wanted}
+    errors = {name: gap(run, richer, name) for name in wanted}
+    expected = dict(zip(scene.outputs, choice.estimate.errors(choice.peaks), strict=True))
+    assert max(errors[name] / peaks[name] for name in wanted) < target
+    assert all(errors[name] <= expected[name] for name in wanted)
+    # No promise is had by expecting far too much.
+    assert max(errors[name] / expected[name] for name in wanted) > 0.2
+
+
+def test_what_is_expected_is_what_the_next_rung_finds_and_what_is_stated_stays():
+    scene = luffed(np.random.default_rng(5))
+    given = {"tower_modes": 2, "jib_vertical_modes": 2, "rtol": 1e-7, "atol": 1e-9}
+    choice, run = laddered_choice(scene, every(1e-6, scene), given)
+    assert {key: getattr(choice.setting, key) for key in given} == given
+    assert (choice.kept, choice.tried) == (False, 2)
+    richer = scene.run(finer(choice.setting, scene, foretold=False))
+    found = np.array([gap(run, richer, name) for name in scene.outputs])
+    assert np.allclose(choice.estimate.truncation, SAFETY * found, rtol=1e-3, atol=1e-9)
+    assert "a run with more, 3 of bending of the tower, 4 of bending of the jib up and down" in choice.left_out[0]
+
+
+def test_rungs_are_richer_in_every_kind_that_the_crane_has():
+    scene = replace(luffed(np.random.default_rng(5)), planar=False)
+    assert scene.laddered
+    assert not scene.foretells(["sway_radial"])
+    kinds = {"tower_modes", "torsion_modes", "jib_lateral_modes", "jib_vertical_modes"}
+    assert set(scene.described) == kinds
+    once, twice = (finer(Setting(), scene, foretold=False, rungs=rungs).counts for rungs in (1, 2))
+    assert all(once[kind] == RUNG[kind] and twice[kind] == 2 * RUNG[kind] for kind in kinds)
+
+
+def test_a_case_promises_and_a_verification_two_rungs_up_decides():
+    case = load_case("luffing/manoeuvre", [*LUFFING, "accuracy.target=2e-2"])
+    assert {"luffing_angle", "jib_deflection"} <= set(targets_of(case))
+    assert not {"jib_tip_deflection", "slewing_torque"} & set(targets_of(case))
+    run = record_case(case)
+    said = json.loads(run.attrs["accuracy"])
+    assert said["outcome"] in (KEPT, OUT_OF_REACH)
+    report = verification(case, run)
+    assert (
+        report["finer"]["jib_vertical_modes"]
+        == said["setting"]["jib_vertical_modes"] + 2 * RUNG["jib_vertical_modes"]
+    )
+    assert report["outputs"]["sway_radial"]["estimated"] == said["outputs"]["sway_radial"]["estimated"]
+    assert report["outputs"]["luffing_rope_force"]["estimated"] is None
+    settle(run, report)
+    assert json.loads(run.attrs["accuracy"])["outcome"] in AS_ASKED
+
+
+def test_a_run_without_a_target_is_verified_by_the_next_rung():
+    case = load_case("hammerhead/travel", ["run.duration=2 s", "model.tower_modes=1", "model.jib_vertical_modes=1"])
+    run = record_case(case)
+    report = verification(case, run)
+    assert (report["outcome"], report["doubts"]) == ("finished", [])
+    kinds = "tower_modes", "jib_vertical_modes", "counter_jib_vertical_modes"
+    assert [report["finer"][kind] for kind in kinds] == [2, 3, 1]
+    for name, found in report["outputs"].items():
+        assert found["estimated"] is None
+        assert found["actual"] > 0.0, name
+    tension = report["outputs"]["jib_tie_1_tension"]
+    assert 1e-5 < tension["actual"] / tension["peak"] < 0.03
+    assert "jib_tie_2_tension" in report["outputs"]
+    assert not {"jib_tie_3_tension", "jib_root_moment", "luffing_angle"} & report["outputs"].keys()
+
+
+@pytest.mark.parametrize(
+    ("name", "asked", "said"),
+    [
+        ("luffing/manoeuvre", "jib_tip_deflection", "jib_deflection"),
+        ("hammerhead/manoeuvre", "jib_tie_3_tension", "jib_tie_2_tension"),
+        ("hammerhead/travel", "jib_root_moment", "jib_compression"),
+        ("qtz5613/condition-3", "luffing_angle", "jib_tip_deflection"),
+    ],
+)
+def test_outputs_that_such_a_crane_has_not_are_refused_with_those_that_it_has(name, asked, said):
+    assert {asked, said} <= ALL.keys()
+    with pytest.raises(CaseError) as refused:
+        load_case(name, ["accuracy.target=1e-2", f'accuracy.outputs=["{asked}"]'])
+    (fault,) = refused.value.faults
+    offered = fault.wanted.removeprefix("one of ").split(", ")
+    assert (fault.key, said in offered, asked in offered) == ("accuracy.outputs", True, False)
+    assert "no such output" in fault.hint
