@@ -82,6 +82,7 @@ offset = "-1 m"
 [[tower.collars]]
 height = "8 m"
 stiffness = "10 MN/m"
+gap = "0 mm"
 [[tower.collars]]
 height = "20 m"
 stiffness = "20 MN/m"

@@ -13,6 +13,7 @@ from modal import Chain, EndBody, Segment
 from towercrane import Load, load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cranes.tower.crane_model import tower_crane_model
+from towercrane.cranes.tower.modes.collars import TowerCollar
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.kernels.straight.leaves import CHANGING
 from towercrane.motions.motion import phases, rest, sequence
@@ -39,6 +40,14 @@ def jointed(load):
     return model, {"trolley": sequence(out, back), "rope": rest(20.0)}
 
 
+@cache
+def held_with_play(load):
+    """A crane whose tower a collar holds with play, pushed against it by the way of its trolley."""
+    crane = replace(CRANE, gapped=(TowerCollar(12.0, 4e7, gap=1e-3 + 1e-6 * load),))
+    model = tower_crane_model(crane, Load(load), ModeCounts(1, 0, 0, 1), planar=True)
+    return model, {"trolley": trapezoid(10.0, 40.0, 2.0, 1.0), "rope": rest(20.0)}
+
+
 STICKS = ["crane.friction.law=stick-slip", "crane.friction.torque=100 N m"]
 
 
@@ -53,6 +62,8 @@ def scenes(name):
     loads = (600.0, 1100.0, 2000.0)
     if name == "joints":
         return [jointed(load) for load in loads]
+    if name == "collars with play":
+        return [held_with_play(load) for load in loads]
     changes = STICKS if name.startswith("slewing/basic") else ()
     return [of_case(name, load, *changes) for load in loads]
 
@@ -61,6 +72,7 @@ def scenes(name):
     ("name", "duration"),
     [
         ("joints", 20.0),
+        ("collars with play", 20.0),
         ("hard/friction-sticks", 12.0),
         ("qtz5613/soft-drive", 9.0),
         ("slewing/basic/example-1", 12.0),

@@ -66,6 +66,7 @@ RANGES = (
     Range("crane.foundation.block.offset", "m", 1e-3, 50, LENGTHS, signed=True),
     Range("crane.tower.collars*.height", "m", 1, 1000, LENGTHS),
     Range("crane.tower.collars*.stiffness", "N/m", 1e4, 1e12, ("MN/m", "GN/m", "kN/m")),
+    Range("crane.tower.collars*.gap", "m", 1e-5, 0.5, LENGTHS),
     Range("crane.tower.collars*.rotation_stiffness", "N m/rad", 1e4, 1e13, ROTARY_SPRINGS),
     Range("crane.tower.collars*.torsional_stiffness", "N m/rad", 1e4, 1e13, ROTARY_SPRINGS),
     Range("crane.tower.torsional_stiffness", "N m^2", 1e4, 1e13, ("MN m^2", "kN m^2", "GN m^2")),

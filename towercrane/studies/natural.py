@@ -16,7 +16,7 @@ from towercrane.cranes.tower.file.build import asked_modes, crane_frame, tower_m
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import effects_in, effects_report
 from towercrane.cranes.tower.file.members import lattice_of
-from towercrane.cranes.tower.file.requests import modes_of
+from towercrane.cranes.tower.file.requests import modes_of, of_play
 from towercrane.simulation.outcomes import TOWER_BUCKLED
 from towercrane.simulation.system import NoEquilibrium
 
@@ -81,7 +81,7 @@ def natural_frequencies(case: Case, *, model: FlexibleModel | None = None, actua
         "finite_elements": check,
         "effects": effects_report(effects, actual=actual),
         "crane_model": {kind: asked_modes(tables)[kind] for kind in PLANE_MODES},
-        "left_out": left_out(case),
+        "left_out": [*left_out(case), *of_play(tables)],
         "rope_length_m": case.rope.length,
         "payload_mass_kg": case.payload.mass,
     }

@@ -10,9 +10,10 @@ import numpy as np
 from towercrane.cases.assumptions import as_entries, rests_on
 from towercrane.cases.models import motions_of
 from towercrane.cranes.tower.crane_model import MODE_KINDS, described
-from towercrane.cranes.tower.equations.small_motions import natural_modes
+from towercrane.cranes.tower.equations.small_motions import leans_on, natural_modes
 from towercrane.cranes.tower.file.build import asked_modes, crane_of, tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
+from towercrane.cranes.tower.file.requests import of_play
 from towercrane.simulation.system import NoEquilibrium
 from towercrane.studies.branches import CLEAR
 from towercrane.studies.mode_pairs import BELONGING
@@ -108,7 +109,7 @@ def space_frequencies(case: Case) -> dict[str, Any]:
         list with frequency_hz and kind: modes of the richer model up to the highest of these that the case's cannot
         have), ``sweeps``: for each of `swept` a list with value, frequencies_hz and kinds, the other two as in
         ``at``; outcome and message
-        where the tower buckles; ``assumed``.
+        where the tower buckles; ``left_out`` (what they know of collars with play), ``assumed``.
     """
     tables = case.tables(TowerCase)
     model, count, start = space_model(tables), tables.modes.crane_count, place_at(case)
@@ -122,9 +123,11 @@ def space_frequencies(case: Case) -> dict[str, Any]:
         "pendulum_hz": float(np.sqrt(model.crane.gravity / start.rope_length) / (2.0 * np.pi)),
         "modes": [],
         "missing_from_the_model": [],
+        "left_out": [],
     }
     try:
         modes = natural_modes(model, *vars(start).values())
+        report["left_out"] = of_play(tables, leans_on(model, *vars(start).values()))
         report |= beside_a_richer(model, modes, richer_model(tables), start, count)
     except NoEquilibrium as failure:
         report |= {"outcome": failure.outcome, "message": str(failure)}

@@ -1,4 +1,4 @@
-"""Restarts of the step control where the coupling of a drive meets its corner."""
+"""Restarts of the step control where forces bend: the coupling of a drive, a tower that meets a collar with play."""
 
 from __future__ import annotations
 
@@ -16,40 +16,43 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Corner:
-    """A corner only restarts the step control.
+class Corners:
+    """Corners only restart the step control.
 
-    Which line of the coupling holds is read off the twist at every evaluation, so that a crossing that is missed or
-    merely touched cannot leave the wrong one in force.
+    Which line holds is read off the state at every evaluation, so that a crossing that is missed or merely touched
+    cannot leave the wrong one in force.
 
     Parameters
     ----------
-    inside, outside : int
-        Guards: way to the corner from within, and from beyond it.
+    guards : tuple of (int, int)
+        Of each corner: way to it from within, and from beyond it.
     """
 
-    inside: int
-    outside: int
+    guards: tuple[tuple[int, int], ...]
 
     @property
     def changes_equations(self) -> bool:
-        """Never: a corner is only watched."""
+        """Never: corners are only watched."""
         return False
 
     def begin(self, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
-        """Watch the side that the state is on."""
-        self.watch(bool(guards_at()[self.inside] >= 0.0), floors)
+        """Watch the sides that the state is on."""
+        found = guards_at()
+        for corner in self.guards:
+            watch(corner, bool(found[corner[0]] >= 0.0), floors)
 
     def cross(
         self, guard: int, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]
     ) -> bool:
         """Watch the other side after a crossing; any other guard ends the run."""
-        if guard not in (self.inside, self.outside):
-            return False
-        self.watch(guard == self.outside, floors)
-        return True
+        for corner in self.guards:
+            if guard in corner:
+                watch(corner, guard == corner[1], floors)
+                return True
+        return False
 
-    def watch(self, inside: bool, floors: Floats) -> None:
-        """Watch the way out from inside, or the way back from beyond."""
-        floors[self.inside] = 0.0 if inside else -np.inf
-        floors[self.outside] = -np.inf if inside else 0.0
+
+def watch(corner: tuple[int, int], inside: bool, floors: Floats) -> None:
+    """Watch the way out from inside, or the way back from beyond."""
+    floors[corner[0]] = 0.0 if inside else -np.inf
+    floors[corner[1]] = -np.inf if inside else 0.0

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.cranes.parts.corner import Corner
+    from towercrane.cranes.parts.corner import Corners
 
     Floats = NDArray[np.float64]
 
@@ -27,8 +27,8 @@ REST = 1e-12
 class Transitions:
     """Restarts at corners and the states of set-valued friction.
 
-    A corner only restarts the step control, see :class:`towercrane.cranes.parts.corner.Corner`. Friction sticks while
-    less than its limit is needed to hold the coordinate, and slips against the motion otherwise.
+    A corner only restarts the step control, see :class:`towercrane.cranes.parts.corner.Corners`. Friction sticks
+    while less than its limit is needed to hold the coordinate, and slips against the motion otherwise.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class Transitions:
         Where the state has the rate of the coordinate that drive and friction act on.
     friction_state : int
         Where the numbers have the state of friction.
-    corner : Corner or None
+    corner : Corners or None
         Of a coupling whose two lines differ.
     changes_equations : bool
         Whether friction is set-valued. Otherwise only the coupling's corner is watched.
@@ -44,7 +44,7 @@ class Transitions:
 
     rate: int
     friction_state: int
-    corner: Corner | None
+    corner: Corners | None
     changes_equations: bool
 
     def begin(self, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:

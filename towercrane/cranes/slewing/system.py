@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.parts.corner import Corner
+from towercrane.cranes.parts.corner import Corners
 from towercrane.cranes.slewing import equations
 from towercrane.cranes.slewing.equations import Arm, Body, Constants, structure
 from towercrane.cranes.slewing.friction import Transitions
@@ -135,7 +135,7 @@ class LumpedSystem:
     def _switch(self) -> Transitions | None:
         """What its guards do; nothing where the coupling is a straight line and friction has one value."""
         drive, rates = self.crane.drive, (self.size - 1) // 2
-        corner = Corner(equations.INSIDE, equations.OUTSIDE) if drive.soft != drive.stiff else None
+        corner = Corners(((equations.INSIDE, equations.OUTSIDE),)) if drive.soft != drive.stiff else None
         sticks = drive.friction == "stick-slip"
         if corner is None and not sticks:
             return None

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.cranes.tower.equations.actions.collars import names_of
 from towercrane.cranes.tower.equations.constants import ROPE, Constants, constants_of
 from towercrane.cranes.tower.equations.luffing import motion as luffing
 from towercrane.cranes.tower.equations.luffing.constants import Luffing
+from towercrane.cranes.tower.equations.play import contact_stiffness
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.luffing_crane import luffing_of, products
 from towercrane.cranes.tower.outputs.luffing import READ, outputs
@@ -76,15 +78,17 @@ class LuffingModel(FlexibleModel):
     def system(self) -> System:
         """The model as the solver sees it."""
         fixed = super().system
-        floors = np.full(luffing.GUARDS, -np.inf)
+        contacts = names_of(self.constants.play)
+        floors = np.full(luffing.GUARDS + len(contacts), -np.inf)
         floors[luffing.TENSION] = fixed.floors[luffing.TENSION]
         floors[luffing.HOLDING], floors[[luffing.STOP, luffing.TILT]] = SLACK, 0.0
         recorded = ("corner", "corner", "slewing torque")
         return replace(
             fixed,
             equations=luffing.motion,
-            guards=(SLACK_ROPE, JIB_OVER, JIB_AT_STOP, TOWER_BUCKLED, *recorded),
+            guards=(SLACK_ROPE, JIB_OVER, JIB_AT_STOP, TOWER_BUCKLED, *recorded, *contacts),
             floors=floors,
+            switch=self.corners((luffing.INSIDE, luffing.OUTSIDE), luffing.GUARDS),
         )
 
     @cached_property
@@ -99,6 +103,7 @@ class LuffingModel(FlexibleModel):
             inputs[luffing.COMMANDED, 0], inputs[ROPE, 0] = angle, self.crane.jib_length
             there = self.undeformed(inputs)
             slope, _ = jacobian(partial(self.static_forces, inputs=inputs), there, self.system.scale[: len(there)])
+            slope -= contact_stiffness(self)
             if self.drive is not None:
                 turned = self.parts["slewing"].start
                 slope[turned, turned] = -max(self.drive.soft, self.drive.stiff)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.tower.equations.constants import Constants, constants_of
+from towercrane.cranes.tower.equations.play import contact_stiffness
 from towercrane.cranes.tower.equations.tied.constants import Tied
 from towercrane.cranes.tower.equations.tied.ties import pull_ties, span_of
 from towercrane.cranes.tower.model import FlexibleModel
@@ -140,7 +141,7 @@ class TiedModel(FlexibleModel):
         inputs = np.zeros((len(self.channels), 3))
         inputs[1, 0] = 1.0
         there = self.undeformed(inputs)
-        held = self.constants.stiffness.copy()
+        held = self.constants.stiffness + contact_stiffness(self)
         carried = slice(self.coordinates - len(self._at_rest_alone[1]), self.coordinates)
         tied, q = self._at_rest_alone
 

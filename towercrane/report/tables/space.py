@@ -40,6 +40,7 @@ def space_modes_tables(report: dict[str, Any]) -> None:
             table.add_row(f"{factor * row['value']:g}", *(cells or [row.get("outcome", "")]))
         console.print(table)
     console.print("R radial, L lateral, T torsion, RS radial sway, LS lateral sway: what holds most of the energy")
+    said(console, report["left_out"])
     assumed_values(console, report["assumed"])
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from towercrane.cranes.parts.ground import CHANNELS as GROUND
 from towercrane.cranes.tower.equations.matrices import met_by_wind, own_mass, rotary_mass, softening, stiffness
+from towercrane.cranes.tower.equations.play import play_of
 from towercrane.cranes.tower.modes.mass_sums import Straight
 from towercrane.cranes.tower.modes.shape_table import shape_table
 from towercrane.kernels.algebra import Row
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.equations.coordinates import Coordinates
     from towercrane.cranes.tower.equations.luffing.constants import Luffing
+    from towercrane.cranes.tower.equations.play import Play
     from towercrane.cranes.tower.equations.tied.constants import Tied
     from towercrane.kernels.payload import Load
 
@@ -90,7 +92,7 @@ class Constants:
     tower_mass : ndarray, shape (n,)
         int m phi of the tower's modes with what stands on it and under it, zero elsewhere.
     floor_pull : ndarray, shape (floors, n)
-        Force on the tower's modes, along x or y, per displacement of each floor of a building it is tied to.
+        Force on the tower's modes, along x or y, per displacement of each floor whose collar has no play.
     softening : ndarray, shape (n, n)
         Stiffness that a unit acceleration of the ground, upward, takes from the tower; zero where weight takes none.
     own_mass, stiffness : ndarray, shape (n, n)
@@ -105,6 +107,8 @@ class Constants:
         Of a jib that pivots.
     tied : Tied or None
         Of jibs on tie bars.
+    play : Play or None
+        Of collars that leave the tower some way.
     """
 
     axes: int
@@ -149,6 +153,7 @@ class Constants:
     shapes: Table
     luffing: Luffing | None
     tied: Tied | None
+    play: Play | None
 
     @property
     def coordinates(self) -> int:
@@ -244,6 +249,7 @@ def constants_of(model: Coordinates) -> Constants:
         stiffness=stiffness(model),
         luffing=None,
         tied=None,
+        play=play_of(model),
     )
 
 
@@ -284,5 +290,5 @@ def _of_ground(model: Coordinates) -> dict[str, Any]:
             continue
         tower_mass[at] = crane.tower_moments[0]
         for row, collar in zip(floor_pull, crane.collars, strict=False):
-            row[at] = collar.stiffness * crane.tower(collar.height)
+            row[at] = 0.0 if collar.gap else collar.stiffness * crane.tower(collar.height)
     return {"tower_mass": tower_mass, "floor_pull": floor_pull}

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from towercrane.cranes.parts.corner import Corner
+from towercrane.cranes.parts.corner import Corners
 from towercrane.cranes.tower.equations import motion
+from towercrane.cranes.tower.equations.actions.collars import corners_of, names_of
 from towercrane.cranes.tower.equations.actions.wind import winds_of
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TURN, Constants, constants_of
 from towercrane.cranes.tower.equations.coordinates import Coordinates
 from towercrane.cranes.tower.equations.joints import Joints
 from towercrane.cranes.tower.equations.matrices import geometric_stiffness, scale, softening, stiffness
+from towercrane.cranes.tower.equations.play import contact_stiffness
 from towercrane.cranes.tower.equations.structure import load_force, static_force, structure
 from towercrane.kernels.payload import SLACK, Load, State, Structure
 from towercrane.kernels.straight.written import written
@@ -46,9 +48,10 @@ class Equations(Coordinates):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        n, drive = self.coordinates, self.drive
+        n = self.coordinates
         section = ("section", "section", "section") if self.constants.jointed else ()
-        floors = np.full(motion.GUARDS + len(section), -np.inf)
+        contacts, first = names_of(self.constants.play), motion.GUARDS + len(section)
+        floors = np.full(first + len(contacts), -np.inf)
         floors[motion.TENSION] = -np.inf if self.rope_as_rod else SLACK
         floors[[motion.INNER_END, motion.OUTER_END]] = -ROUNDING
         floors[motion.TILT] = 0.0
@@ -56,22 +59,29 @@ class Equations(Coordinates):
         return System(
             equations=motion.motion,
             size=self.size,
-            guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded, *section),
+            guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded, *section, *contacts),
             floors=floors,
             scale=scale(self),
             constants=self.constants,
             directions=np.array([[n, 2 * n + self.axes, self.axes]]),
-            switch=Corner(motion.INSIDE, motion.OUTSIDE) if drive and drive.soft != drive.stiff else None,
+            switch=self.corners((motion.INSIDE, motion.OUTSIDE), first),
             fastest=lambda: self.fastest,
             crossings=Joints(self.constants) if self.constants.jointed else None,
         )
+
+    def corners(self, coupling: tuple[int, int], first: int) -> Corners | None:
+        """Corners of forces, if there are any, of guards of the drive's coupling and of collars from a place on."""
+        bends = self.drive is not None and self.drive.soft != self.drive.stiff
+        found = (*([coupling] if bends else ()), *corners_of(self.constants.play, first))
+        return Corners(found) if found else None
 
     @cached_property
     def fastest(self) -> float:
         """Highest angular frequency of its small motions [rad/s]; zero without coordinates.
 
-        Without load, its trolley at the tower, its drive at its stiffest: a load can only lower it, by its inertia
-        along the rope, and so does the trolley further out, but for one per cent where that hardly moves.
+        Without load, its trolley at the tower, its drive at its stiffest, all collars met: a load can only lower it,
+        by its inertia along the rope, and so does the trolley further out, but for one per cent where it hardly
+        moves.
         """
         from scipy.linalg import eigh
 
@@ -81,7 +91,7 @@ class Equations(Coordinates):
         inputs = np.zeros((len(self.channels), 3))
         inputs[1, 0] = 1.0
         mass = self.at_rest(np.zeros(n), inputs).mass_matrix()
-        held = self.constants.stiffness.copy()
+        held = self.constants.stiffness + contact_stiffness(self)
         if self.drive is not None:
             turned = self.parts["slewing"].start
             held[turned, turned] += max(self.drive.soft, self.drive.stiff)

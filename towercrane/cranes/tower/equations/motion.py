@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from towercrane.cranes.tower.equations.actions.collars import sides
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
 from towercrane.cranes.tower.equations.jib import Section
 from towercrane.cranes.tower.equations.structure import slewing_torque, structure
@@ -17,7 +18,8 @@ if TYPE_CHECKING:
 TENSION, INNER_END, OUTER_END, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, TROLLEY_FORCE, GUARDS = range(9)
 """Guards, and how many: rope tension [N], way to either end of the jib [m], way to the tilt limit [rad], way to the
 corner of the drive's coupling from inside and from outside [rad]. Outputs beside them: torque of the slewing drive
-[N m] and force of the trolley's [N]; of a jib with joints the trolley's section follows, then tensions of ties."""
+[N m] and force of the trolley's [N]; of a jib with joints the trolley's section follows, then of each collar with
+play the way to its corner from inside and from outside [m], then tensions of ties."""
 
 
 def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
@@ -49,4 +51,4 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     margins = [hung.tension, found.trolley.x, crane.jib_length - found.trolley.x, crane.tilt_limit - found.tilt]
     section_too = found.trolley.section if crane.jointed else ()
     tensions = found.taut.tensions if found.taut is not None else ()
-    return slope, [*margins, -beyond, beyond, torque, force, *section_too, *tensions]
+    return slope, [*margins, -beyond, beyond, torque, force, *section_too, *sides(found.beyond), *tensions]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.tower.equations.actions.collars import meet
 from towercrane.simulation.differences import jacobian
 
 if TYPE_CHECKING:
@@ -170,11 +171,9 @@ def natural_modes(
     """
     if model.axes != 3:
         raise ValueError("FlexibleModel.axes: wanted 3, a load in space, got 2")
-    values = {"rope": rope_length, "slewing": slewing_angle, "shaft": slewing_angle}
-    values |= dict.fromkeys(("trolley", "luffing"), place)
-    drives = np.array([values.get(channel, 0.0) for channel in model.channels])
-    q = model.equilibrium(np.column_stack([drives, np.zeros((len(drives), 2))]))
-    mass, stiffness = linear_matrices(model, drives, about=q)
+    drives = _standing(model, place, rope_length, slewing_angle)
+    q = model.equilibrium(drives)
+    mass, stiffness = linear_matrices(model, drives[:, 0], about=q)
     frequencies, shapes = reciprocal_modes(model, mass, stiffness)
     heading = 0.0 if model.slewing == "fixed" else slewing_angle
     frame = _head_frame(model, heading)
@@ -186,6 +185,25 @@ def natural_modes(
         shares = {kind: float(energy[rows].sum() / total) for kind, rows in _rows(model).items()}
         found.append(NaturalMode(float(frequency), max(shares, key=lambda kind: shares[kind]), shares, shape))
     return found
+
+
+def leans_on(model: Equations, place: float, rope_length: float, slewing_angle: float = 0.0) -> list[int]:
+    """Collars with play that the tower presses on at rest, by their number, the lowest is 1; arguments and errors as
+    :func:`natural_modes` has them."""
+    drives = _standing(model, place, rope_length, slewing_angle)
+    held = [(value, 0.0, 0.0) for value in drives[:, 0]]
+    found = meet(model.constants, model.equilibrium(drives), held)
+    numbers = () if model.constants.play is None else model.constants.play.numbers
+    return [number + 1 for number, met in zip(numbers, found, strict=True) if met.beyond > 0.0]
+
+
+def _standing(model: Equations, place: float, rope_length: float, slewing_angle: float) -> Floats:
+    """Inputs of drives that stand, without wind; shape (channels, 3)."""
+    values = {"rope": rope_length, "slewing": slewing_angle, "shaft": slewing_angle}
+    values |= dict.fromkeys(("trolley", "luffing"), place)
+    inputs = np.zeros((len(model.channels), 3))
+    inputs[:, 0] = [values.get(channel, 0.0) for channel in model.channels]
+    return inputs
 
 
 def _head_frame(model: Equations, heading: float) -> Floats:

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane.cranes.tower.equations.actions.collars import held_back, meet
 from towercrane.cranes.tower.equations.actions.drive import Driven, drive
 from towercrane.cranes.tower.equations.actions.ground import ground_of, shake
 from towercrane.cranes.tower.equations.actions.wind import press_wind, winds_of
@@ -64,6 +65,8 @@ class CraneStructure(NamedTuple):
     drive : Driven or None
     taut : Taut or None
         Tie bars.
+    beyond : list
+        How far the tower is beyond the play of each collar that has some [m].
     """
 
     hanging: Structure
@@ -75,6 +78,33 @@ class CraneStructure(NamedTuple):
     projected: list[Projected]
     drive: Driven | None
     taut: Taut | None
+    beyond: list[Any]
+
+
+class Resisted(NamedTuple):
+    """Forces on the coordinates with those of springs, dampers and collars with play, and :class:`CraneStructure`'s
+    power and ways beyond play."""
+
+    forces: list[Any]
+    power: Any
+    beyond: list[Any]
+
+
+def resist(crane: Constants, state: State, drives: Drives, acting: list[Any], power: Any) -> Resisted:
+    """What springs and dampers of the coordinates, and collars with play, add to forces and power."""
+    forces = []
+    for i in range(crane.coordinates):
+        loss = crane.damping[i] * state.rates[i]
+        power = power - loss * state.rates[i]
+        force = acting[i] - loss
+        for m in range(crane.coordinates):
+            force = force - crane.stiffness[i, m] * state.coordinates[m]
+        forces.append(force)
+    met = meet(crane, state.coordinates, drives)
+    if met:
+        back, fed = held_back(crane, drives, met)
+        forces, power = [force + own for force, own in zip(forces, back, strict=True)], power + fed
+    return Resisted(forces, power, [own.beyond for own in met])
 
 
 def structure(crane: Constants, state: State, drives: Drives, section: Section | None = None) -> CraneStructure:
@@ -102,16 +132,7 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         own_forces = [own + pulled for own, pulled in zip(own_forces, taut.forces, strict=True)]
     body = turning.with_trolley(crane.trolley_mass, end.place, pull)
 
-    power: Any = 0.0
-    forces = []
-    bent = [0.0] * crane.movers + own_forces
-    for i in range(crane.coordinates):
-        loss = crane.damping[i] * state.rates[i]
-        power = power - loss * state.rates[i]
-        force = bent[i] - loss
-        for m in range(crane.coordinates):
-            force = force - crane.stiffness[i, m] * state.coordinates[m]
-        forces.append(force)
+    forces, power, beyond = resist(crane, state, drives, [0.0] * crane.movers + own_forces, 0.0)
     winds = winds_of(crane, drives)
     if crane.wind:
         blown = press_wind(crane, state, head, winds)
@@ -156,7 +177,7 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         ground=[ground.acceleration[k] for k in axes],
     )
     path = tuple(row[0] + row[1] * across.slope + row[2] * rise.slope for row in head.rows)
-    return CraneStructure(hanging, trolley, tilt, power, path, share, projected, driven, taut)
+    return CraneStructure(hanging, trolley, tilt, power, path, share, projected, driven, taut, beyond)
 
 
 def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:

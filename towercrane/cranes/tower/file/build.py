@@ -17,10 +17,12 @@ from towercrane.cranes.tower.file.members import (
     with_end_body,
 )
 from towercrane.cranes.tower.file.plane import heading_of
+from towercrane.cranes.tower.modes.collars import TowerCollar
 from towercrane.cranes.tower.modes.parameters import as_chain
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.file.case_tables import TowerCase
+    from towercrane.cranes.tower.file.tables import Crane
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.parameters import TowerCrane
 
@@ -37,8 +39,17 @@ def crane_of(tables: TowerCase) -> TowerCrane:
     return crane_on(
         standing, crane, jib_lateral=jib_of(crane, "lateral"), shaft=shaft, roll_inertia=crane.roll_inertia,
         counter_jib_lateral=counter_jib_of(crane, "lateral"), luffing=luffing_of(tables),
-        tie_bars=tie_bars_of(crane),
+        tie_bars=tie_bars_of(crane), gapped=gapped_of(crane, standing.length),
     )  # fmt: skip
+
+
+def gapped_of(crane: Crane, length: float) -> tuple[TowerCollar, ...]:
+    """Collars with play that a tower of this length has."""
+    return tuple(
+        TowerCollar(min(collar.height, length), collar.stiffness, gap=collar.gap)
+        for collar in crane.tower.collars
+        if collar.gap
+    )
 
 
 def crane_frame(tables: TowerCase, *, weight: bool = False) -> CraneFrame:

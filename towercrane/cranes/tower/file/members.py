@@ -48,6 +48,9 @@ def tower_of(crane: Crane) -> Beam | Chain:
         chain = replace(chain, bodies={**chain.bodies, node: joined(chain.bodies.get(node, EndBody()), more)})
     for collar in tower.collars:
         chain, node = chain.with_node(min(collar.height, chain.length))
+        if collar.gap:
+            # It is no part of a tower that stands free within its play.
+            continue
         springs = Collar(collar.stiffness, collar.rotation_stiffness)
         chain = replace(chain, collars={**chain.collars, node: springs})
     return chain

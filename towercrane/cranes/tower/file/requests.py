@@ -10,6 +10,8 @@ from towercrane.cranes.tower.targets import ANY_MOTION, FORETOLD, absent, lackin
 from towercrane.schema.targets import ForEvery
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from towercrane.cranes.tower.file.case_tables import MapRequest, ModesRequest, TowerCase
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.motions.motion import Motion
@@ -52,17 +54,40 @@ def modes_that_move(tables: TowerCase) -> dict[str, str]:
     return {key: word for key, word in named if key in moving(stays_in_plane(tables))}
 
 
+def of_play(tables: TowerCase, pressed: Collection[int] | None = ()) -> list[str]:
+    """What natural frequencies know of collars with play, the lowest is 1; of those that the tower leans on at rest,
+    or, where that is not asked, of any."""
+    collars = sorted(tables.crane.tower.collars, key=lambda collar: collar.height)
+    gaps = {number: collar.gap for number, collar in enumerate(collars, start=1) if collar.gap}
+    leaned = [number for number in gaps if pressed is None or number in pressed]
+    free, said = [number for number in gaps if number not in leaned], []
+
+    def named(numbers: Collection[int]) -> str:
+        shown = " and ".join(f"{number} ({1e3 * gaps[number]:g} mm)" for number in numbers)
+        return f"the play of collar{'s' if len(numbers) > 1 else ''} {shown}"
+
+    if free:
+        said.append(f"{named(free)} is open: natural frequencies are of motions within it, which no collar feels")
+    if leaned and pressed is None:
+        said.append(f"{named(leaned)} is open or not as the tower stands at rest: natural frequencies are of that")
+    elif leaned:
+        said.append(f"{named(leaned)} is used up at rest: natural frequencies are of motions that stay in contact")
+    return said
+
+
 def notices(tables: TowerCase, model: FlexibleModel) -> list[str]:
-    """What the modes of a run leave out of forces on base and collars."""
-    written, count = model.crane.written, model.crane.tower.count
+    """What the modes of a run leave out of forces on base and collars, and natural frequencies of play."""
+    written = model.crane.written
     if written is None:
         return []
+    count = max(0, model.crane.tower.count - len(written.gapped))
     from towercrane.cranes.tower.modes.left_out.collar_statics import notice
     from towercrane.cranes.tower.modes.left_out.effective_mass import effective_mass
 
     said = [notice(written, count)]
     if tables.earthquake is not None:
         said.append(effective_mass(written).notice(count))
+    said += of_play(tables, () if model.axes == 2 else None)
     return [sentence for sentence in said if sentence]
 
 
@@ -80,4 +105,5 @@ def left_out(tables: TowerCase) -> list[str]:
 
 def left_out_in_plane(tables: TowerCase) -> list[str]:
     """What a study of the crane in the jib's plane leaves out, in a scene that may leave it."""
-    return left_out(tables) or [f"the scene leaves the jib's plane, but this shows the crane in it alone: {SIDEWAYS}"]
+    aside = f"the scene leaves the jib's plane, but this shows the crane in it alone: {SIDEWAYS}"
+    return [*(left_out(tables) or [aside]), *of_play(tables)]

@@ -84,12 +84,13 @@ class TowerBody(Table):
 
 
 class Collar(Table):
-    """What ties the tower to a building at a height."""
+    """What ties the tower to a building at a height, beyond the play that it leaves to each side."""
 
     height: Length
     stiffness: Stiffness
     rotation_stiffness: RotaryStiffnessOrNone = 0.0
     torsional_stiffness: RotaryStiffnessOrNone = 0.0
+    gap: Reach = 0.0
 
 
 class Tower(Section):

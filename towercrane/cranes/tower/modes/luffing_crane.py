@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from modal.beams.beam import EndBody
 from towercrane.cranes.tower.modes.chord_shapes import ChordShapes
-from towercrane.cranes.tower.modes.collars import collars_of
 from towercrane.cranes.tower.modes.mass_sums import point_sums, rigid_sums
 from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane, check_described, torsion_of
 from towercrane.cranes.tower.modes.parameters import modes_of
@@ -65,7 +64,7 @@ def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> Flexible
         name=crane.name,
         tower_height=crane.tower.length,
         jib_length=crane.jib.length,
-        tower=crane.tower_modes(modes.tower),
+        tower=crane.tower_shapes(modes.tower),
         torsion=torsion_of(crane, modes.torsion),
         lateral=lateral,
         vertical=vertical,
@@ -75,7 +74,7 @@ def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> Flexible
         trolley_mass=0.0,
         planes=planes,
         tower_moment=crane.tower_moment,
-        collars=collars_of(crane),
+        collars=crane.collars,
         gravity=crane.gravity,
         luffing=own,
         written=crane,

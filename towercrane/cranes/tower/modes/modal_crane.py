@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from modal.beams.torsion import torsion_modes
-from towercrane.cranes.tower.modes.collars import TowerCollar, collars_of
 from towercrane.cranes.tower.modes.exposures import exposure_of
 from towercrane.cranes.tower.modes.jib_shapes import shapes_of
 
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
 
     from modal.structures.chain_modes import ChainModes
     from towercrane.cranes.parts.wind import WindAreas, WindNodes
+    from towercrane.cranes.tower.modes.collars import TowerCollar
     from towercrane.cranes.tower.modes.exposures import Exposure
     from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
     from towercrane.cranes.tower.modes.mass_sums import Basis, MassSums
@@ -80,7 +80,7 @@ class FlexibleCrane:
     tower_moment : float
         First moment of the tower's mass and of its own bodies about its foot [kg m].
     collars : tuple of TowerCollar
-        What ties the tower to a building, the lowest first; the shapes know their stiffness.
+        What ties the tower to a building, the lowest first; the shapes know the stiffness of those without play.
     exposure : Exposure, optional
         What the wind meets of it.
     gravity : float
@@ -237,7 +237,7 @@ def flexible_crane(
     """
     check_described(crane, modes)
     shapes = shapes_of(crane, modes, planes)
-    tower = crane.tower_modes(modes.tower)
+    tower = crane.tower_shapes(modes.tower)
     return FlexibleCrane(
         name=crane.name,
         tower_height=crane.tower.length,
@@ -253,7 +253,7 @@ def flexible_crane(
         planes=planes,
         exposure=None if areas is None else exposure_of(shapes, tower, crane.tower.length, areas, nodes),
         tower_moment=crane.tower_moment,
-        collars=collars_of(crane),
+        collars=crane.collars,
         gravity=crane.gravity,
         counter_lateral=shapes.counter_lateral,
         counter_vertical=shapes.counter_vertical,

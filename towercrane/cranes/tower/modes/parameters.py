@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from modal.beams.beam import Beam, EndBody
 from modal.checks import check_fields
+from towercrane.cranes.tower.modes.collars import SAME_HEIGHT, TowerCollar
 
 if TYPE_CHECKING:
     from modal.beams.chain import Chain
@@ -54,12 +56,15 @@ class TowerCrane:
     tie_bars : TieBars, optional
         Cat-head and ties of a crane whose jib and counter-jib, a chain, hinge at their feet: up and down they turn
         there freely, to their sides they are clamped.
+    gapped : tuple of TowerCollar
+        Collars with play, which hold the tower's place alone and of which the tower itself knows nothing.
 
     Raises
     ------
     ValueError
-        If a number is negative or not finite, the counter-jib has its mass twice, or a member in one direction and in
-        the other, or tower and shaft, differ in what they share.
+        If a number is negative or not finite, the counter-jib has its mass twice, a member in one direction and in
+        the other, or tower and shaft, differ in what they share, or a collar with play has none, is off the tower or
+        holds more than its place.
     """
 
     name: str
@@ -77,6 +82,7 @@ class TowerCrane:
     counter_jib: Chain | None = None
     counter_jib_lateral: Chain | None = None
     tie_bars: TieBars | None = None
+    gapped: tuple[TowerCollar, ...] = ()
 
     def __post_init__(self) -> None:
         masses = ("counter_jib_mass_per_length", "counterweight", "trolley_mass", "gravity", "roll_inertia")
@@ -97,6 +103,12 @@ class TowerCrane:
         if self.counter_jib is not None and self.counter_jib.length != self.counter_jib_length:
             wanted, got = self.counter_jib.length, self.counter_jib_length
             raise ValueError(f"TowerCrane.counter_jib_length: wanted {wanted!r}, that of its segments, got {got!r}")
+        for collar in self.gapped:
+            at_place_alone = collar.rotation_stiffness == collar.torsional_stiffness == 0.0
+            within = 0.0 < collar.height <= self.tower.length
+            if not (within and at_place_alone and 0.0 < collar.gap < inf and 0.0 < collar.stiffness < inf):
+                what = f"heights above 0 to {self.tower.length:g} m, a gap and a stiffness, no other stiffness"
+                raise ValueError(f"TowerCrane.gapped: wanted {what}, got {collar!r}")
 
     @property
     def counter_mass(self) -> float:
@@ -193,6 +205,16 @@ class TowerCrane:
         return as_chain(self.tower).inertia[1]
 
     @property
+    def collars(self) -> tuple[TowerCollar, ...]:
+        """What ties the tower to a building, the lowest first, with the springs that hold its shaft there."""
+        tower, twisted, found = as_chain(self.tower), () if self.shaft is None else self.shaft.springs, [*self.gapped]
+        for node, own in tower.collars.items():
+            height = tower.nodes[node]
+            torsional = sum(stiffness for at, stiffness in twisted if abs(at - height) <= SAME_HEIGHT * height)
+            found.append(TowerCollar(height, own.stiffness, own.rotation_stiffness, torsional))
+        return tuple(sorted(found, key=lambda collar: collar.height))
+
+    @property
     def end_body(self) -> EndBody:
         """The slewing part as the tower's end body: what Gao et al. (2023), Eq. 26, calls m_r and J_r."""
         if self.luffing is not None:
@@ -202,6 +224,14 @@ class TowerCrane:
     def tower_modes(self, count: int) -> Modes | ChainModes:
         """Modes of the tower with the slewing part on its end."""
         return modes_of(self.tower, count, self.end_body)
+
+    def tower_shapes(self, count: int) -> Modes | ChainModes:
+        """The same, and how the tower bends under each collar with play; none of a rigid tower."""
+        if not (self.gapped and count):
+            return self.tower_modes(count)
+        from towercrane.cranes.tower.modes.gap_shapes import gap_shapes
+
+        return gap_shapes(as_chain(self.tower), count, self.end_body, [collar.height for collar in self.gapped])
 
     def jib_modes(self, count: int) -> Modes | ChainModes:
         """Modes of the jib, clamped at the tower top and free at its end."""

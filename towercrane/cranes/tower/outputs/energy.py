@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.parts.coupling import coupling_energy
+from towercrane.cranes.tower.equations.actions.collars import meet
 from towercrane.cranes.tower.equations.constants import SLEWING
 from towercrane.kernels.algebra import dot, form
 
@@ -50,12 +51,14 @@ def own_energy(at: Kinematics) -> Any:
 
 
 def elastic_energy(at: Kinematics) -> Any:
-    """Energy of modes and of the drive's coupling [J]."""
+    """Energy of modes, of the drive's coupling and of collars with play [J]."""
     crane, q = at.seen.crane, at.state.coordinates
     energy = 0.5 * form(q, crane.stiffness, q)
     if (drive := crane.drive) is not None:
         twist = at.slewing[0] - at.instant.drives[SLEWING][0]
         energy = energy + coupling_energy(twist, drive.soft, drive.stiff, drive.corner)
+    for met in meet(crane, q, at.instant.drives):
+        energy = energy + met.energy
     return energy
 
 

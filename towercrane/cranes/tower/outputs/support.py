@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from towercrane.cranes.parts.base import Reaction, added
+from towercrane.cranes.tower.equations.actions.collars import meet
 from towercrane.cranes.tower.equations.actions.ground import floors_of
 from towercrane.kernels.algebra import Vector, cross, dot, form
 
@@ -49,11 +50,15 @@ class Support:
         crane, seen, q = self.at.seen.crane, self.at.seen, self.at.state.coordinates
         q_x, q_y, q_c = ([q[i] for i in crane.part(kind)] for kind in ("tower_x", "tower_y", "torsion"))
         floors: list[Any] = floors_of(crane, self.at.instant.drives) or [(0.0, 0.0)] * len(seen.collar_heights)
+        numbers = () if crane.play is None else crane.play.numbers
+        met = dict(zip(numbers, meet(crane, q, self.at.instant.drives), strict=True))
         found = []
         for k, (height, floor) in enumerate(zip(seen.collar_heights, floors, strict=True)):
             stiffness, rotating, twisting = seen.collar_springs[k]
             x, y = (dot(seen.collar_bends[k], own) for own in (q_x, q_y))
             force = stiffness * (x - floor[0]), stiffness * (y - floor[1]), 0.0
+            if k in met:
+                force = *met[k].force, 0.0
             turned_x, turned_y = -dot(seen.collar_turns[k], q_y), dot(seen.collar_turns[k], q_x)
             moment = rotating * turned_x, rotating * turned_y, twisting * dot(seen.collar_twists[k], q_c)
             found.append(Tied((x, y, height), force, moment))

@@ -84,10 +84,13 @@ def shake(
 
 def floors_of(crane: Constants, drives: Drives) -> list[tuple[Any, Any]]:
     """Displacement of each floor against the ground along the first two axes of the coordinates [m]."""
-    first, count = crane.ground + 3, len(crane.floor_pull)
-    c, s = crane.plane_cosine, crane.plane_sine
-    found = []
-    for k in range(count):
-        east, north = (drives[first + 2 * k + axis][0] for axis in (0, 1))
-        found.append((c * east + s * north, c * north - s * east))
-    return found
+    return [floor_of(crane, drives, number) for number in range(len(crane.floor_pull))]
+
+
+def floor_of(crane: Constants, drives: Drives, number: int, order: int = 0) -> tuple[Any, Any]:
+    """Displacement of a floor, the lowest is 0, or its rate; none where floors move with the ground."""
+    if not len(crane.floor_pull):
+        return 0.0, 0.0
+    first, c, s = crane.ground + 3 + 2 * number, crane.plane_cosine, crane.plane_sine
+    east, north = (drives[first + axis][order] for axis in (0, 1))
+    return c * east + s * north, c * north - s * east

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane.cranes.tower.equations.actions.collars import sides
 from towercrane.cranes.tower.equations.actions.drive import Driven, drive
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
 from towercrane.cranes.tower.equations.head import head_of
@@ -23,7 +24,7 @@ from towercrane.cranes.tower.equations.projection import (
     project_row,
     share_of,
 )
-from towercrane.cranes.tower.equations.structure import load_force, slewing_torque
+from towercrane.cranes.tower.equations.structure import load_force, resist, slewing_torque
 from towercrane.kernels.algebra import dot
 from towercrane.kernels.payload import Rope, State, Structure, hang_load, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 
 TENSION, HOLDING, STOP, TILT, INSIDE, OUTSIDE, SLEWING_TORQUE, GUARDS = range(8)
 """Guards, and how many: tension of the hoist's falls and of the luffing rope [N], way to the jib's stop [rad]; then
-as :mod:`towercrane.cranes.tower.equations.motion` has them."""
+as :mod:`towercrane.cranes.tower.equations.motion` has them, and last what watches the collars."""
 
 COMMANDED = 0
 """Motion of the luffing winch: the angle at which a straight jib would stand on a rope that does not stretch."""
@@ -59,6 +60,8 @@ class LuffingStructure(NamedTuple):
         The coordinates.
     hinged : Hinged
     driven : Driven or None
+    beyond : list
+        As :class:`towercrane.cranes.tower.equations.structure.CraneStructure` has it.
     """
 
     hanging: Structure
@@ -70,6 +73,7 @@ class LuffingStructure(NamedTuple):
     projected: list[Projected]
     hinged: Hinged
     driven: Driven | None
+    beyond: list[Any]
 
 
 def structure(crane: Constants, state: State, drives: Drives) -> LuffingStructure:
@@ -92,14 +96,7 @@ def structure(crane: Constants, state: State, drives: Drives) -> LuffingStructur
     lowered, weight = [dot(row, q) for row in own.weighted], crane.self_gravity
     sagging = [weight * pivot.s * along for along in lowered] + [0.5 * weight * pivot.c * dot(q, lowered)]
     on_jib = [a + b + c for a, b, c in zip(hinged.forces, held.forces, sagging, strict=True)]
-    power, forces = held.power, []
-    for i in range(crane.coordinates):
-        loss = crane.damping[i] * state.rates[i]
-        power = power - loss * state.rates[i]
-        force = (on_jib[i - movers] if i >= movers else 0.0) - loss
-        for m in range(crane.coordinates):
-            force = force - crane.stiffness[i, m] * state.coordinates[m]
-        forces.append(force)
+    forces, power, beyond = resist(crane, state, drives, [0.0] * movers + on_jib, held.power)
 
     share = share_of(head, hinged.body, hinged.end.place)
     projected = [project_mover(crane, i, share) for i in range(movers)]
@@ -123,7 +120,7 @@ def structure(crane: Constants, state: State, drives: Drives) -> LuffingStructur
         jacobian=[[own.end[k] for own in projected] for k in axes],
         wind=[0.0] * crane.axes,
     )
-    return LuffingStructure(hanging, rope, held, tilt, power, share, projected, hinged, driven)
+    return LuffingStructure(hanging, rope, held, tilt, power, share, projected, hinged, driven, beyond)
 
 
 def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
@@ -143,7 +140,7 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     slope = slopes(state, hung, hung.power + power)
     stop = luffing_of(crane).highest_angle - state.coordinates[-1]
     margins = [hung.tension, found.held.tension, stop, crane.tilt_limit - found.tilt]
-    return slope, [*margins, -beyond, beyond, torque]
+    return slope, [*margins, -beyond, beyond, torque, *sides(found.beyond)]
 
 
 def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:

@@ -49,6 +49,7 @@ def check_tower(tree: dict[str, Any]) -> Iterator[Fault]:
         for name in ("bodies", "collars"):
             yield from _check_heights(name, tables_in(tower.get(name)), tower_height(tree))
         yield from _check_apart(tables_in(tower.get("collars")))
+        yield from _check_gaps(tables_in(tower.get("collars")))
     yield from _check_coupling(tree)
 
 
@@ -167,6 +168,15 @@ def _check_apart(collars: list[dict[str, Any]]) -> Iterator[Fault]:
             hint = "one collar has the stiffness of both"
             yield Fault("", f"{key}.height", "heights that differ", f"{shown(collar['height'])} twice", hint)
         heights.append(height)
+
+
+def _check_gaps(collars: list[dict[str, Any]]) -> Iterator[Fault]:
+    """Collars with play that hold more than the tower's place."""
+    for key, collar in _numbered("collars", collars):
+        for name in ("rotation_stiffness", "torsional_stiffness"):
+            if si_at(collar, "gap", "m", 0.0) and (value := collar.get(name)) is not None:
+                hint = "within its play the tower turns and twists freely; state a collar without gap for that"
+                yield Fault("", f"{key}.{name}", "nothing for a collar with a gap", shown(value), hint)
 
 
 def _check_coupling(tree: dict[str, Any]) -> Iterator[Fault]:
