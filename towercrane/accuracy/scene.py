@@ -91,9 +91,10 @@ class Scene:
     def laddered(self) -> bool:
         """Whether runs of ever richer models alone tell errors.
 
-        Small motions about an undeformed crane are none of one that hangs on ties or whose jib pivots.
+        Small motions about an undeformed crane are none of one that hangs on ties or whose jib pivots, and do not
+        tell when a tower meets a collar with play.
         """
-        return self.crane.luffing is not None or self.crane.tie_bars is not None
+        return self.crane.luffing is not None or self.crane.tie_bars is not None or bool(self.crane.gapped)
 
     @property
     def described(self) -> tuple[str, ...]:

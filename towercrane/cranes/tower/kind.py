@@ -7,7 +7,6 @@ from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.checks.jib import check_jibs, jib_length
 from towercrane.cranes.tower.file.checks.luffing import check_luffing, head_height, limits, pivots, refused
 from towercrane.cranes.tower.file.checks.scene import check_scene
-from towercrane.cranes.tower.file.checks.scene import refused as refused_with_play
 from towercrane.cranes.tower.file.checks.ties import check_ties
 from towercrane.cranes.tower.file.checks.ties import refused as refused_on_ties
 from towercrane.cranes.tower.file.checks.tower import check_tower, tower_height
@@ -50,6 +49,6 @@ TOWER = Kind(
     left_out=later("towercrane.cranes.tower.file.requests", "left_out"),
     notices=later("towercrane.cranes.tower.file.requests", "notices"),
     sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},
-    refuses=lambda tables: refused(tables) | refused_on_ties(tables) | refused_with_play(tables),
+    refuses=lambda tables: refused(tables) | refused_on_ties(tables),
     serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members"}),
 )  # fmt: skip

@@ -16,8 +16,6 @@ from towercrane.schema.units import wanted
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-    from towercrane.cranes.tower.file.case_tables import TowerCase
-
 MISSING = "nothing: the key is missing"
 
 NEEDED = {
@@ -49,7 +47,6 @@ def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
     yield from _check_drive(tree)
     yield from _check_wind(tree)
     yield from _check_floors(tree)
-    yield from _check_play(tree)
 
 
 def _check_outputs(tree: dict[str, Any], still: Collection[str]) -> Iterator[Fault]:
@@ -155,22 +152,3 @@ def _check_floors(tree: dict[str, Any]) -> Iterator[Fault]:
     if isinstance(floors, list) and floors and isinstance(collars, list) and len(floors) != len(collars):
         what = f"a file for each of {len(collars)} collars of the tower, the lowest first, or none"
         yield Fault("", "earthquake.floors", what, f"{len(floors)}", "without files collars move with the ground")
-
-
-UNFORETOLD = "small motions cannot foretell where a tower meets a collar with a gap"
-"""Why nothing is promised of such a scene."""
-
-
-def _check_play(tree: dict[str, Any]) -> Iterator[Fault]:
-    """An error that is asked for of a tower that may meet collars with play."""
-    target = at(tree, "accuracy.target")
-    if target is not None and any(si_at(own, "gap", "m", 0.0) for own in tables_in(at(tree, "crane.tower.collars"))):
-        hint = f"{UNFORETOLD}; state [model] and [solver] and compare two runs"
-        yield Fault("", "accuracy.target", "nothing for a tower that collars hold with a gap", shown(target), hint)
-
-
-def refused(tables: TowerCase) -> dict[str, str]:
-    """Uses that a checked case whose collars leave the tower play cannot serve, and why."""
-    if not any(collar.gap for collar in tables.crane.tower.collars):
-        return {}
-    return {"verify": f"{UNFORETOLD}; choose [model] and [solver] and compare two runs"}
