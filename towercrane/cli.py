@@ -10,6 +10,7 @@ from towercrane.commands.animate import animate
 from towercrane.commands.bench import bench
 from towercrane.commands.cases import cases_app
 from towercrane.commands.compare import compare
+from towercrane.commands.fatigue import fatigue
 from towercrane.commands.figures import figures
 from towercrane.commands.lattice import lattice
 from towercrane.commands.linearise import linearise
@@ -41,6 +42,7 @@ app.command("map")(frequency_map)
 app.command()(compare)
 app.command()(sensitivity)
 app.command()(sweep)
+app.command()(fatigue)
 app.command()(bench)
 app.command()(shape)
 

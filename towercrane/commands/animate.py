@@ -17,6 +17,7 @@ from towercrane.commands.shared.terminal import (
     fail,
     folder_for_results,
     held_interrupts,
+    load_run,
     out_option,
     say,
     suggest,
@@ -97,22 +98,9 @@ def animate(
 
 def _finished(path: str, changes: list[str] | None) -> xr.Dataset:
     """A result file."""
-    from towercrane.results import files as results
-    from towercrane.results.result_file import check_run
-
     if changes:
         fail(f"--set {changes[0]}: wanted a case to change, got the finished result {path}")
-    try:
-        result = results.load(path)
-    except FileNotFoundError:
-        fail(f"{path}: wanted a case or a result.nc, got no file")
-    except (OSError, ValueError, RuntimeError, KeyError) as error:
-        fail(f"{path}: wanted a result.nc of `towercrane run`, got a file that cannot be read: {error}")
-    try:
-        check_run(result)
-    except ValueError as error:
-        fail(f"{path}: {error}")
-    return result
+    return load_run(path)
 
 
 def _case_of(path: str, result: xr.Dataset) -> Case:

@@ -18,6 +18,8 @@ FORMER = {
     "swing_angle_sideways": ("sway_tangential", "sway_lateral", "sway_along_bridge"),
     "tower_coordinate": ("tower_x_coordinate",),
     "jib_coordinate": ("jib_vertical_coordinate",),
+    "rope_tension": ("hoist_rope_force",),
+    "luffing_rope_tension": ("luffing_rope_force",),
 }
 """What keys and outputs were called, and what they are called now, of one kind of crane or another."""
 

@@ -14,6 +14,8 @@ import typer
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping
 
+    import xarray as xr
+
     from towercrane.cases.case import Case
 
 Found = TypeVar("Found")
@@ -51,6 +53,24 @@ def load(name: str, changes: list[str] | None) -> Case:
     from towercrane.cases.case import load_case
 
     return load_case(name, changes or [])
+
+
+def load_run(path: str) -> xr.Dataset:
+    """Read and check the result file of a run."""
+    from towercrane.results import files as results
+    from towercrane.results.result_file import check_run
+
+    try:
+        result = results.load(path)
+    except FileNotFoundError:
+        fail(f"{path}: wanted a case or a result.nc, got no file")
+    except (OSError, ValueError, RuntimeError, KeyError) as error:
+        fail(f"{path}: wanted a result.nc of `towercrane run`, got a file that cannot be read: {error}")
+    try:
+        check_run(result)
+    except ValueError as error:
+        fail(f"{path}: {error}")
+    return result
 
 
 @contextmanager
