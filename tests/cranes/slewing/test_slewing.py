@@ -184,7 +184,7 @@ def test_readings_follow_their_definitions(kind):
 
 def test_sway_is_positive_outward_and_in_the_turning_sense():
     for angle, name, sign in ((0.3, "radial", 1), (-0.3, "radial", -1)):
-        start = crane().start(inputs(), "equilibrium", angle)
+        start = begin(crane(), inputs(), Start(along=angle))
         assert_allclose(run(crane(), STILL, 0.05, start)[1][f"sway_{name}"][0], sign * 0.3, rtol=1e-12)
     # The shaft starts to turn counter-clockwise: the load falls behind.
     assert degrees(run(crane(), motions(), 1.9)[1], "tangential")[-1] < -10

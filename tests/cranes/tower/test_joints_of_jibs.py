@@ -116,12 +116,12 @@ def test_energy_is_the_work_of_the_drives_past_joints(way, planar):
     duration = 2.0 if way.startswith(("in motion", "touching")) else 4.0
     cut = crane.system.crossings.cut(phases(tuple(motions[channel] for channel in crane.channels), duration))
     assert np.count_nonzero(np.diff(cut.inputs[:, -1, 0])) == joints
-    assert balance(crane, motions, duration, start=Start(along=0.2), rtol=1e-11, atol=1e-13) < 1e-11
+    assert balance(crane, motions, duration, start=Start("zero", along=0.2), rtol=1e-11, atol=1e-13) < 1e-11
 
 
 def balance(crane, motions, duration, **options):
     """Largest gap in the balance of energy, over what the energy changes by."""
-    run = record(crane, motions, duration, start=Start("zero"), **options)
+    run = record(crane, motions, duration, **{"start": Start("zero"), **options})
     assert run.attrs["outcome"] == "finished"
     energy, work = (np.asarray(run[name].values) for name in ("total_energy", "input_work"))
     return float(np.max(abs(energy - energy[0] - work + work[0])) / np.ptp(energy))
