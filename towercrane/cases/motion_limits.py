@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ from towercrane.schema.ranges import at, si, si_at
 from towercrane.schema.text import leaves
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
     from pydantic import TypeAdapter
@@ -114,7 +116,7 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
         plans[joint], more = _motion(tree, way, reader(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
     more, plans["rope"] = _rope(tree, folder, drives)
-    faults += more
+    faults += [*more, *_turns_in_wind(tree, plans, tuple(name for names in drives.joints for name in names))]
     found = {name: plan for name, plan in plans.items() if plan is not None}
     if KINDS[kind].natural is None:
         faults += [_without_model(name, kind) for name, plan in found.items() if plan.needs_model]
@@ -207,6 +209,11 @@ def _motion(
         return None, [replace(f, hint=f"{f.hint}; {named}" if f.hint else named) for f in error.faults]
     except (ArithmeticError, ValueError) as error:
         return None, [Fault("", way.key, "a motion that can be computed", str(error))]
+    if jumps := [jump for jump in _jumps(found) if abs(jump[1] - jump[0]) > ROUNDING * max(1.0, abs(jump[0]))]:
+        before, after = jumps[0]
+        wanted = f"moves that begin at the speed at which the one before ends, here {before:g} {way.unit}/s"
+        hint = "start_speed and end_speed say it; a delay is at rest"
+        return None, [Fault("", way.key, wanted, f"one that begins at {after:g} {way.unit}/s", hint)]
     motion = found.commanded
     key = f"{way.key}.file" if described.shape == "table" else way.key
     if hoists and abs(float(motion(0.0)) - begin) > 1e-6:
@@ -223,10 +230,28 @@ def _motion(
         table, hint = described.shape == "table", hints[described.shape]
         got = f"a {'table' if table else 'motion'} that reaches {reached:.3g} {way.unit}/s"
         return None, [Fault("", key, f"speeds up to {limit:g} {way.unit}/s", got, hint)]
-    low, high = motion.range()
+    low, high = motion.range(until=si_at(tree, "run.duration", "s") or 0.0)
     # Other turns state their angles, which have ranges of their own.
     judged = described.shape == "table" or not way.turns or way.low is not None
     if judged and not (way.keeps(low) and way.keeps(high)):
         ends = f"{low:g} to {high:g} {way.unit}" if way.low is None else f"{degrees(low):g} to {degrees(high):g} deg"
         return None, [way.fault(key, f"a motion from {ends}")]
     return found, []
+
+
+def _jumps(told: Plan) -> list[tuple[float, float]]:
+    """Rates at which each move ends and the next one begins."""
+    moves = [move.commanded for move in told.moves]
+    return [(one.end_rate, float(other(0.0, 1))) for one, other in pairwise(moves)]
+
+
+def _turns_in_wind(tree: dict[str, Any], plans: Mapping[str, Plan | None], joints: tuple[str, ...]) -> list[Fault]:
+    """Fault of a wind that blows while the crane turns as a run begins, which is no equilibrium."""
+    turns = [name for name in joints if (told := plans.get(name)) is not None and float(told.commanded(0.0, 1))]
+    blows = any(told is not None and told.commanded.mean for name, told in plans.items() if name.startswith("wind"))
+    start = at(tree, "start")
+    written = start if isinstance(start, dict) else {}
+    if not (turns and blows) or written.get("from") or written.get("state", "").startswith("zero"):
+        return []
+    hint = f"in a wind nothing turns steadily; motion.{turns[0]} begins at speed"
+    return [Fault("", "start.state", '"zero", or a start from another run', shown(written.get("state")), hint)]

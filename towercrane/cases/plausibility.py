@@ -139,6 +139,7 @@ RANGES = (
     Range("map.payload_masses*", "kg", 1, 1e6, ("t", "g")),
     Range("rope.length", "m", 0.1, 1000, LENGTHS),
     Range("motion.*.speed", "m/s", 1e-3, FASTEST, ("m/min", "mm/s", "km/h"), signed=True),
+    Range("motion.*_speed", "m/s", 1e-3, FASTEST, ("m/min", "mm/s", "km/h"), signed=True),
     Range("motion.*.acceleration", "m/s^2", 1e-4, 20, ("cm/s^2", "mm/s^2")),
     Range("motion.*.jerk", "m/s^3", 1e-5, 1e3, ("cm/s^3", "mm/s^3")),
     *(
@@ -148,6 +149,7 @@ RANGES = (
             Range(f"motion.{joint}.start", "rad", 1e-9, most, ANGLES, signed=True),
             Range(f"motion.{joint}*.end", "rad", 1e-9, most, ANGLES, signed=True),
             Range(f"motion.{joint}*.speed", "rad/s", 1e-5, FASTEST_TURN, TURNS, signed=True),
+            Range(f"motion.{joint}*_speed", "rad/s", 1e-5, FASTEST_TURN, TURNS, signed=True),
             Range(f"motion.{joint}*.acceleration", "rad/s^2", 1e-7, 50, ("deg/s^2",)),
             Range(f"motion.{joint}*.jerk", "rad/s^3", 1e-8, 1e3, ("deg/s^3",)),
         )

@@ -56,7 +56,8 @@ def plan(described: AnyMotion, start: float, folder: Path, unit: str = "m") -> P
     shaping = None
     match described:
         case Points():
-            motion = table(*read_points(folder / described.file, unit))
+            points = read_points(folder / described.file, unit)
+            motion = table(*points, described.start_speed, described.end_speed)
             start = float(motion(0.0))
         case Sequence():
             steps: list[Move] = []
@@ -79,9 +80,11 @@ def plan(described: AnyMotion, start: float, folder: Path, unit: str = "m") -> P
             d = described
             motion = s_curve(start, d.end, d.speed, d.acceleration, d.jerk)
         case SpeedTrapezoid():
-            motion = speed_trapezoid(start, described.speed, described.ramp, described.hold)
+            own = described
+            motion = speed_trapezoid(start, own.speed, own.ramp, own.hold, own.start_speed, own.end_speed)
         case SmoothRamps():
-            motion = smooth_ramps(start, described.speed, described.ramp, described.hold)
+            ramps = described
+            motion = smooth_ramps(start, ramps.speed, ramps.ramp, ramps.hold, ramps.start_speed, ramps.end_speed)
     return _delayed([Move(motion, shaping)], start, described.delay)
 
 

@@ -27,7 +27,7 @@ SAME_INSTANT = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Piecewise polynomial motion; before its first and after its last switch time it rests.
+    """Piecewise polynomial motion; after its last switch time it rests, or goes on at a steady rate.
 
     Parameters
     ----------
@@ -35,10 +35,13 @@ class Motion:
         Start of each piece and end of the last [s]; the first is 0.
     coefficients : ndarray, shape (p, k)
         Ascending powers of the time since the piece's start.
+    end_rate : float
+        Rate at which it goes on.
     """
 
     switch_times: Floats
     coefficients: Floats
+    end_rate: float = 0.0
 
     def __post_init__(self) -> None:
         times, coefficients = self.switch_times, self.coefficients
@@ -53,12 +56,17 @@ class Motion:
 
     @property
     def duration(self) -> float:
-        """Time after which the motion rests [s]."""
+        """Time after which the motion rests, or goes on at its steady rate [s]."""
         return float(self.switch_times[-1])
 
     @property
+    def stop(self) -> float:
+        """Time after which it rests; infinite where it goes on [s]."""
+        return float("inf") if self.end_rate else self.duration
+
+    @property
     def end(self) -> float:
-        """Value at which the motion comes to rest."""
+        """Value at the last switch time."""
         return _polynomial(self.coefficients[-1], self.switch_times[-1] - self.switch_times[-2])
 
     @property
@@ -73,7 +81,9 @@ class Motion:
     def piece(self, time: float) -> Floats:
         """Coefficients about a ``time`` of zero or more, valid until the next switch time; shape (k,)."""
         if self.duration <= time + SAME_INSTANT:
-            return _padded(self.end, self.coefficients.shape[1])
+            going = self.end + self.end_rate * max(time - self.duration, 0.0), self.end_rate
+            width = self.coefficients.shape[1]
+            return np.pad(np.array(going), (0, max(width - 2, 0)))[: max(width, 1 + (self.end_rate != 0.0))]
         index = int(np.searchsorted(self.switch_times, time + SAME_INSTANT, side="right")) - 1
         return shifted(self.coefficients[index], time - self.switch_times[index])
 
@@ -93,13 +103,19 @@ class Motion:
             value = np.zeros_like(t)
             for column in pieces.T[::-1]:
                 value = value * local + column[index]
-            resting = np.where(t < 0.0, self.coefficients[0, 0], self.end) if order == 0 else 0.0
-            found.append(np.where(rests, resting, value))
+            later = (self.end + self.end_rate * (t - self.duration), self.end_rate, 0.0)[min(order, 2)]
+            earlier = self.coefficients[0, 0] if order == 0 else 0.0
+            found.append(np.where(rests, np.where(t < 0.0, earlier, later), value))
         return found
 
-    def range(self, derivative: int = 0) -> tuple[float, float]:
-        """Smallest and largest value that the motion, or a derivative of it, ever takes."""
+    def range(self, derivative: int = 0, until: float = 0.0) -> tuple[float, float]:
+        """Smallest and largest value that the motion, or a derivative of it, ever takes.
+
+        One that goes on at a steady rate is looked at up to a time [s].
+        """
         values = [float(self.coefficients[0, 0]), self.end] if derivative == 0 else [0.0]
+        if self.end_rate:
+            values.append(float(self(max(until, self.duration), derivative)))
         pieces, spans = np.polynomial.polynomial.polyder(self.coefficients, derivative, axis=1), self._spans
         turns = _roots(np.asarray(np.polynomial.polynomial.polyder(pieces, axis=1), dtype=np.float64))
         for at in (np.zeros(len(spans)), spans, *np.clip(turns, 0.0, spans[:, None]).T):
@@ -141,7 +157,7 @@ def sequence(*motions: Motion) -> Motion:
         times += list(now + motion.switch_times[1:])
         pieces += [np.pad(p, (0, width - len(p))) for p in motion.coefficients]
         now, value = times[-1], motion.end
-    return Motion(np.array(times), np.array(pieces))
+    return Motion(np.array(times), np.array(pieces), motions[-1].end_rate)
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,7 +243,3 @@ def shifted(coefficients: Floats, time: float) -> Floats:
         for k in range(len(shifted) - 2, first - 1, -1):
             shifted[k] += time * shifted[k + 1]
     return shifted
-
-
-def _padded(value: float, width: int) -> Floats:
-    return np.pad(np.array([value]), (0, width - 1))

@@ -103,6 +103,11 @@ class Plan:
         return self.moves[0].commanded if len(self.moves) == 1 else sequence(*(m.commanded for m in self.moves))
 
     @property
+    def at_speed(self) -> bool:
+        """Whether it begins at speed or goes on at speed."""
+        return bool(self.commanded(0.0, 1)) or bool(self.commanded.end_rate)
+
+    @property
     def needs_model(self) -> bool:
         """Whether a move is shaped for what the crane's frequencies are."""
         return any(m.shaping is not None and m.shaping.frequencies is None for m in self.moves)

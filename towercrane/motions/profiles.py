@@ -48,8 +48,10 @@ def s_curve(start: float, end: float, speed: float, acceleration: float, jerk: f
     return _ramped(start, end, speed, acceleration, jerk)
 
 
-def speed_trapezoid(start: float, speed: float, ramp: float, hold: float) -> Motion:
-    """Speed that rises linearly, holds and falls linearly; the way is speed (ramp + hold).
+def speed_trapezoid(
+    start: float, speed: float, ramp: float, hold: float, start_speed: float = 0.0, end_speed: float = 0.0
+) -> Motion:
+    """Speed that rises linearly, holds and falls linearly; from rest to rest the way is speed (ramp + hold).
 
     Parameters
     ----------
@@ -59,14 +61,18 @@ def speed_trapezoid(start: float, speed: float, ramp: float, hold: float) -> Mot
         Speed while it holds [m/s or rad/s]; its sign is the direction.
     ramp, hold : float
         Time of each ramp, positive, and time between them, zero or more [s].
+    start_speed, end_speed : float
+        Speed before the first ramp, and after the last, at which the motion goes on [m/s or rad/s].
     """
-    return _speed_ramps(start, speed, ramp, hold, (0.0, 0.0, 0.5))
+    return _speed_ramps(start, (start_speed, speed, end_speed), ramp, hold, (0.0, 0.0, 0.5))
 
 
-def smooth_ramps(start: float, speed: float, ramp: float, hold: float) -> Motion:
+def smooth_ramps(
+    start: float, speed: float, ramp: float, hold: float, start_speed: float = 0.0, end_speed: float = 0.0
+) -> Motion:
     """Speed that rises and falls as 10 x^3 - 15 x^4 + 6 x^5, with x from 0 to 1 over each ramp.
 
-    Acceleration and jerk are continuous; the way is speed (ramp + hold).
+    Acceleration and jerk are continuous; from rest to rest the way is speed (ramp + hold).
 
     Parameters
     ----------
@@ -76,12 +82,14 @@ def smooth_ramps(start: float, speed: float, ramp: float, hold: float) -> Motion
         Speed while it holds [m/s or rad/s]; its sign is the direction.
     ramp, hold : float
         Time of each ramp, positive, and time between them, zero or more [s].
+    start_speed, end_speed : float
+        Speed before the first ramp, and after the last, at which the motion goes on [m/s or rad/s].
     """
-    return _speed_ramps(start, speed, ramp, hold, (0.0, 0.0, 0.0, 0.0, 2.5, -3.0, 1.0))
+    return _speed_ramps(start, (start_speed, speed, end_speed), ramp, hold, (0.0, 0.0, 0.0, 0.0, 2.5, -3.0, 1.0))
 
 
-def table(times: ArrayLike, values: ArrayLike) -> Motion:
-    """Motion through points that starts and ends at rest and keeps their shape: it never leaves the points' range.
+def table(times: ArrayLike, values: ArrayLike, start_speed: float = 0.0, end_speed: float = 0.0) -> Motion:
+    """Motion through points that keeps their shape: from rest to rest it never leaves the points' range.
 
     It is the cubic spline with continuous acceleration where that stays between neighbouring points. Elsewhere its
     slopes are limited, and the acceleration jumps at the point; the solver restarts at each.
@@ -92,6 +100,8 @@ def table(times: ArrayLike, values: ArrayLike) -> Motion:
         Increasing times from 0 [s].
     values : array_like, shape (p,)
         Values at those times.
+    start_speed, end_speed : float
+        Rates at the first point, and at the last, with which the motion goes on.
 
     Notes
     -----
@@ -107,14 +117,16 @@ def table(times: ArrayLike, values: ArrayLike) -> Motion:
         raise ValueError(f"table: wanted two or more times and as many values, got {t.shape} and {x.shape}")
     if t[0] != 0.0 or np.any(np.diff(t) <= 0.0):
         raise ValueError("table: wanted times that start at 0 and increase")
-    slopes = np.array(CubicSpline(t, x, bc_type="clamped")(t, 1))
+    number_in("start_speed", start_speed, "a finite number")
+    number_in("end_speed", end_speed, "a finite number")
+    slopes = np.array(CubicSpline(t, x, bc_type=((1, start_speed), (1, end_speed)))(t, 1))
     secants = np.diff(x) / np.diff(t)
     before, after, sense = secants[:-1], secants[1:], np.sign(secants[:-1])
     steepest = np.where(before * after > 0.0, 3.0 * np.minimum(abs(before), abs(after)), 0.0)
     limited = sense * np.clip(sense * slopes[1:-1], 0.0, steepest)
     slopes[1:-1] = np.where(_turns_smoothly(t, before, after), slopes[1:-1], limited)
-    slopes[[0, -1]] = 0.0
-    return Motion(t, np.ascontiguousarray(CubicHermiteSpline(t, x, slopes).c[::-1].T))
+    slopes[[0, -1]] = start_speed, end_speed
+    return Motion(t, np.ascontiguousarray(CubicHermiteSpline(t, x, slopes).c[::-1].T), end_speed)
 
 
 def _turns_smoothly(t: Floats, before: Floats, after: Floats) -> NDArray[np.bool_]:
@@ -162,21 +174,29 @@ def _ramped(start: float, end: float, speed: float, acceleration: float, jerk: f
     return Motion(np.array(times), np.array(pieces)[:, : 3 if np.isinf(j) else 4])
 
 
-def _speed_ramps(start: float, speed: float, ramp: float, hold: float, rise: tuple[float, ...]) -> Motion:
-    """Ramps whose way, as a fraction of speed times ramp, is the polynomial ``rise`` of x, with rise(1) = 1/2."""
+def _speed_ramps(
+    start: float, speeds: tuple[float, float, float], ramp: float, hold: float, rise: tuple[float, ...]
+) -> Motion:
+    """Ramps between three speeds whose way, as a fraction of the change times ramp, is the polynomial ``rise`` of x
+    beside that of the speed before, with rise(1) = 1/2."""
     number_in("start", start, "a finite number")
-    number_in("speed", speed, "a finite number")
+    before, speed, after = (
+        number_in(name, value, "a finite number")
+        for name, value in zip(("start_speed", "speed", "end_speed"), speeds, strict=True)
+    )
     check_positive("ramp", ramp)
     check_not_negative("hold", hold)
-    way = speed * ramp
     # Floats of Python raise where numpy would warn: a ramp of 1e-300 s is refused, not turned into infinities.
-    up = np.array([way * share / float(ramp) ** power for power, share in enumerate(rise)])
-    cruise, down = np.zeros_like(up), -up
-    cruise[1] = down[1] = speed
-    up[0], cruise[0], down[0] = start, start + way / 2, start + way / 2 + speed * hold
+    up, down = (
+        np.array([change * ramp * share / float(ramp) ** power for power, share in enumerate(rise)])
+        for change in (speed - before, after - speed)
+    )
+    cruise, reached = np.zeros_like(up), start + 0.5 * ramp * (before + speed)
+    up[1], cruise[1], down[1] = before, speed, speed
+    up[0], cruise[0], down[0] = start, reached, reached + speed * hold
     if hold == 0.0:
-        return Motion(np.array([0.0, ramp, 2 * ramp]), np.array([up, down]))
-    return Motion(np.array([0.0, ramp, ramp + hold, 2 * ramp + hold]), np.array([up, cruise, down]))
+        return Motion(np.array([0.0, ramp, 2 * ramp]), np.array([up, down]), after)
+    return Motion(np.array([0.0, ramp, ramp + hold, 2 * ramp + hold]), np.array([up, cruise, down]), after)
 
 
 def _ramp_time(speed: float, acceleration: float, jerk: float) -> float:

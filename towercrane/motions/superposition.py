@@ -36,14 +36,16 @@ def total(motions: Sequence[Motion], delays: Sequence[float], weights: Sequence[
         for row, time in zip(pieces, times, strict=False):
             piece = motion.piece(float(time))
             row[: len(piece)] += weight * piece
-    return Motion(times if len(times) > 1 else np.zeros(2), pieces)
+    end_rate = sum(weight * motion.end_rate for motion, weight in zip(motions, weights, strict=True))
+    return Motion(times if len(times) > 1 else np.zeros(2), pieces, end_rate)
 
 
 def _delayed(motion: Motion, delay: float) -> Motion:
     """The motion after a wait in which it rests."""
     waits = np.zeros((1, motion.coefficients.shape[1]))
     waits[0, 0] = motion.coefficients[0, 0]
-    return Motion(np.append(0.0, motion.switch_times + delay), np.vstack([waits, motion.coefficients]))
+    pieces = np.vstack([waits, motion.coefficients])
+    return Motion(np.append(0.0, motion.switch_times + delay), pieces, motion.end_rate)
 
 
 def integral(rate: Motion, start: float) -> Motion:

@@ -245,5 +245,5 @@ def _linearised(run: Run, at: float) -> list[float]:
 
 def _after_the_drives(run: Run) -> slice:
     """Rows after the last drive has stopped."""
-    stop = max(motion.duration for motion in run.motions.values())
+    stop = max(motion.stop for motion in run.motions.values())
     return slice(int(np.searchsorted(run.times, stop)), None)

@@ -64,7 +64,14 @@ class SCurve(Delayed):
     jerk: Jerk
 
 
-class SpeedTrapezoid(Delayed):
+class AtSpeed(Delayed):
+    """Motion that may begin at speed, and end at speed, at which it then goes on."""
+
+    start_speed: EitherSpeed = 0.0
+    end_speed: EitherSpeed = 0.0
+
+
+class SpeedTrapezoid(AtSpeed):
     """Speed that rises linearly, holds and falls; its sign is the direction."""
 
     shape: Literal["speed-trapezoid"]
@@ -73,7 +80,7 @@ class SpeedTrapezoid(Delayed):
     hold: Wait
 
 
-class SmoothRamps(Delayed):
+class SmoothRamps(AtSpeed):
     """Speed that rises smoothly, holds and falls; its sign is the direction."""
 
     shape: Literal["smooth"]
@@ -112,7 +119,7 @@ class Sequence(Delayed):
     steps: Annotated[tuple[Step, ...], Field(min_length=1)]
 
 
-class Points(Delayed):
+class Points(AtSpeed):
     """Smooth motion through the points of a CSV file."""
 
     shape: Literal["table"]
@@ -178,12 +185,23 @@ class TurnSpeedTrapezoid(SpeedTrapezoid):
     """Turn on a trapezoid of speed."""
 
     speed: EitherTurning
+    start_speed: EitherTurning = 0.0
+    end_speed: EitherTurning = 0.0
 
 
 class TurnSmoothRamps(SmoothRamps):
     """Turn on smooth ramps."""
 
     speed: EitherTurning
+    start_speed: EitherTurning = 0.0
+    end_speed: EitherTurning = 0.0
+
+
+class TurnPoints(Points):
+    """Smooth turn through the points of a CSV file."""
+
+    start_speed: EitherTurning = 0.0
+    end_speed: EitherTurning = 0.0
 
 
 class TurnShaped(Shaped):
@@ -263,7 +281,7 @@ JointMotion = Annotated[
     | JointShaped
     | JointMinimumJerk
     | JointSequence
-    | Points,
+    | TurnPoints,
     Field(discriminator="shape"),
 ]
 

@@ -106,7 +106,8 @@ def record(
         warnings.warn(said, EnergyDriftWarning, stacklevel=3)
     began = time.perf_counter()
     cut = phases(tuple(_motion(motions, channel) for channel in model.channels), duration)
-    if "rope" in model.channels and (shortest := float(cut.inputs[:, model.channels.index("rope"), 0].min())) <= 0.0:
+    lengths = np.append(cut.inputs, cut.after[None], axis=0)[:, [name == "rope" for name in model.channels], 0]
+    if (shortest := float(lengths.min(initial=np.inf))) <= 0.0:
         raise ValueError(f"motions: wanted a rope longer than 0 m, got {shortest:g} m")
     sample_times = rows_of(duration, output_step, looks)
     message, inputs = "", start_inputs(model, motions, cut.inputs[0])

@@ -182,7 +182,7 @@ def gaps(result: xr.Dataset, richest: xr.Dataset) -> Floats:
 def _row(case: Case, variant: Variant, result: xr.Dataset, richest: xr.Dataset, departure: float) -> dict[str, Any]:
     """One variant's sway (peak and after the drives have stopped [deg]), torque [N m], errors [m] and cost."""
     moves = (m for name, m in motions_of(case).items() if name.partition("_")[0] not in ("wind", "ground", "floor"))
-    stop = max((motion.duration for motion in moves), default=0.0)
+    stop = max((motion.stop for motion in moves), default=0.0)
     free = result["time"].values >= stop
     sway = {}
     for name in (name for name in KINDS[case.kind].sways if name in result):

@@ -145,7 +145,9 @@ def _at_rest(model: Model, state: Floats, frame: Frame, basis: Floats, why: str)
     """
     half = len(state) // 2
     mine = np.any(basis != 0.0, axis=1)
-    scale = np.max(basis * np.where(np.isfinite(model.system.scale), model.system.scale, 1.0)[:half, None], axis=0)
+    scale = np.max(
+        abs(basis) * np.where(np.isfinite(model.system.scale), model.system.scale, 1.0)[:half, None], axis=0
+    )
 
     def moved(change: Floats) -> Floats:
         found = np.array(state)

@@ -91,7 +91,7 @@ def _departure(turn: JointMotion | TurnStep, start: float) -> float:
                 now += step.delay + _pause(step)
             return inf
         case SpeedTrapezoid() | SmoothRamps():
-            goes = turn.speed != 0.0
+            goes = (turn.speed, turn.start_speed, turn.end_speed) != (0.0, 0.0, 0.0)
         case _:
             goes = turn.end != start
     return turn.delay if goes else inf
