@@ -12,8 +12,9 @@ from typer.testing import CliRunner
 
 from towercrane import load_case
 from towercrane.accuracy.mode_choice import measured_choice
-from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, targets_of, verification
+from towercrane.accuracy.promise import CANNOT_BE_PROMISED, KEPT, OUT_OF_REACH, finer, verification
 from towercrane.accuracy.scene import Scene, scene_of
+from towercrane.cases.models import targets_of
 from towercrane.cli import app
 from towercrane.cranes.parts.wind import WindAreas, gusts
 from towercrane.cranes.tower.modes.damping import ModalDamping

@@ -12,7 +12,7 @@ from samples.case_files import CASE, CRANE, only_fault
 
 from modal.beams.beam import Beam
 from towercrane.cases.case import Assumption, CaseError, Fault, load_case
-from towercrane.cases.kinds import every_key
+from towercrane.cases.kinds import EveryKey
 from towercrane.cases.models import motions_of
 from towercrane.cranes.parts.load import load_of
 from towercrane.cranes.tower.file.build import crane_of
@@ -173,7 +173,7 @@ VALUES = st.recursive(
 @settings(max_examples=200, deadline=None)
 @given(
     st.sampled_from(["qtz5613/condition-3", "towers/tapered"]),
-    st.sampled_from([*sorted(every_key()), "x", "crane.x.y", "motion.trolley.start.x"]),
+    st.sampled_from([*sorted(EveryKey()), "x", "crane.x.y", "motion.trolley.start.x"]),
     VALUES,
 )
 def test_any_value_at_any_key_is_read_or_explained(name, key, value):

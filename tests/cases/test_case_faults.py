@@ -8,7 +8,7 @@ import pytest
 from samples.case_files import SEQUENCE, faults_of, only_fault, with_motion
 
 from towercrane.cases.case import CaseError, load_case
-from towercrane.cases.kinds import every_key
+from towercrane.cases.kinds import EveryKey
 from towercrane.cases.models import motions_of
 from towercrane.cases.plausibility import RANGES
 from towercrane.cranes.tower.file.members import lattice_of
@@ -168,7 +168,7 @@ def test_allowing_an_unknown_key_is_a_fault(write):
 
 
 def test_the_table_of_ranges_is_sound():
-    known = every_key()
+    known = EveryKey()
     for row in RANGES:
         assert 0.0 < row.low < row.high, row
         for unit in row.likely:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from samples.case_files import BASIC, COMBINED, ENHANCED, HEAVY, MULTI, PLAN, RADIAL, copy_case, faults_of, only_fault
 
 from towercrane.cases.case import CaseError, Fault, load_case
-from towercrane.cases.kinds import every_key, known_to
+from towercrane.cases.kinds import EveryKey, known_to
 from towercrane.cranes.registry import KINDS
 from towercrane.cranes.slewing.build import parameters_of
 from towercrane.schema.fields import known_keys
@@ -210,7 +210,8 @@ def test_a_wrong_kind_refuses_each_foreign_key_with_its_kinds():
 
 
 def test_known_keys_cover_all_kinds():
-    assert every_key() == {key for case in KINDS.values() for key in known_keys(case.tables)}
+    assert {name: kind.name for name, kind in KINDS.items()} == {name: name for name in KINDS}
+    assert EveryKey() == {key for case in KINDS.values() for key in known_keys(case.tables)}
     assert known_to("crane.post.height") == ["jib"]
     assert known_to("payload.mass") == list(KINDS)
 
@@ -223,7 +224,7 @@ VALUES = st.one_of(
 
 
 @settings(max_examples=150, deadline=None)
-@given(st.sampled_from([MULTI, BASIC, ENHANCED, COMBINED]), st.sampled_from(sorted(every_key())), VALUES)
+@given(st.sampled_from([MULTI, BASIC, ENHANCED, COMBINED]), st.sampled_from(sorted(EveryKey())), VALUES)
 def test_any_value_at_any_key_is_read_or_explained(case, key, value):
     try:
         load_case(case, [f"{key}={value}"])

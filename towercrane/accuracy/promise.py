@@ -16,7 +16,7 @@ from towercrane.accuracy.ladder import RUNG, laddered_choice
 from towercrane.accuracy.mode_choice import measured_choice
 from towercrane.accuracy.scene import Scene, scene_of, setting_of
 from towercrane.accuracy.setting import Setting, setting_from
-from towercrane.cranes.registry import KINDS
+from towercrane.cases.models import targets_of
 from towercrane.cranes.tower.crane_model import MODE_KINDS, moving
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.effects import softened
@@ -44,12 +44,6 @@ AS_ASKED = (KEPT, VERIFIED)
 
 FINER, FINE = 1e-2, 1e-8
 """Rtol of the run that verifies: over that of the run, and at most; fast modes that only it has need the latter."""
-
-
-def targets_of(case: Case) -> Targets:
-    """Errors that a case asks for, by output; none for kinds of crane whose errors cannot be asked for."""
-    targets = KINDS[case.kind].targets
-    return targets(case.checked) if targets else {}
 
 
 def stated(case: Case, scene: Scene) -> dict[str, Any]:

@@ -135,14 +135,14 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     from pydantic import ValidationError
 
     from towercrane.cases.explain import explain
-    from towercrane.cases.kinds import every_key, kind_of
+    from towercrane.cases.kinds import EveryKey, kind_of
     from towercrane.cases.motion_limits import channels, check_motions
     from towercrane.cases.plausibility import check_values, implausible
     from towercrane.cranes.registry import KINDS
 
     found = find_case(Path(path))
     overrides = [in_utf8(override) for override in overrides]
-    text = read_case(found, overrides, every_key)
+    text = read_case(found, overrides, EveryKey())
     tree, assumed, faults = split_provenance(text.tree)
     kind, kind_faults = kind_of(tree)
     faults += kind_faults

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,7 @@ from towercrane.schema.fields import Quantity, Table, known_keys, tables
 from towercrane.schema.text import leaves
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
 
 STATES_NONE = next(iter(KINDS))
@@ -59,9 +60,17 @@ def _one_of(kinds: Iterable[str]) -> str:
     return "one of " + ", ".join(f'"{kind}"' for kind in kinds)
 
 
-def every_key() -> frozenset[str]:
-    """Every dotted key that a case of some kind knows."""
-    return frozenset().union(*(_keys(kind) for kind in KINDS))
+class EveryKey(Set[str]):
+    """Every dotted key that a case of some kind knows; what the first kinds know needs no other to be loaded."""
+
+    def __contains__(self, key: object) -> bool:
+        return any(key in _keys(kind) for kind in KINDS)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(frozenset().union(*(_keys(kind) for kind in KINDS)))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
 
 
 def knows(kind: str, key: str) -> bool:
@@ -109,6 +118,9 @@ def _keys(kind: str) -> frozenset[str]:
 def _likely(tree: dict[str, Any]) -> str:
     """The kind that knows most of the written keys; of equals the first that misses least of what a case needs."""
     written = {plain_key(key) for key, _ in leaves(tree)}
+    if written <= _keys(STATES_NONE) and not _missing(KINDS[STATES_NONE].tables, tree):
+        # No other kind knows more.
+        return STATES_NONE
     return max(KINDS, key=lambda kind: (len(written & _keys(kind)), -_missing(KINDS[kind].tables, tree)))
 
 

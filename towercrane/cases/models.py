@@ -18,12 +18,19 @@ if TYPE_CHECKING:
     from towercrane.cases.case import Case
     from towercrane.cranes.parts.poses import Poses
     from towercrane.motions.motion import Motion
+    from towercrane.schema.targets import Targets
     from towercrane.simulation.system import Model
 
 
 def model_of(case: Case, **changes: Any) -> Model:
     """Model of a case of any kind; keyword arguments replace what the case chose of its modes."""
     return KINDS[case.kind].build(case.checked, **changes)
+
+
+def targets_of(case: Case) -> Targets:
+    """Errors that a case asks for, by output; none for kinds of crane whose errors cannot be asked for."""
+    targets = KINDS[case.kind].targets
+    return targets(case.checked) if targets else {}
 
 
 def motions_of(case: Case, model: Model | None = None) -> dict[str, Motion]:

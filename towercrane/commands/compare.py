@@ -52,7 +52,7 @@ def compare(
 
 def _asked(case: Case) -> float | None:
     """Relative error that the case asks for, the least of its outputs'."""
-    from towercrane.accuracy.promise import targets_of
+    from towercrane.cases.models import targets_of
 
     return min((one.value for one in targets_of(case).values() if one.relative), default=None)
 

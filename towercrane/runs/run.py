@@ -6,9 +6,8 @@ import json
 import warnings
 from typing import TYPE_CHECKING
 
-from towercrane.accuracy.promise import chosen, promise, targets_of
 from towercrane.cases.assumptions import as_attribute, rests_on
-from towercrane.cases.models import model_of, motions_of, start_of
+from towercrane.cases.models import model_of, motions_of, start_of, targets_of
 from towercrane.cases.table_notices import table_notices
 from towercrane.cranes.registry import KINDS
 from towercrane.simulation.methods.method import EnergyDriftWarning
@@ -67,6 +66,8 @@ def _to_target(case: Case, progress: Progress | None) -> Run | None:
     """The run of a case that asks for an error; None for one that does not."""
     if not targets_of(case):
         return None
+    from towercrane.accuracy.promise import chosen, promise
+
     try:
         choice, result = chosen(case, progress)
     except NoEquilibrium:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy.promise import targets_of
 from towercrane.cases.assumptions import as_notes, left_out, rests_on
 from towercrane.cases.kinds import unit_of
+from towercrane.cases.models import targets_of
 from towercrane.results.versions import versions
 from towercrane.simulation.methods.registry import method_of
 from towercrane.simulation.outcomes import INTERRUPTED

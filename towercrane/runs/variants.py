@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.accuracy.promise import targets_of
 from towercrane.cases.case import load_case
-from towercrane.cases.models import model_of, motions_of, start_of
+from towercrane.cases.models import model_of, motions_of, start_of, targets_of
 from towercrane.cranes.registry import KINDS
 from towercrane.kernels.straight.leaves import known_of
 from towercrane.motions.motion import phases

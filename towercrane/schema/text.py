@@ -12,7 +12,7 @@ from towercrane.schema.faults import CaseError, Fault, did_you_mean, shown
 from towercrane.schema.toml_files import DEEPEST, is_deep, is_file, read_toml
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence, Set
     from pathlib import Path
 
 
@@ -55,7 +55,7 @@ class CaseText:
         return replace(fault, file=str(self.path))
 
 
-def read_case(path: Path, overrides: Sequence[str], known: Callable[[], frozenset[str]]) -> CaseText:
+def read_case(path: Path, overrides: Sequence[str], known: Set[str]) -> CaseText:
     """Read a case file, the crane file it names and the overrides.
 
     Parameters
@@ -63,7 +63,7 @@ def read_case(path: Path, overrides: Sequence[str], known: Callable[[], frozense
     path : Path
     overrides : sequence of str
         ``key=value`` each.
-    known : callable
+    known : set of str
         Every dotted key that some kind of case knows. A file without any is no case, and nothing of it is shown.
 
     Raises
@@ -78,7 +78,7 @@ def read_case(path: Path, overrides: Sequence[str], known: Callable[[], frozense
     if "crane" not in text.tree and {"tower", "jib"} & set(text.tree):
         hint = 'a case names its crane: crane = "crane.toml"'
         raise CaseError([Fault(str(path), "", "a case: crane, [payload], [rope], ...", "a crane file", hint)])
-    if known().isdisjoint(text.tree):
+    if known.isdisjoint(text.tree):
         # This is some other file, of which nothing is shown.
         wanted = "a case: crane, [payload], [rope], [motion.trolley], [run]"
         raise CaseError([Fault(str(path), "", wanted, "a file without any of its keys")])
@@ -163,7 +163,7 @@ def _index(name: str, items: list[Any]) -> int | None:
     return index if index < len(items) else None
 
 
-def _read_crane(text: CaseText, known: Callable[[], frozenset[str]]) -> None:
+def _read_crane(text: CaseText, known: Set[str]) -> None:
     """Put the crane file's content in place of its name."""
     name = text.tree.get("crane")
     if name is None or isinstance(name, dict):
@@ -187,7 +187,7 @@ def _read_crane(text: CaseText, known: Callable[[], frozenset[str]]) -> None:
         wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
         text.faults.append(Fault(str(path), "", wanted, "an empty file"))
         return
-    if known().isdisjoint(f"crane.{key}" for key in crane):
+    if known.isdisjoint(f"crane.{key}" for key in crane):
         # This is some other file, of which nothing is shown.
         wanted = "a crane: name, [tower], [jib], [counter_jib], [trolley]"
         text.faults.append(Fault(str(path), "", wanted, "a file without any table of a crane"))

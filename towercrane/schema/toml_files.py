@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from towercrane.schema.faults import CaseError, Fault, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Set
     from pathlib import Path
 
 DEEPEST = 20
@@ -19,13 +19,13 @@ LARGEST = 4 * 2**20
 """Bytes of a case or a crane file; those that ship with the program have a few thousand."""
 
 
-def read_toml(path: Path, known: Callable[[], frozenset[str]] = frozenset) -> dict[str, Any]:
+def read_toml(path: Path, known: Set[str] = frozenset()) -> dict[str, Any]:
     """Parse a TOML file.
 
     Parameters
     ----------
     path : Path
-    known : callable
+    known : set of str
         Every dotted key of a case: of a text that cannot be parsed a line is shown if it has no other tables.
 
     Raises
@@ -68,7 +68,7 @@ def is_file(path: Path) -> bool:
         return False
 
 
-def _syntax_fault(path: Path, content: str, error: Exception, known: Callable[[], frozenset[str]]) -> Fault:
+def _syntax_fault(path: Path, content: str, error: Exception, known: Set[str]) -> Fault:
     message = str(error)
     at = re.search(r"\s*\(at line (\d+), column (\d+)\)", message)
     if not at:
@@ -82,7 +82,7 @@ def _syntax_fault(path: Path, content: str, error: Exception, known: Callable[[]
     elif "Cannot overwrite" in message or "Cannot declare" in message:
         hint = "the same key or table stands in the file twice"
     said = message[: at.start()]
-    if _is_ours(content, known()):
+    if _is_ours(content, known):
         said = f"{said}: {shown(written)}"
     else:
         # Any file that the program can read may have been named: neither its lines nor its keys are shown.
@@ -90,7 +90,7 @@ def _syntax_fault(path: Path, content: str, error: Exception, known: Callable[[]
     return Fault(str(path), f"line {at[1]}, column {at[2]}", "TOML", said, hint)
 
 
-def _is_ours(content: str, known: frozenset[str]) -> bool:
+def _is_ours(content: str, known: Set[str]) -> bool:
     """Whether all tables of a text that cannot be parsed are those of a case or a crane."""
     tables = {name for key in known for name in (key, key.removeprefix("crane."))}
     headings = re.findall(r"^\s*\[+\s*([^\[\]]*?)\s*\]+", content, re.MULTILINE)

@@ -7,12 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cranes.tower.luffing_model import LuffingModel
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.cranes.tower.modes.luffing_crane import luffing_crane
 from towercrane.cranes.tower.modes.modal_crane import flexible_crane
-from towercrane.cranes.tower.tied_model import TiedModel
 
 if TYPE_CHECKING:
     from towercrane.cranes.parts.wind import WindAreas, WindNodes
@@ -99,10 +96,21 @@ def tower_crane_model(
     if planar:
         modes, drive, drive_inertia = replace(modes, torsion=0, lateral=0, counter_lateral=0), None, 0.0
     planes = 1 if planar else 2
-    pivots = crane.luffing is not None
-    kind = LuffingModel if pivots else FlexibleModel if crane.tie_bars is None else TiedModel
+    kind = FlexibleModel
+    # Most cranes have neither: what only these need is loaded with them.
+    if crane.luffing is not None:
+        from towercrane.cranes.tower.luffing_model import LuffingModel
+        from towercrane.cranes.tower.modes.luffing_crane import luffing_crane
+
+        kind, chosen = LuffingModel, luffing_crane(crane, modes, planes)
+    else:
+        chosen = flexible_crane(crane, modes, areas, planes, nodes)
+    if crane.tie_bars is not None:
+        from towercrane.cranes.tower.tied_model import TiedModel
+
+        kind = TiedModel
     return kind(
-        luffing_crane(crane, modes, planes) if pivots else flexible_crane(crane, modes, areas, planes, nodes),
+        chosen,
         load,
         slewing="fixed" if planar else drive or "prescribed",
         drive_inertia=drive_inertia,

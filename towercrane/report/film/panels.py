@@ -23,9 +23,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-SWAY = {name: way for kind in KINDS.values() for name, way in kind.sways.items()}
-"""What results call the load's sway, and what that is."""
-
 FADES = ((0.0, 1.0), (1.0, 0.7), (2.5, 0.45), (5.0, 0.28), (10.0, 0.16))
 """Age of the load's path in the film [s] from which it is drawn with this opacity."""
 
@@ -142,10 +139,12 @@ class Sway:
         time = result["time"].values
         rows = (time >= playback.start) & (time <= playback.end)
         self._time, self._lines = time[rows], []
-        for colour, name in zip((LOAD, COLOURS[2]), (name for name in SWAY if name in result), strict=False):
+        # What results of all kinds call the load's sway, and what that is.
+        known = {name: way for kind in KINDS.values() for name, way in kind.sways.items() if name in result}
+        for colour, (name, way) in zip((LOAD, COLOURS[2]), known.items(), strict=False):
             values = np.rad2deg(result[name].values[rows])
             axes.plot(self._time, values, color=colour, lw=0.8, alpha=0.3)
-            line: Line2D = axes.plot([], [], color=colour, lw=1.3, animated=True, label=SWAY[name])[0]
+            line: Line2D = axes.plot([], [], color=colour, lw=1.3, animated=True, label=way)[0]
             self._lines.append((line, values))
         self._now = axes.axvline(playback.start, color="0.3", lw=0.8, animated=True)
         axes.set(xlim=(playback.start, playback.end), xlabel="time [s]", ylabel="sway [deg]")
