@@ -62,7 +62,7 @@ MEND = [
     (PLAN, "crane.primary_boom.length=0", "crane.primary_boom.length", ["a length", "above 0"]),
     (PLAN, "crane.post.inertia=-1", "crane.post.inertia", ["a moment of inertia", "above 0"]),
     (PLAN, "start.state=zero", "start.state", ['one of "equilibrium"']),
-    (MULTI, "start.state=zero-no-self-weight", "start.state", ['"equilibrium", "zero"']),
+    (MULTI, "start.state=zero-no-self-weight", "start.state", ['"equilibrium", "quiet", "zero"']),
     (MULTI, "rope.length=2.3 m", "rope.length", ["up to 2.2 m (the height of the tower with its top)", "ground"]),
     (HEAVY, "rope.length=38 m", "rope.length", ["up to 37 m (post and booms upright)"]),
 ]
