@@ -7,17 +7,19 @@ the moments of inertia exact. Trolley and load are free points: one on a stiff s
 of the drives appear nowhere: they follow from places. Only data and motions come from the crane.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from oracles import rod_kernels as at
+from scipy.sparse.linalg import eigs
 
 
 @dataclass(frozen=True, eq=False)
 class Rods:
     """Nodes and elements, undeformed with all axes along the fixed ones; the last two nodes hang where ``rail`` says.
 
-    ``rail`` is the first of the elements that the trolley runs on, -1 without trolley and load.
+    ``rail`` is the first of the elements that the trolley runs on, -1 without trolley and load. Nodes that neither an
+    element nor a hinge holds are points.
     """
 
     places: np.ndarray
@@ -25,6 +27,9 @@ class Rods:
     ends: np.ndarray
     elements: np.ndarray
     rail: int = -1
+    ropes: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+    spans: np.ndarray = field(default_factory=lambda: np.zeros((0, 10)))
+    hinges: np.ndarray = field(default_factory=lambda: np.zeros((0, 7)))
 
     def undeformed(self):
         state = np.zeros((len(self.nodes), 13))
@@ -35,8 +40,12 @@ class Rods:
     def rates(self, state, inputs):
         """Time derivative of the state, and the potential energy."""
         out, forces = np.zeros_like(state), np.zeros((len(state), 6))
-        energy = at.rates(state, self.ends, self.elements, self.nodes, self.rail, inputs, forces, out)
+        energy = at.rates(state, *self.parts, np.zeros(len(self.ropes)), self.rail, inputs, forces, out)
         return out, energy
+
+    @property
+    def parts(self):
+        return self.ends, self.elements, self.nodes, self.ropes, self.spans, self.hinges
 
     def moved(self, state, way):
         """The state with its free places moved, and turned in the nodes' axes, by (free, 6)."""
@@ -53,6 +62,17 @@ class Rods:
     def free(self):
         return np.flatnonzero(np.isfinite(self.nodes[:, at.MASS]))
 
+    @property
+    def points(self):
+        held = np.concatenate([self.ends.ravel(), self.hinges[:, : at.HINGE].ravel().astype(int)])
+        return np.flatnonzero(~np.isin(np.arange(len(self.nodes)), held))
+
+    @property
+    def idle(self):
+        """Turns of points, which mean nothing, among the accelerations."""
+        points = np.flatnonzero(np.isin(self.free, self.points))
+        return (6 * points[:, None] + [3, 4, 5]).ravel()
+
     def accelerations(self, state, inputs):
         out = self.rates(state, inputs)[0][self.free]
         return np.concatenate([out[:, at.SPEED : at.SPEED + 3], out[:, at.SPIN : at.SPIN + 3]], axis=1).ravel()
@@ -67,8 +87,7 @@ class Rods:
 
     def at_rest(self, state, inputs, loads=1):
         """Equilibrium by Newton's method, gravity put on in as many steps."""
-        # Turns of the two points that hang mean nothing.
-        idle = np.array([-9, -8, -7, -3, -2, -1]) if self.rail >= 0 else np.array([], dtype=int)
+        idle = self.idle
         for share in np.arange(1, loads + 1) / loads:
             nodes = self.nodes.copy()
             nodes[:, at.GRAVITY] *= share
@@ -86,29 +105,31 @@ class Rods:
 
     def step_limit(self, state, inputs):
         """Largest stable step: the Runge-Kutta method holds the imaginary axis up to 2.83."""
-        squares = -np.linalg.eigvals(self.gradient(state, inputs)).real
-        return np.sqrt(8.0 / squares.max())
+        most = eigs(self.gradient(state, inputs), k=1, v0=np.ones(6 * len(self.free)), return_eigenvectors=False)
+        return float(np.sqrt(8.0 / abs(most[0])))
 
 
-def chain(first, places, stiffness, mass, inertias, axis):
-    """Nodes and elements of one straight uniform rod.
+def chain(first, places, stiffness, mass, inertias, axis, shearing=np.inf):
+    """Nodes and elements of one straight uniform rod, of an even number of elements.
 
     ``stiffness`` is that to stretch [N], then to bending or twist about x, y and z [N m^2]; mass [kg/m] and
-    ``inertias`` [kg m] about x, y and z are per length. The rod lies along ``axis``.
+    ``inertias`` [kg m] about x, y and z are per length. The rod lies along ``axis``; its stiffness to shear [N] is
+    the same both ways.
     """
     count = len(places) - 1
     h = np.linalg.norm(places[1] - places[0])
     simpson = h / 3.0 * np.array([1.0, *([4.0, 2.0] * (count // 2))[:-1], 1.0])
-    nodes = np.zeros((count + 1, 7))
+    nodes = np.zeros((count + 1, 9))
     nodes[:, at.MASS] = mass * simpson
     nodes[:, at.INERTIA : at.INERTIA + 3] = simpson[:, None] * np.asarray(inertias)
-    elements = np.zeros((count, 11))
+    elements = np.zeros((count, 12))
     elements[:, at.LENGTH] = h
     elements[:, at.AXIS + axis] = 1.0
     stretch, *bend = stiffness
     elements[:, at.BEND : at.BEND + 3] = bend
     # A force along one axis bends about the other.
-    shear = 12.0 / h**2 * np.array(bend)
+    shear = 1.0 / (h**2 / (12.0 * np.array(bend)) + 1.0 / shearing)
+    elements[:, at.SHEARED] = shear[(axis + 1) % 3] / shearing
     one, other = (k for k in range(3) if k != axis)
     elements[:, [at.STRETCH + axis, at.STRETCH + one, at.STRETCH + other]] = stretch, shear[other], shear[one]
     return nodes, np.array([[first + i, first + i + 1] for i in range(count)]), elements
@@ -144,7 +165,7 @@ def crane_rods(crane, load, tower=8, jib=16):
     head[[at.INERTIA + 1, at.INERTIA + 2]] += crane.counter_inertia - crane.roll_inertia
     head[at.MOMENT] = crane.counter_moment
     below[0, at.MASS] = np.inf
-    hung = np.zeros((2, 7))
+    hung = np.zeros((2, 9))
     hung[:, at.MASS] = crane.trolley_mass, load
     hung[:, at.INERTIA : at.INERTIA + 3] = 1.0
     nodes = np.concatenate([below[:-1], head[None], beyond[1:], hung])
@@ -169,16 +190,20 @@ def at_rest(rods, inputs):
 
 
 def states(rods, motions, duration, every=0.25):
-    """Times and states from equilibrium at heading 0; the step is 0.7 of the largest stable one."""
-    start = inputs_at(motions, np.zeros(1))[0]
-    state = at_rest(rods, start)
-    count = int(np.ceil(every / (0.7 * rods.step_limit(state, start))))
+    """Times and states from equilibrium at heading 0."""
+    start = at_rest(rods, inputs_at(motions, np.zeros(1))[0])
+    return march(rods, start, lambda times: inputs_at(motions, times), duration, every)
+
+
+def march(rods, state, inputs, duration, every):
+    """Times and states from one on; the step is 0.7 of the largest stable one."""
+    count = int(np.ceil(every / (0.7 * rods.step_limit(state, inputs(np.zeros(1))[0]))))
     times = np.arange(round(duration / every) + 1) * every
     seen = [state]
     for begin in times[:-1]:
-        inputs = inputs_at(motions, begin + np.linspace(0.0, every, 2 * count + 1))
         state = state.copy()
-        at.march(state, rods.ends, rods.elements, rods.nodes, rods.rail, inputs, every / count)
+        drives = inputs(begin + np.linspace(0.0, every, 2 * count + 1))
+        at.march(state, *rods.parts, rods.rail, drives, every / count)
         seen.append(state)
     return times, np.array(seen)
 

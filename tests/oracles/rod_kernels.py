@@ -1,4 +1,4 @@
-"""Compiled equations of motion of geometrically exact rods in space, with a trolley and a load on a rope.
+"""Compiled equations of motion of geometrically exact rods in space: hinges between them, ropes, trolley and load.
 
 Two-node elements after Reissner (1981) and Simo (1985): each node has a place and a quaternion, the strains are
 measured once per element, in the frame half-way between its nodes:
@@ -14,16 +14,29 @@ from numba import njit
 PLACE, TURN, SPEED, SPIN = 0, 3, 7, 10
 """Where a node's place, quaternion, velocity and angular velocity (in its own axes) begin in its row of the state."""
 
-MASS, INERTIA, MOMENT, SHAFT, GRAVITY = 0, 1, 4, 5, 6
+MASS, INERTIA, MOMENT, SHAFT, GRAVITY, RAISED, PRODUCT = 0, 1, 4, 5, 6, 7, 8
 """Where in a node's row are its mass (infinite: clamped), moments of inertia, first moment along its e1, what part of
-its inertia about e3 stays behind when the joint turns, and the gravity on it."""
+its inertia about e3 stays behind when the joint turns, the gravity on it, first moment along its e3, and the element
+e1, e3 of its inertia."""
 
-LENGTH, AXIS, STRETCH, BEND, JOINT = 0, 1, 4, 7, 10
-"""Where in an element's row are its length, axis, stiffness to strain and to curvature, and whether its second node
-is seen from below the slewing joint."""
+LENGTH, AXIS, STRETCH, BEND, JOINT, SHEARED = 0, 1, 4, 7, 10, 11
+"""Where in an element's row are its length, axis, stiffness to strain and to curvature, whether its second node
+is seen from below the slewing joint, and what part of its strain across it is shear."""
 
-WAY, ROPE, ANGLE, RATE, ACCELERATION = range(5)
-"""Inputs: place of the trolley along the jib, length of the rope, slewing angle and its derivatives."""
+WAY, ROPE, ANGLE, RATE, ACCELERATION, HELD = range(6)
+"""Inputs: place of the trolley along the jib, length of the rope, slewing angle and its derivatives, length of
+another rope without tension."""
+
+STRENGTH, SLACK, PAID = range(3)
+"""Where in a row of the ropes are E A, the length without tension, and which input has that instead (-1: none)."""
+
+OF, UPPER, LOWER, FALLS, FROM, TO = 0, 1, 2, 3, 4, 7
+"""Where in a row of the spans are the rope that they are of, the nodes they are between, how often it goes there, and
+where it is tied on in the axes of either node."""
+
+OUTER, INNER, HINGE, HOLD, ALIGN = 0, 1, 2, 5, 6
+"""Where in a row of the hinges are the nodes, the place in the axes of the first one where the second one is held,
+and the stiffness to gaps and to any turn but that about e2."""
 
 STIFF = 1e9
 """Of the springs that stand for constraints [N/m]."""
@@ -114,6 +127,55 @@ def strain(state, ends, elements, inputs, forces):
 
 
 @kernel()
+def tie(state, ropes, spans, lengths, inputs, forces):
+    """Add the pulls of ropes, massless and each with one tension along all its spans; returns their energy."""
+    energy = 0.0
+    lengths[:] = 0.0
+    for leg in range(2):
+        for i in range(len(spans)):
+            own, a, b, falls = int(spans[i, OF]), int(spans[i, UPPER]), int(spans[i, LOWER]), spans[i, FALLS]
+            start, end = vector(spans, i, FROM), vector(spans, i, TO)
+            qa, qb = vector(state, a, TURN + 1), vector(state, b, TURN + 1)
+            way = add(vector(state, b, PLACE), vector(state, a, PLACE), -1.0)
+            way = add(add(way, turn(state[b, TURN], qb, end), 1.0), turn(state[a, TURN], qa, start), -1.0)
+            length = np.sqrt(dot(way, way))
+            if leg == 0:
+                lengths[own] += falls * length
+                continue
+            slack = ropes[own, SLACK] if ropes[own, PAID] < 0.0 else inputs[int(ropes[own, PAID])]
+            pull = ropes[own, STRENGTH] * (lengths[own] / slack - 1.0) * falls / length
+            push(forces, a, 0, way, pull)
+            push(forces, b, 0, way, -pull)
+            push(forces, a, 3, cross(start, turn(-state[a, TURN], qa, way)), pull)
+            push(forces, b, 3, cross(end, turn(-state[b, TURN], qb, way)), -pull)
+    for own in range(len(ropes)):
+        slack = ropes[own, SLACK] if ropes[own, PAID] < 0.0 else inputs[int(ropes[own, PAID])]
+        energy += 0.5 * ropes[own, STRENGTH] / slack * (lengths[own] - slack) ** 2
+    return energy
+
+
+@kernel()
+def hinge(state, hinges, forces):
+    """Add the springs of hinges about e2; returns their energy."""
+    energy = 0.0
+    for i in range(len(hinges)):
+        a, b, e = int(hinges[i, OUTER]), int(hinges[i, INNER]), (0.0, 1.0, 0.0)
+        at, held, align = vector(hinges, i, HINGE), hinges[i, HOLD], hinges[i, ALIGN]
+        qa, qb = vector(state, a, TURN + 1), vector(state, b, TURN + 1)
+        gap = add(vector(state, b, PLACE), vector(state, a, PLACE), -1.0)
+        gap = add(gap, turn(state[a, TURN], qa, at), -1.0)
+        push(forces, a, 0, gap, held)
+        push(forces, b, 0, gap, -held)
+        push(forces, a, 3, cross(at, turn(-state[a, TURN], qa, gap)), held)
+        one, other = turn(state[a, TURN], qa, e), turn(state[b, TURN], qb, e)
+        twist = cross(one, other)
+        push(forces, a, 3, turn(-state[a, TURN], qa, twist), align)
+        push(forces, b, 3, turn(-state[b, TURN], qb, twist), -align)
+        energy += 0.5 * held * dot(gap, gap) + align * (1.0 - dot(one, other))
+    return energy
+
+
+@kernel()
 def hang(state, ends, elements, rail, inputs, forces):
     """Add the springs of trolley and rope, the last two nodes; returns their energy."""
     trolley, load = len(state) - 2, len(state) - 1
@@ -123,6 +185,14 @@ def hang(state, ends, elements, rail, inputs, forces):
     a, b, e = ends[i, 0], ends[i, 1], (1.0, 0.0, 0.0)
     near, far = 1.0 - x * x * (3.0 - 2.0 * x), x * x * (3.0 - 2.0 * x)
     slope_a, slope_b = h * x * (1.0 - x) * (1.0 - x), -h * x * x * (1.0 - x)
+    # Sheared, the rail is as steep as the chord rather than as the sections.
+    sheared = elements[i, SHEARED] * (slope_a + slope_b)
+    near, far, slope_a, slope_b = (
+        near - sheared / h,
+        far + sheared / h,
+        slope_a - 0.5 * sheared,
+        slope_b - 0.5 * sheared,
+    )
     along_a = turn(state[a, TURN], vector(state, a, TURN + 1), e)
     along_b = turn(state[b, TURN], vector(state, b, TURN + 1), e)
     place = vector(state, trolley, PLACE)
@@ -142,38 +212,39 @@ def hang(state, ends, elements, rail, inputs, forces):
 
 
 @kernel(python_entry=True)
-def rates(state, ends, elements, nodes, rail, inputs, forces, out):
-    """Write the state's time derivative; returns the potential energy."""
+def rates(state, ends, elements, nodes, ropes, spans, hinges, lengths, rail, inputs, forces, out):
+    """Write the state's time derivative and the lengths of ropes; returns the potential energy."""
     forces[:] = 0.0
     energy = strain(state, ends, elements, inputs, forces)
+    energy += tie(state, ropes, spans, lengths, inputs, forces) + hinge(state, hinges, forces)
     if rail >= 0:
         energy += hang(state, ends, elements, rail, inputs, forces)
     for i in range(len(nodes)):
-        mass, first, fixed = nodes[i, MASS], nodes[i, MOMENT], nodes[i, SHAFT]
+        mass, first, raised, fixed = nodes[i, MASS], nodes[i, MOMENT], nodes[i, RAISED], nodes[i, SHAFT]
         if np.isinf(mass):
             out[i] = 0.0
             continue
         q0, q, w = state[i, TURN], vector(state, i, TURN + 1), vector(state, i, SPIN)
-        energy += nodes[i, GRAVITY] * (mass * state[i, PLACE + 2] + first * turn(q0, q, (1.0, 0.0, 0.0))[2])
-        j = vector(nodes, i, INERTIA)
-        spin = (j[0] * w[0], j[1] * w[1], j[2] * w[2] - fixed * inputs[RATE])
-        moment = add(vector(forces, i, 3), cross(w, spin), -1.0)
-        # In the node's own axes, about its place: m a + S x'' and J w' + S x a, with S along e1.
-        f = turn(-q0, q, vector(forces, i, 0))
+        arm = (first, 0.0, raised)
+        energy += nodes[i, GRAVITY] * (mass * state[i, PLACE + 2] + turn(q0, q, arm)[2])
+        j, product = vector(nodes, i, INERTIA), nodes[i, PRODUCT]
+        spin = (j[0] * w[0] + product * w[2], j[1] * w[1], j[2] * w[2] + product * w[0] - fixed * inputs[RATE])
+        # In the node's own axes, about its place: m a + w' x S and J w' + S x a, with S in the plane of e1 and e3.
         down = turn(-q0, q, (0.0, 0.0, -nodes[i, GRAVITY]))
-        fx = f[0] + mass * down[0] + first * (w[1] * w[1] + w[2] * w[2])
-        fy = f[1] + mass * down[1] - first * w[0] * w[1]
-        fz = f[2] + mass * down[2] - first * w[0] * w[2]
-        my = moment[1] - first * down[2]
-        mz = moment[2] + first * down[1] + fixed * inputs[ACCELERATION]
-        y, z = mass * j[1] - first * first, mass * j[2] - first * first
-        a = turn(q0, q, (fx / mass, (j[2] * fy - first * mz) / z, (j[1] * fz + first * my) / y))
+        f = add(turn(-q0, q, vector(forces, i, 0)), down, mass)
+        f = add(f, cross(w, cross(w, arm)), -1.0)
+        m = add(add(vector(forces, i, 3), cross(w, spin), -1.0), cross(arm, down), 1.0)
+        mx, my, mz = m[0] + raised * f[1] / mass, m[1], m[2] + fixed * inputs[ACCELERATION] - first * f[1] / mass
+        my -= (raised * f[0] - first * f[2]) / mass
+        pitch = my / (j[1] - (first * first + raised * raised) / mass)
+        x, z, xz = j[0] - raised * raised / mass, j[2] - first * first / mass, product + first * raised / mass
+        roll, yaw = (z * mx - xz * mz) / (x * z - xz * xz), (x * mz - xz * mx) / (x * z - xz * xz)
+        a = add(f, cross((roll, pitch, yaw), arm), -1.0)
+        a = turn(q0, q, (a[0] / mass, a[1] / mass, a[2] / mass))
         for k in range(3):
             out[i, PLACE + k] = state[i, SPEED + k]
             out[i, SPEED + k] = a[k]
-        out[i, SPIN] = moment[0] / j[0]
-        out[i, SPIN + 1] = (mass * my + first * fz) / y
-        out[i, SPIN + 2] = (mass * mz - first * fy) / z
+        out[i, SPIN], out[i, SPIN + 1], out[i, SPIN + 2] = roll, pitch, yaw
         out[i, TURN] = -0.5 * dot(q, w)
         turning = add(cross(q, w), w, q0)
         for k in range(3):
@@ -182,15 +253,16 @@ def rates(state, ends, elements, nodes, rail, inputs, forces, out):
 
 
 @kernel(python_entry=True, allocates=True)
-def march(state, ends, elements, nodes, rail, inputs, step):
+def march(state, ends, elements, nodes, ropes, spans, hinges, rail, inputs, step):
     """Steps of the classical Runge-Kutta method, in place; ``inputs`` (2 steps + 1, 5) at steps and half-way."""
-    forces = np.zeros((len(nodes), 6))
+    forces, lengths = np.zeros((len(nodes), 6)), np.zeros(len(ropes))
     slope, stage, total = np.zeros_like(state), np.zeros_like(state), np.zeros_like(state)
     for n in range(len(inputs) // 2):
         total[:] = state
         stage[:] = state
         for leg in range(4):
-            rates(stage, ends, elements, nodes, rail, inputs[2 * n + (leg + 1) // 2], forces, slope)
+            drives = inputs[2 * n + (leg + 1) // 2]
+            rates(stage, ends, elements, nodes, ropes, spans, hinges, lengths, rail, drives, forces, slope)
             ahead, share = step * (0.5 if leg < 2 else 1.0), step / (3.0 if leg in (1, 2) else 6.0)
             for i in range(len(state)):
                 for k in range(13):

@@ -87,7 +87,7 @@ def kinetic_energy(rods, state):
 def march(rods, state, duration, steps, inputs=STILL):
     state = state.copy()
     drives = np.tile(inputs, (2 * steps + 1, 1))
-    at.march(state, rods.ends, rods.elements, rods.nodes, rods.rail, drives, duration / steps)
+    at.march(state, *rods.parts, rods.rail, drives, duration / steps)
     return state
 
 
@@ -121,8 +121,8 @@ def test_tumbling_rods_keep_energy_momentum_and_angular_momentum():
 
 def test_unbalanced_body_precesses_as_a_symmetric_top():
     # Spin about its axis and across it, about the centre of mass, which stands 0.4 m off the node.
-    body = np.array([[50.0, 3.0, 20.0, 20.0, 20.0, 0.0, 0.0]])
-    top = exact_rods.Rods(np.zeros((1, 3)), body, np.zeros((0, 2), dtype=int), np.zeros((0, 11)))
+    body = np.array([[50.0, 3.0, 20.0, 20.0, 20.0, 0.0, 0.0, 0.0, 0.0]])
+    top = exact_rods.Rods(np.zeros((1, 3)), body, np.zeros((0, 2), dtype=int), np.zeros((0, 12)))
     state = top.undeformed()
     spin, nutation, central = 5.0, 1.5, 20.0 - 20.0**2 / 50.0
     state[0, at.SPIN : at.SPIN + 3] = spin, 0.0, nutation
