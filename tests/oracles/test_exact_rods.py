@@ -119,13 +119,21 @@ def test_tumbling_rods_keep_energy_momentum_and_angular_momentum():
     assert_allclose(momenta(free, later), momenta(free, state), rtol=1e-11)
 
 
-def test_unbalanced_body_precesses_as_a_symmetric_top():
-    # Spin about its axis and across it, about the centre of mass, which stands 0.4 m off the node.
-    body = np.array([[50.0, 3.0, 20.0, 20.0, 20.0, 0.0, 0.0, 0.0, 0.0]])
+@pytest.mark.parametrize("tilt", [0.0, 0.7])
+def test_unbalanced_body_precesses_as_a_symmetric_top(tilt):
+    # Spin about its axis and across it, about the centre of mass, which stands 0.4 m off the node; the node's axes
+    # are tilted against the body's about e2.
+    own = Rotation.from_rotvec([0.0, tilt, 0.0])
+    (xx, _, xz), (_, yy, _), (_, _, zz) = (
+        own.inv().as_matrix() @ np.diag([3.0, 20.0, 20.0]) @ own.as_matrix()
+    ).tolist()
+    first, _, raised = own.inv().apply([20.0, 0.0, 0.0])
+    body = np.array([[50.0, xx, yy, zz, first, 0.0, 0.0, raised, xz]])
     top = exact_rods.Rods(np.zeros((1, 3)), body, np.zeros((0, 2), dtype=int), np.zeros((0, 12)))
     state = top.undeformed()
+    state[0, at.TURN : at.TURN + 4] = own.as_quat(scalar_first=True)
     spin, nutation, central = 5.0, 1.5, 20.0 - 20.0**2 / 50.0
-    state[0, at.SPIN : at.SPIN + 3] = spin, 0.0, nutation
+    state[0, at.SPIN : at.SPIN + 3] = own.inv().apply([spin, 0.0, nutation])
     state[0, at.SPEED : at.SPEED + 3] = -np.cross([spin, 0.0, nutation], [0.4, 0.0, 0.0])
     later = march(top, state, 2.0, 4000)[0]
     momentum = np.array([3.0 * spin, 0.0, central * nutation])

@@ -11,7 +11,7 @@ from oracles import exact_rods
 from oracles import rod_kernels as at
 from oracles.rod_assembly import HELD, Assembly, turned
 
-BARS = 10
+BARS = 12
 """Of the longest tie."""
 
 
