@@ -119,7 +119,6 @@ def test_each_slip_in_the_crane_is_named(written, crane, key, said):
     ("case", "key"),
     [
         (("[run]", '[start]\nstate = "zero-no-self-weight"\n[run]'), "start.state"),
-        (("[run]", "[map]\nposition_count = 5\n[run]"), "map"),
     ],
 )
 def test_what_is_for_clamped_jibs_is_refused(written, case, key):
@@ -135,7 +134,7 @@ def test_a_jib_without_ties_has_no_axial_stiffness(written):
     }  # fmt: skip
 
 
-@pytest.mark.parametrize("command", ["map", "shape", "modes"])
+@pytest.mark.parametrize("command", ["shape"])
 def test_commands_for_clamped_jibs_refuse(command, tmp_path):
     done = towercrane(command, "hammerhead/travel", "--out", tmp_path / "there")
     assert done.returncode == 2

@@ -108,7 +108,6 @@ def test_a_jib_stands_where_its_rope_stretches_to(written):
         ((), [(f"[motion.luffing]\n{REST_AT_45}", "")], "motion.luffing", "a table"),
         ((), [(REST_AT_45, TRAPEZOID.format(end=95, speed=1))], "motion.luffing", "from 15 to 85 deg"),
         ((), [("[run]", '[motion.trolley]\nshape = "rest"\nstart = 3\n[run]')], "motion.trolley", "[motion.luffing]"),
-        ((), [("[run]", "[map]\nposition_count = 3\n[run]")], "map", "luffing_angles"),
         ((), [('"5 t"', '"5 t"\ndrag_area = 3'), ("[run]", "[wind]\nspeed = 3\n[run]")], "wind", "with a trolley"),
         ((), [("[run]", "[model]\ncounter_jib_lateral_modes = 1\n[run]")], "model.counter_jib_lateral_modes", ""),
         ((), [("[run]", "[modes]\nluffing_angles = [0.7, 1.5]\n[run]")], "modes.luffing_angles.1", "15 to 85"),
@@ -165,7 +164,7 @@ def test_modes_go_over_the_luffing_angle(written):
     assert all(abs(mode["relative_difference"]) < 2e-3 for mode in report["modes"])
 
 
-@pytest.mark.parametrize("command", [("map",), ("shape",), ("lattice",)], ids=lambda words: words[0])
+@pytest.mark.parametrize("command", [("shape",), ("lattice",)], ids=lambda words: words[0])
 def test_what_is_for_cranes_with_a_trolley_refuses(command, tmp_path):
     name, *more = command
     done = towercrane(name, "luffing/manoeuvre", *more, cwd=tmp_path)

@@ -112,6 +112,7 @@ RANGES = (
     Range("crane.head.bodies*.mass", "kg", 1, 1e6, ("t", "g")),
     Range("crane.head.bodies*.place*", "m", 1e-3, 100, LENGTHS, signed=True),
     Range("modes.luffing_angles*", "rad", 1e-9, 1.6, ANGLES, signed=True),
+    Range("map.luffing_angles*", "rad", 1e-9, 1.6, ANGLES, signed=True),
     Range("crane.trolley.mass", "kg", 5, 50e3, ("t", "g")),
     Range("crane.geometry.*", "m", 0.02, 1000, LENGTHS),
     Range("crane.mass.*", "kg", 0.05, 1e6, ("t", "g")),

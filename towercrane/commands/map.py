@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from towercrane.commands.shared.skeleton import as_text, begin
+from towercrane.commands.shared.skeleton import Task, as_text, begin
 from towercrane.commands.shared.terminal import (
     ENDED_EARLY,
     AsJson,
@@ -23,6 +23,8 @@ from towercrane.commands.shared.terminal import (
 from towercrane.simulation.outcomes import FINISHED
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import xarray as xr
 
     from modal import CraneFrame
@@ -37,7 +39,9 @@ def frequency_map(
     case: CaseName,
     positions: Annotated[
         int | None,
-        typer.Option("--positions", metavar="N", help="Places of the trolley along the jib; else the case's."),
+        typer.Option(
+            "--positions", metavar="N", help="Places of the trolley, or angles of the jib; else the case's."
+        ),
     ] = None,
     payload: Annotated[
         list[str] | None,
@@ -59,14 +63,14 @@ def frequency_map(
 ) -> None:
     """Natural frequencies over trolley position and payload.
 
-    Of the crane in the plane, with the tower's buckling load.
+    Of the crane in the plane, with the tower's buckling load; of a jib that pivots over its angle.
     """
     task = begin(case, changes, as_json=as_json)
     task.need("map", "beams")
     task.into(out, "map")
     loaded = task.case
     from towercrane.cranes.tower.file.case_tables import MOST_POSITIONS, TowerCase
-    from towercrane.cranes.tower.file.requests import map_of
+    from towercrane.cranes.tower.file.requests import ends_of_map, map_of, places_of
 
     if positions is not None and not 1 <= positions <= MOST_POSITIONS:
         fail(f"--positions {positions}: wanted 1 to {MOST_POSITIONS}")
@@ -75,7 +79,10 @@ def frequency_map(
     tables = loaded.tables(TowerCase)
     asked = map_of(tables)
     masses = _masses(asked, payload)
-    reach = tables.crane.jib.reach
+    low, reach = ends_of_map(tables)
+    clamped = tables.crane.tower_head is None and tables.crane.jib.luffing is None
+    if shapes is not None and not clamped:
+        fail(f"--shapes: wanted a crane whose jib is clamped; try: towercrane modes {case} --out DIR")
     where = None if shapes is None else _position(shapes, reach)
     import numpy as np
 
@@ -84,12 +91,12 @@ def frequency_map(
     from towercrane.report.tables.modes import map_tables
     from towercrane.studies.map_report import csv_text, map_report, provenance
 
-    frame = crane_frame(tables, weight=softened(tables))
-    places = np.unique(asked.trolley_positions)
+    frame = crane_frame(tables, weight=softened(tables)) if clamped else None
+    places = np.unique(getattr(asked, places_of(tables)))
     if positions is not None:
-        # A single place is the jib's end, where the load bends it most.
-        places = np.linspace(0.0, reach, positions) if positions > 1 else np.array([reach])
-    data = _mapped(loaded, frame, places, masses, modes)
+        # A single place is the jib's end, where the load bends it most; of a jib that pivots its lowest angle.
+        places = np.linspace(low, reach, positions) if positions > 1 else np.array([reach if low == 0.0 else low])
+    data = _mapped(loaded, _solver(task, frame, modes), places, masses)
     data.attrs |= provenance(loaded)
     report = map_report(data)
     files: dict[str, Any] = {
@@ -101,9 +108,10 @@ def frequency_map(
         from towercrane.report.plots.studies import frequency_map as pictured
 
         files["map.png"] = pictured.frequencies(data)
-    if where is not None:
+    if where is not None and frame is not None:
         files |= _mode_picture(loaded, frame, where, modes)
-    following = task.command("map", "--shapes", f"{0.5 * reach:g} m") if where is None else task.command("run")
+    drawn = where is not None or not clamped
+    following = task.command("run") if drawn else task.command("map", "--shapes", f"{0.5 * reach:g} m")
     task.finish(report, map_tables, following, files)
     if report["outcome"] != FINISHED:
         for row in report["payloads"]:
@@ -142,14 +150,31 @@ def _position(written: str, reach: float) -> float:
     return position
 
 
-def _mapped(case: Case, frame: CraneFrame, places: Any, masses: list[float], modes: int) -> xr.Dataset:
+def _solver(task: Task, frame: CraneFrame | None, modes: int) -> Callable[..., xr.Dataset]:
+    """What makes the map: of an exact frame, or of models where there is none."""
+    if frame is not None:
+        from towercrane.studies.frequency_map import frequency_map as computed
+
+        return partial(computed, frame, modes=modes)
+    from towercrane.cranes.tower.file.case_tables import TowerCase
+    from towercrane.studies.frequency_map import SPARE
+    from towercrane.studies.ritz.model_map import model_map
+    from towercrane.studies.ritz.plane_crane import RICHER, rich_crane
+
+    tables = task.case.tables(TowerCase)
+    crane, richer = rich_crane(tables), rich_crane(tables, RICHER)
+    if modes > crane.most - SPARE:
+        fail(f"--modes {modes}: wanted 1 to {crane.most - SPARE}, as many as the model of such a crane can tell")
+    return partial(model_map, crane, richer, modes=modes)
+
+
+def _mapped(case: Case, computed: Callable[..., xr.Dataset], places: Any, masses: list[float]) -> xr.Dataset:
     """The map, with a progress bar if somebody is looking."""
     from modal.structures.members import FewModes
-    from towercrane.studies.frequency_map import frequency_map as computed
 
     title = f"{case.name}: {len(masses)} payloads, {len(places)} positions"
     try:
-        return with_bar(title, partial(computed, frame, places, masses, modes=modes))
+        return with_bar(title, partial(computed, places, masses))
     except FewModes as error:
         fail(f"{case.path}: crane.tower.lattice: wanted horizontals that leave the modes asked for; {error}")
 

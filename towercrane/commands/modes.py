@@ -37,7 +37,8 @@ def modes(
     from towercrane.cranes.tower.file.plane import stays_in_plane
 
     tables = task.case.tables(TowerCase)
-    if stays_in_plane(tables) and tables.crane.jib.luffing is None:
+    clamped = tables.crane.tower_head is None and tables.crane.jib.luffing is None
+    if stays_in_plane(tables) and clamped:
         _in_plane(task, actual)
     else:
         _in_space(task)

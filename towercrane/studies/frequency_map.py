@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.simulation.outcomes import FINISHED, TOWER_BUCKLED
 from towercrane.studies.branches import Branches, follow
 from towercrane.studies.plane_modes import LOADS, MEMBERS, STATIC_OUTPUTS, PlaneCrane, PlaneModes
 
@@ -18,8 +19,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from modal import CraneFrame
+    from towercrane.studies.ritz.plane_crane import RitzCrane, RitzModes
 
     Floats = NDArray[np.float64]
+    Crane = PlaneCrane | RitzCrane
+    Modes = PlaneModes | RitzModes
 
 POSITIONS = 50
 """Places of the trolley where none are asked for."""
@@ -33,14 +37,14 @@ SPARE = 2
 DOUBTFUL = 0.5
 """Modal assurance criterion between steps below which a branch is not known to be the same."""
 
-FINISHED, TOWER_BUCKLED = "finished", "tower buckled"
-
 MODE_NAMES = {
     "tower": "tower bending",
     "jib": "jib bending",
     "counter-jib": "counter-jib bending",
     "foundation": "rocking on the foundation",
     "collars": "motion on the collars",
+    "ties": "motion on the ties",
+    "luffing rope": "motion on the luffing rope",
     "load": "load swing",
 }
 """What a mode is called whose energy is most in a member."""
@@ -61,12 +65,16 @@ LONG_NAMES = {
 class _Scan:
     """All places of the trolley with one payload."""
 
-    branches: Branches[PlaneModes]
+    branches: Branches[Modes]
 
-    def table(self, values: Callable[[PlaneModes], Floats], count: int) -> Floats:
+    def table(self, values: Callable[[Any], Floats], count: int) -> Floats:
         """Something of every mode, shape (positions, count, ...), in the order of the branches."""
         pairs = zip(self.branches.spectra, self.branches.ranks, strict=True)
         return np.array([values(modes)[ranks[:count]] for modes, ranks in pairs])
+
+    def static(self) -> Floats:
+        """Outputs under unit forces of exact cranes, shape (positions, loads, outputs)."""
+        return np.array([modes.static for modes in self.branches.spectra if isinstance(modes, PlaneModes)])
 
 
 def frequency_map(
@@ -111,40 +119,58 @@ def frequency_map(
     ValueError
         If a position is off the jib, positions or payloads are none or not ascending, or a number is out of range.
     """
-    places, masses = _ascending("positions", positions), _ascending("payloads", payloads)
+    places, masses = ascending("positions", positions), ascending("payloads", payloads)
     if frame.jib is not None and not 0.0 <= places[0] <= places[-1] <= frame.jib.length * (1.0 + 1e-12):
         raise ValueError(f"positions: wanted 0 to {frame.jib.length:g} m, got {places[0]:g} to {places[-1]:g}")
     if not (masses[0] > 0.0 and masses[-1] < np.inf):
         raise ValueError(f"payloads: wanted masses above 0 kg, got {masses[0]:g} to {masses[-1]:g}")
+    factors = [buckling_factor(replace(frame, payload_mass=float(mass)), float(places[0])) for mass in masses]
+    outcomes = [FINISHED if factor > 1.0 else TOWER_BUCKLED for factor in factors]
+
+    def loaded(mass: float) -> PlaneCrane:
+        return PlaneCrane(replace(frame, payload_mass=mass))
+
+    result = mapped(loaded, factors, outcomes, places, masses, modes, progress=progress)
+    result.attrs |= {"rope_length": frame.rope_length, "trolley_mass": frame.trolley_mass, "gravity": frame.gravity}
+    result.attrs["weight_softening"] = int(frame.tower.gravity > 0.0)
+    return result
+
+
+def mapped(
+    loaded: Callable[[float], Any],
+    factors: list[float],
+    outcomes: list[str],
+    places: Floats,
+    masses: Floats,
+    modes: int,
+    members: tuple[str, ...] = MEMBERS,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """A map of a crane that is made for each load; buckling factors and outcomes are given, by load."""
     if modes < 1:
         raise ValueError(f"modes: wanted one or more, got {modes!r}")
     began = time.perf_counter()
-    factors = [buckling_factor(replace(frame, payload_mass=float(mass)), float(places[0])) for mass in masses]
-    stable = [i for i, factor in enumerate(factors) if factor > 1.0]
+    stable = [i for i, outcome in enumerate(outcomes) if outcome == FINISHED]
+    first, far = float(places[0]), float(np.ptp(places)) or 1.0
     scans: dict[int, _Scan] = {}
-    for i, start in zip(stable, _starts(frame, masses[stable], float(places[0]), modes), strict=True):
-        crane = PlaneCrane(replace(frame, payload_mass=float(masses[i])))
-        far = float(places[-1]) or 1.0
+    for i, start in zip(stable, _starts(loaded, masses[stable], first, modes), strict=True):
+        crane = loaded(float(masses[i]))
 
-        def solve(position: float, crane: PlaneCrane = crane, done: int = len(scans), far: float = far) -> PlaneModes:
+        def solve(position: float, crane: Crane = crane, done: int = len(scans)) -> Modes:
             if progress is not None:
-                progress((done + position / far) / len(stable))
+                progress((done + (position - first) / far) / len(stable))
             return crane.modes(position, modes + SPARE)
 
         scans[i] = _Scan(follow(solve, places.tolist(), modes, start))
-    result = _dataset(places, masses, modes, scans)
+    result = _dataset(places, masses, modes, scans, members)
     result["buckling_factor"] = (
         "payload",
         np.array(factors),
         {"units": "1", "long_name": "factor on all weights at which the tower buckles"},
     )
-    result["outcome"] = ("payload", [FINISHED if i in scans else TOWER_BUCKLED for i in range(len(masses))])
+    result["outcome"] = ("payload", outcomes)
     result.attrs |= {
-        "outcome": FINISHED if len(scans) == len(masses) else TOWER_BUCKLED,
-        "rope_length": frame.rope_length,
-        "trolley_mass": frame.trolley_mass,
-        "gravity": frame.gravity,
-        "weight_softening": int(frame.tower.gravity > 0.0),
+        "outcome": next((outcome for outcome in outcomes if outcome != FINISHED), FINISHED),
         "spectra_computed": sum(scan.branches.solved for scan in scans.values()),
         "wall_seconds": time.perf_counter() - began,
     }
@@ -171,25 +197,34 @@ def doubtful_steps(result: xr.Dataset) -> list[tuple[float, float, int]]:
     ]
 
 
-def _ascending(name: str, values: Sequence[float] | Floats) -> Floats:
+def ascending(name: str, values: Sequence[float] | Floats) -> Floats:
+    """Values as they are.
+
+    Raises
+    ------
+    ValueError
+        If they are none, not finite or not ascending.
+    """
     found = np.atleast_1d(np.asarray(values, dtype=float))
     if found.ndim != 1 or found.size == 0 or not np.isfinite(found).all() or not (np.diff(found) > 0.0).all():
         raise ValueError(f"{name}: wanted one or more ascending finite numbers, got {values!r}")
     return found
 
 
-def _starts(frame: CraneFrame, masses: Floats, position: float, modes: int) -> list[NDArray[np.int64]]:
+def _starts(loaded: Callable[[float], Crane], masses: Floats, position: float, modes: int) -> list[NDArray[np.int64]]:
     """Ranks of the branches at the first position with every payload, followed from the lightest one."""
     if masses.size == 0:
         return []
 
-    def solve(logarithm: float) -> PlaneModes:
-        return PlaneCrane(replace(frame, payload_mass=float(np.exp(logarithm)))).modes(position, modes + SPARE)
+    def solve(logarithm: float) -> Modes:
+        return loaded(float(np.exp(logarithm))).modes(position, modes + SPARE)
 
     return list(follow(solve, np.log(masses).tolist(), modes).ranks)
 
 
-def _dataset(places: Floats, masses: Floats, modes: int, scans: dict[int, _Scan]) -> xr.Dataset:
+def _dataset(
+    places: Floats, masses: Floats, modes: int, scans: dict[int, _Scan], members: tuple[str, ...]
+) -> xr.Dataset:
     """All scans as one labelled data set; a payload without a scan has no numbers."""
     import xarray as xr
 
@@ -200,7 +235,7 @@ def _dataset(places: Floats, masses: Floats, modes: int, scans: dict[int, _Scan]
         return found
 
     along = ("payload", "position", "mode")
-    shares = stacked(lambda s: s.table(lambda m: m.energy_shares, modes), modes, len(MEMBERS))
+    shares = stacked(lambda s: s.table(lambda m: m.energy_shares, modes), modes, len(members))
     frequency = stacked(lambda s: s.table(lambda m: m.frequencies, modes), modes)
     variables: dict[str, Any] = {
         "frequency": (along, frequency, {"units": "Hz", "long_name": "natural frequency"}),
@@ -213,9 +248,11 @@ def _dataset(places: Floats, masses: Floats, modes: int, scans: dict[int, _Scan]
             {"units": "1", "long_name": "modal assurance criterion with the position before"},
         ),
     }  # fmt: skip
-    modal = stacked(lambda s: s.table(lambda m: m.modal_static, modes), modes, len(LOADS), len(STATIC_OUTPUTS))
-    static = stacked(lambda s: np.array([m.static for m in s.branches.spectra]), len(LOADS), len(STATIC_OUTPUTS))
-    for k, name in enumerate(STATIC_OUTPUTS):
+    exact = members == MEMBERS
+    if exact:
+        modal = stacked(lambda s: s.table(lambda m: m.modal_static, modes), modes, len(LOADS), len(STATIC_OUTPUTS))
+        static = stacked(lambda s: s.static(), len(LOADS), len(STATIC_OUTPUTS))
+    for k, name in enumerate(STATIC_OUTPUTS if exact else ()):
         words = f"{LONG_NAMES[name]} under a unit force on the trolley"
         variables[f"modal_{name}"] = (
             (*along, "load"), modal[..., k], {"units": UNITS[name], "long_name": f"the mode's part in the {words}"},
@@ -231,14 +268,14 @@ def _dataset(places: Floats, masses: Floats, modes: int, scans: dict[int, _Scan]
             {"units": "m", "long_name": "distance of the trolley from the tower's axis"},
         ),
         "mode": np.arange(1, modes + 1),
-        "member": list(MEMBERS),
-        "load": list(LOADS),
-        "branch": ("mode", branch_names(frequency, shares)),
+        "member": list(members),
+        **({"load": list(LOADS)} if exact else {}),
+        "branch": ("mode", branch_names(frequency, shares, members)),
     }
     return xr.Dataset(variables, coordinates)
 
 
-def branch_names(frequency: Floats, shares: Floats) -> list[str]:
+def branch_names(frequency: Floats, shares: Floats, members: tuple[str, ...] = MEMBERS) -> list[str]:
     """Names of the branches by the member that holds most of their energy, counted by mean frequency.
 
     Parameters
@@ -246,7 +283,9 @@ def branch_names(frequency: Floats, shares: Floats) -> list[str]:
     frequency : ndarray, shape (payloads, positions, modes)
         [Hz]; NaN where there is none.
     shares : ndarray, shape (payloads, positions, modes, members)
-        Shares of `MEMBERS` [1].
+        Shares of the members [1].
+    members : tuple of str
+        Their names.
     """
     count = frequency.shape[2]
     known = np.isfinite(frequency).all(axis=(1, 2))
@@ -257,7 +296,7 @@ def branch_names(frequency: Floats, shares: Floats) -> list[str]:
     names = []
     for k in range(count):
         rank = int(((most == most[k]) & (height < height[k])).sum())
-        name = MODE_NAMES[MEMBERS[most[k]]]
+        name = MODE_NAMES[members[most[k]]]
         ordinal = ORDINALS[rank] if rank < len(ORDINALS) else f"{rank + 1}th"
         names.append(name if name == MODE_NAMES["load"] and rank == 0 else f"{ordinal} {name}")
     return names

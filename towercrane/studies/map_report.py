@@ -12,7 +12,8 @@ from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.requests import left_out_in_plane
 from towercrane.results.versions import versions
 from towercrane.runs.summary import assumed
-from towercrane.studies.frequency_map import FINISHED, doubtful_steps
+from towercrane.simulation.outcomes import FINISHED
+from towercrane.studies.frequency_map import doubtful_steps
 from towercrane.studies.plane_modes import LOADS, STATIC_OUTPUTS
 
 if TYPE_CHECKING:
@@ -45,9 +46,13 @@ def map_report(data: xr.Dataset) -> dict[str, Any]:
         where the tower stands, ``frequencies_hz`` and ``energy_share`` (mean per member) by branch, and
         ``contribution`` by branch: each mode's part, from 0 to 1 or beyond, in the static outputs under a unit force
         on the trolley at its outermost position; None where the static output is zero. ``doubtful``: where a branch
-        may have been lost. ``left_out``, ``assumed``, ``versions``, ``wall_seconds``.
+        may have been lost. Of a crane in the modes of a model without ``contribution``, with ``change_by_more_modes``
+        by branch, ``shapes`` and ``shapes_of_the_richer`` in words; of one whose jib pivots ``luffing_angles_rad`` in
+        place of positions. ``left_out``, ``assumed``, ``versions``, ``wall_seconds``.
     """
-    attributes = data.attrs
+    attributes, modelled = data.attrs, "change_by_more_modes" in data
+    pivots = data["position"].attrs["units"] == "rad"
+    one_place, places = ("luffing_angle_rad", "luffing_angles_rad") if pivots else ("position_m", "positions_m")
     names = [str(name) for name in data["branch"].values]
     payloads = []
     for i, outcome in enumerate(data["outcome"].values):
@@ -64,7 +69,7 @@ def map_report(data: xr.Dataset) -> dict[str, Any]:
                     "name": name,
                     "frequencies_hz": one["frequency"].values[:, k].tolist(),
                     "energy_share": dict(zip(data["member"].values.tolist(), shares.values[k].tolist(), strict=True)),
-                    "contribution": _contribution(one.isel(position=-1, mode=k)),
+                    **({} if modelled else {"contribution": _contribution(one.isel(position=-1, mode=k))}),
                 }
                 for k, name in enumerate(names)
             ]
@@ -75,16 +80,24 @@ def map_report(data: xr.Dataset) -> dict[str, Any]:
         "outcome": attributes["outcome"],
         "rope_length_m": float(attributes["rope_length"]),
         "weight_softening": bool(attributes["weight_softening"]),
-        "positions_m": data["position"].values.tolist(),
+        places: data["position"].values.tolist(),
         "branches": names,
         "payloads": payloads,
-        "doubtful": [{"payload_kg": p, "position_m": x, "branch": names[k - 1]} for p, x, k in doubtful_steps(data)],
+        "doubtful": [{"payload_kg": p, one_place: x, "branch": names[k - 1]} for p, x, k in doubtful_steps(data)],
+        **(_richer(data) if modelled else {}),
         "left_out": json.loads(attributes["left_out"]),
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(data)],
         "versions": json.loads(attributes["versions"]),
         "spectra_computed": int(attributes["spectra_computed"]),
         "wall_seconds": float(attributes["wall_seconds"]),
     }
+
+
+def _richer(data: xr.Dataset) -> dict[str, Any]:
+    """What a model in more modes says of the branches."""
+    names, change = data["branch"].values.tolist(), data["change_by_more_modes"].values.tolist()
+    words = {key: str(data.attrs[key]) for key in ("shapes", "shapes_of_the_richer")}
+    return {"change_by_more_modes": dict(zip(names, change, strict=True)), **words}
 
 
 def _contribution(mode: xr.Dataset) -> dict[str, dict[str, float | None]]:
@@ -109,11 +122,9 @@ def csv_text(data: xr.Dataset) -> str:
     Static outputs of all modes stand beside each mode's part in them.
     """
     scalars = ["frequency", "shape_agreement"]
-    split = [
-        ("energy_share", "member"),
-        *((f"{part}_{name}", "load") for name in STATIC_OUTPUTS for part in ("modal", "static")),
-    ]
-    header = ["payload [kg]", "position [m]", "mode", "branch"]
+    statics = ((f"{part}_{name}", "load") for name in STATIC_OUTPUTS for part in ("modal", "static"))
+    split = [("energy_share", "member"), *(own for own in statics if own[0] in data)]
+    header = ["payload [kg]", f"position [{data['position'].attrs['units']}]", "mode", "branch"]
     header += [f"{name} [{data[name].attrs['units']}]" for name in scalars]
     header += [f"{name} {label} [{data[name].attrs['units']}]" for name, dim in split for label in data[dim].values]
     lines = [f"# {key}: {value}" for key, value in data.attrs.items() if "\n" not in str(value)]

@@ -57,8 +57,6 @@ def swept(tables: TowerCase) -> dict[str, str]:
 
 def space_model(tables: TowerCase) -> FlexibleModel:
     """The case's crane with a load that may swing to all sides, in the modes for which the crane has data."""
-    if tables.crane.jib.luffing is None:
-        return tower_model(tables)
     known = described(crane_of(tables))
     absent = {kind: 0 for kind in MODE_KINDS if kind not in known}
     return tower_model(tables, planar=False, heading=0.0, **absent)

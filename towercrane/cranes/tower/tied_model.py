@@ -106,6 +106,10 @@ def curvature(tied: Tied, k: int, q: Floats) -> Floats:
     )
 
 
+def _in_kilonewtons(tensions: Floats) -> str:
+    return ", ".join(f"{1e-3 * tension:.4g}" for tension in tensions)
+
+
 def _head_of(crane: FlexibleCrane) -> TiedHead:
     assert crane.tied is not None, "the crane has ties"
     return crane.tied
@@ -174,11 +178,11 @@ class TiedModel(FlexibleModel):
         Raises
         ------
         NoEquilibrium
-            If the ties do not hold the crane's own weight, or it has no stable equilibrium.
+            If the ties do not hold the crane's own weight, one would push, or there is no stable equilibrium.
         """
         tensions = self._at_rest_alone[0].pretension
         if np.any(tensions <= 0.0):
-            pulled = ", ".join(f"{1e-3 * tension:.4g}" for tension in tensions)
+            pulled = _in_kilonewtons(tensions)
             raise NoEquilibrium(SLACK_TIE, f"under the crane's own weight the ties would pull with {pulled} kN")
         head, q = _head_of(self.crane), self._at_rest_alone[1]
         heights = [float(own @ q) for own in head.ends()[1][np.arange(len(tensions)), :, 2]]
@@ -189,7 +193,11 @@ class TiedModel(FlexibleModel):
                 f"with the stated pretension the ties' ends stand {listed} m off level under the crane's own weight; "
                 "state none, or fewer: what the weight asks for is found",
             )
-        return super().equilibrium(inputs)
+        loaded = super().equilibrium(inputs)
+        tensions = np.array(pull_ties(self._at_rest_alone[0], loaded[-len(q) :]).tensions)
+        if np.any(tensions < 0.0):
+            raise NoEquilibrium(SLACK_TIE, f"at rest the ties would pull with {_in_kilonewtons(tensions)} kN")
+        return loaded
 
     def undeformed(self, inputs: Floats) -> Floats:
         """Coordinates of the crane as its drives and ties hold its own weight, its tower straight."""

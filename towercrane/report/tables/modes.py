@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import degrees
 from typing import TYPE_CHECKING, Any
 
 from towercrane.report.tables.layout import assumed_values as _assumed
@@ -139,14 +140,17 @@ def _effects(console: Console, report: dict[str, Any]) -> None:
 def map_tables(report: dict[str, Any]) -> None:
     """Branches over payload and trolley position, as :func:`towercrane.studies.map_report.map_report` gives them."""
     console = _console()
-    places = report["positions_m"]
+    pivots, richer = "luffing_angles_rad" in report, report.get("change_by_more_modes", {})
+    places = [degrees(angle) for angle in report["luffing_angles_rad"]] if pivots else report["positions_m"]
+    unit = "deg" if pivots else "m"
     shown = sorted({round(i * (len(places) - 1) / 4) for i in range(5)})
     softened = "softened" if report["weight_softening"] else "not softened"
     title = (
         f"{report['name']}: natural frequencies [Hz], rope {report['rope_length_m']:g} m, "
         f"tower {softened} by its weight"
     )
-    table = _table(title, "branch", "load [kg]", *(f"at {places[i]:.4g} m" for i in shown), "energy", left=1)
+    columns = ["branch", "load [kg]", *(f"at {places[i]:.4g} {unit}" for i in shown), "energy"]
+    table = _table(title, *columns, *(["more modes"] if richer else []), left=1)
     stable = [row for row in report["payloads"] if row["outcome"] == "finished"]
     for k, name in enumerate(report["branches"]):
         for row in stable:
@@ -154,9 +158,16 @@ def map_tables(report: dict[str, Any]) -> None:
             shares = sorted(branch["energy_share"].items(), key=lambda item: -item[1])[:2]
             energy = ", ".join(f"{member} {share:.0%}" for member, share in shares if share >= 0.005)
             frequencies = (f"{branch['frequencies_hz'][i]:.5f}" for i in shown)
-            table.add_row(name if row is stable[0] else "", f"{row['payload_kg']:g}", *frequencies, energy)
+            first = row is stable[0]
+            change = [f"{richer[name]:.1e}" if first else ""] if richer else []
+            table.add_row(name if first else "", f"{row['payload_kg']:g}", *frequencies, energy, *change)
     console.print(table)
-    if stable:
+    if richer:
+        console.print(
+            f"frequencies of a model in {report['shapes']}; more modes: by how much they change at most at the ends "
+            f"in {report['shapes_of_the_richer']}"
+        )
+    elif stable:
         row = stable[len(stable) // 2]
         table = _table(
             f"Part of each mode in static outputs under a unit force on the trolley at {places[-1]:.4g} m, "
@@ -175,10 +186,12 @@ def map_tables(report: dict[str, Any]) -> None:
         console.print("weight: force down, push: force outward; all modes together make 100 %")
     for row in report["payloads"]:
         factor = "no" if row["buckling_factor"] is None else f"{row['buckling_factor']:.5g}"
-        text = f"load {row['payload_kg']:g} kg: tower buckles in the jib's plane at {factor} times all weights"
+        alone = "the tower alone" if richer else "tower"
+        text = f"load {row['payload_kg']:g} kg: {alone} buckles in the jib's plane at {factor} times all weights"
         console.print(text + ("" if row["outcome"] == "finished" else f": {row['outcome']}, no frequencies"))
     for step in report["doubtful"]:
-        where = f"load {step['payload_kg']:g} kg, just before {step['position_m']:.4g} m"
+        place = degrees(step["luffing_angle_rad"]) if pivots else step["position_m"]
+        where = f"load {step['payload_kg']:g} kg, just before {place:.4g} {unit}"
         console.print(f"doubtful {step['branch']}: its shape changes abruptly at {where}")
     said(console, report["left_out"])
     _assumed(console, report["assumed"])

@@ -212,12 +212,18 @@ class Equations(Coordinates):
         """What is said of a crane that cannot stand."""
         return NoEquilibrium(TOWER_BUCKLED, f"{why}{self.buckling_message()}")
 
+    def buckling_factor(self) -> float:
+        """Factor on all weights at which the tower alone buckles in its modes; infinite for a rigid one [1]."""
+        if not self.crane.tower.count:
+            return np.inf
+        geometric = np.linalg.eigvals(np.linalg.solve(self.crane.tower.stiffness_matrix(), geometric_stiffness(self)))
+        return float(1.0 / geometric.real.max())
+
     def buckling_message(self) -> str:
         """How far the tower is from buckling."""
         if not self.crane.tower.count:
             return "the tower is rigid"
-        geometric = np.linalg.eigvals(np.linalg.solve(self.crane.tower.stiffness_matrix(), geometric_stiffness(self)))
-        return f"the tower alone would carry {1.0 / geometric.real.max():.3g} times the weight upon it"
+        return f"the tower alone would carry {self.buckling_factor():.3g} times the weight upon it"
 
     def at_rest(self, q: Floats, inputs: Floats) -> Structure:
         """The structure at rest at these coordinates, in the wind of the inputs, its drives held."""

@@ -130,11 +130,13 @@ class MapRequest(Table):
     """Where the frequency map is taken.
 
     Without positions of the trolley, ``position_count`` of them equally spaced from the tower's axis to the end of
-    the jib; without masses of the load half the case's own, that itself, and its double.
+    the jib, of a jib that pivots angles from the lowest to the highest; without masses of the load half the case's
+    own, that itself, and its double.
     """
 
     position_count: Annotated[StrictInt, Field(ge=2, le=MOST_POSITIONS)] = 50
     trolley_positions: tuple[Position, ...] = ()
+    luffing_angles: tuple[Angle, ...] = ()
     payload_masses: tuple[Mass, ...] = ()
 
 

@@ -28,11 +28,23 @@ def modes_of(tables: TowerCase, trolley: Motion) -> ModesRequest:
 
 def map_of(tables: TowerCase) -> MapRequest:
     """Where the frequency map is taken."""
-    asked, jib, load = tables.map, tables.crane.jib.reach, tables.payload.mass
+    asked, load = tables.map, tables.payload.mass
+    places, (low, high) = places_of(tables), ends_of_map(tables)
     steps = asked.position_count - 1
-    positions = asked.trolley_positions or tuple(jib * i / steps for i in range(steps + 1))
+    positions = getattr(asked, places) or tuple(low + (high - low) * i / steps for i in range(steps + 1))
     masses = asked.payload_masses or (0.5 * load, load, 2.0 * load)
-    return asked.model_copy(update={"trolley_positions": positions, "payload_masses": masses})
+    return asked.model_copy(update={places: positions, "payload_masses": masses})
+
+
+def places_of(tables: TowerCase) -> str:
+    """Key of the places of a map: of a trolley, or angles of a jib that pivots."""
+    return "trolley_positions" if tables.crane.jib.luffing is None else "luffing_angles"
+
+
+def ends_of_map(tables: TowerCase) -> tuple[float, float]:
+    """How far a trolley [m] or a jib that pivots [rad] goes."""
+    jib = tables.crane.jib
+    return (0.0, jib.reach) if jib.luffing is None else (jib.luffing.lowest_angle, jib.luffing.highest_angle)
 
 
 def targets_of(tables: TowerCase) -> Targets:

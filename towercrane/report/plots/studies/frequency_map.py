@@ -30,7 +30,8 @@ def frequencies(data: xr.Dataset) -> Figure:
 
     figure = figure_of(9.0, 6.5)
     axes: Axes = figure.subplots()
-    positions = data["position"].values
+    pivots = data["position"].attrs["units"] == "rad"
+    positions = np.degrees(data["position"].values) if pivots else data["position"].values
     marker = "o" if positions.size == 1 else ""
     stable = [i for i, outcome in enumerate(data["outcome"].values) if outcome == "finished"]
     for dash, i in enumerate(stable):
@@ -49,13 +50,16 @@ def frequencies(data: xr.Dataset) -> Figure:
     ]
     lost = [i for i in range(data.sizes["payload"]) if i not in stable]
     payloads += [Line2D([], [], ls="", label=_payload_label(data, i)) for i in lost]
-    axes.set(
-        xlabel="distance of the trolley from the tower's axis [m]", ylabel="natural frequency [Hz]", yscale="log"
+    along = (
+        "angle of the jib, as its winch has it [deg]"
+        if pivots
+        else "distance of the trolley from the tower's axis [m]"
     )
+    axes.set(xlabel=along, ylabel="natural frequency [Hz]", yscale="log")
     if stable:
         _plain_ticks(axes)
     else:
-        axes.text(0.5, 0.5, "the tower buckles under every payload", ha="center", transform=axes.transAxes)
+        axes.text(0.5, 0.5, "the crane stands under no payload", ha="center", transform=axes.transAxes)
     axes.grid(which="both", color="0.92", lw=0.6)
     figure.legend(handles=[*branches, *payloads], loc="outside right upper", fontsize=8, frameon=False)
     tower = f"tower {'softened' if data.attrs['weight_softening'] else 'not softened'} by its weight"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from math import degrees, pi
 from typing import TYPE_CHECKING, Any
 
@@ -46,13 +47,12 @@ WITHOUT = {
     "wind": "runs in wind are for cranes with a trolley",
     "earthquake": "earthquakes are for cranes with a trolley",
     "modes.trolley_positions": "give modes.luffing_angles",
-    "map": "frequency maps are over the places of a trolley; modes.luffing_angles shows frequencies over the angle",
+    "map.trolley_positions": "give map.luffing_angles",
 }
 """What a crane whose jib pivots cannot have, and why or what instead."""
 
 
 REFUSED = {
-    "map": "a frequency map is over the places of a trolley; modes.luffing_angles shows frequencies over the angle",
     "lattice": "the check of its tower's lattice is for a jib that does not pivot",
     "shape": "motions that leave the load at rest are proposed for cranes with a trolley",
     "members": "modes of its members alone are not drawn",
@@ -75,7 +75,7 @@ def pivots(tree: dict[str, Any]) -> bool:
 def check_luffing(tree: dict[str, Any]) -> Iterator[Fault]:
     """Faults of a jib that pivots, or of keys that only such a jib has."""
     if at(tree, JIB) is None:
-        for key in ("crane.head", "motion.luffing", "modes.luffing_angles"):
+        for key in ("crane.head", "motion.luffing", "modes.luffing_angles", "map.luffing_angles"):
             if at(tree, key) is not None:
                 hint = "a jib pivots where its file has a table [jib.luffing]"
                 yield Fault("", key, "nothing for a jib that does not pivot", shown(at(tree, key)), hint)
@@ -128,7 +128,8 @@ def _check_lever(tree: dict[str, Any], low: float, high: float) -> Iterator[Faul
 
 def _check_modes(tree: dict[str, Any], low: float, high: float) -> Iterator[Fault]:
     """Modes that are asked for at angles at which the jib does not stand."""
-    for key, written in leaves(at(tree, "modes.luffing_angles") or [], "modes.luffing_angles"):
+    asked = (leaves(at(tree, key) or [], key) for key in ("modes.luffing_angles", "map.luffing_angles"))
+    for key, written in chain.from_iterable(asked):
         angle = si(written, "rad")
         if angle is not None and not low <= angle <= high:
             yield Fault("", key, f"angles from {degrees(low):g} to {degrees(high):g} deg", shown(written))

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.tower.file.checks.jib import COUNTER_JIB, JIB, jib_length
 from towercrane.cranes.tower.file.checks.tower import MISSING, ROUNDING, tables_in
-from towercrane.cranes.tower.file.plane import stays_in_plane
 from towercrane.cranes.tower.modes.tied.bars import MOST_TIES
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.ranges import at, si_at
@@ -20,27 +19,22 @@ if TYPE_CHECKING:
 HEAD = "crane.tower_head"
 
 WITHOUT = {
-    "map": "a frequency map is of jibs that are clamped",
     "crane.jib.luffing": "a jib either pivots on its rope or hangs on tie bars",
 }
 """What a crane with tie bars cannot have, and why."""
 
 REFUSED = {
-    "map": "a frequency map is of jibs that are clamped",
     "shape": "motions that leave the load at rest are proposed for jibs that are clamped",
     "members": "modes of its members alone are not drawn",
 }
 """What a crane with tie bars cannot be used for, and why."""
-
-IN_PLANE = "exact frequencies in the plane are of jibs that are clamped; a scene that slews shows those of its model"
 
 
 def refused(tables: TowerCase) -> dict[str, str]:
     """Uses that a checked case cannot serve, and why."""
     if tables.crane.tower_head is None:
         return {}
-    more = {"modes": IN_PLANE} if stays_in_plane(tables) else {}
-    return {use: f"the jibs hang on tie bars: {why}" for use, why in (REFUSED | more).items()}
+    return {use: f"the jibs hang on tie bars: {why}" for use, why in REFUSED.items()}
 
 
 def check_ties(tree: dict[str, Any]) -> Iterator[Fault]:
