@@ -11,7 +11,7 @@ from towercrane.bench import SUBJECTS, measure
 from towercrane.bench.clock import Timing, difference, interleaved
 from towercrane.bench.rivals import solvers as rivals
 from towercrane.bench.rivals import workprecision
-from towercrane.bench.runs import lanes, one_hour, space
+from towercrane.bench.runs import heads, lanes, one_hour, space
 from towercrane.bench.runs.growth import exponent
 from towercrane.bench.runs.stability import failure_map
 from towercrane.bench.scenes.plain import model_states, plain_rhs, plain_state
@@ -144,6 +144,28 @@ def test_an_unknown_subject_is_named_with_those_there_are():
     with pytest.raises(ValueError, match=r"subject: wanted one of roots, .*growth, got 'speed'"):
         measure(subject="speed")
     assert {"roots", "radial", "multi-mass", "enhanced", "basic", "jib"} <= set(SUBJECTS)
+
+
+def test_cost_of_ties_and_of_a_jib_that_pivots(monkeypatch):
+    # Without compiling: how long each takes is no matter here.
+    monkeypatch.setattr(
+        "towercrane.bench.evaluations.interleaved",
+        lambda contestants, _: (
+            {},
+            {name: Timing(0.0, 1.0 + k, 0.0, 0.0, 0.0, 1) for k, name in enumerate(contestants)},
+        ),
+    )
+    table = heads.heads(1)
+    records = table["records"]
+    # Each tie brings three coordinates.
+    assert [record["states"] for record in records] == [19, 37, 43, 25, 27]
+    assert [record["ratio"] for record in records] == [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert "costs 1.25 times" in table["notes"][1]
+    frequencies = [record["frequency"] for record in records]
+    assert frequencies[:3] == pytest.approx([0.511, 0.773, 0.954], abs=1e-3)
+    assert frequencies[3:] == [None, None]
+    assert [row[-1] for row in table["rows"]] == ["-46 %", "-19 %", "+0 %", "-", "-"]
+    assert all(len(row) == len(table["columns"]) for row in table["rows"])
 
 
 def test_cost_of_a_right_hand_side_in_space(monkeypatch):

@@ -13,6 +13,7 @@ from towercrane.bench.rivals.workprecision import work_precision
 from towercrane.bench.runs.accuracy import error_controlled
 from towercrane.bench.runs.events import event_runs
 from towercrane.bench.runs.growth import growth
+from towercrane.bench.runs.heads import heads
 from towercrane.bench.runs.radial import modes_left_out, right_hand_side
 from towercrane.bench.runs.slewing import right_hand_sides
 from towercrane.bench.runs.space import space_right_hand_sides
@@ -43,6 +44,7 @@ SUBJECTS: dict[str, tuple[str, Subject]] = {
     "radial-modes": ("modes left out", lambda repeats, quick: modes_left_out(repeats)),
     "space-rhs": ("right-hand side of the crane in space", lambda repeats, quick: space_right_hand_sides(repeats)),
     "space": ("crane in space", lambda repeats, quick: _space(repeats, quick)),
+    "heads-rhs": ("right-hand side with tie bars, with a jib that pivots", lambda repeats, quick: heads(repeats)),
     "slewing-rhs": ("right-hand sides of the slewing cranes", lambda repeats, quick: right_hand_sides(repeats)),
     "multi-mass": ("slewing crane, multi-mass", lambda repeats, quick: _lumped("multi-mass", repeats, quick)),
     "enhanced": ("slewing crane, enhanced", lambda repeats, quick: _lumped("enhanced", repeats, quick)),
