@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Set
-from functools import cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.registry import KINDS
@@ -94,6 +94,7 @@ def of_kinds(kinds: Iterable[str]) -> str:
     return f"cranes of kind {', '.join(most)}{' or ' if most else ''}{last}"
 
 
+@lru_cache(4096)
 def plain_key(key: str) -> str:
     """A dotted key without the numbers of list items."""
     return ".".join(part for part in key.split(".") if not part.isdecimal())
@@ -127,10 +128,15 @@ def _likely(tree: dict[str, Any]) -> str:
 def _missing(table: type[Table], tree: dict[str, Any]) -> int:
     """How many keys a table needs that are not written, those of its tables included."""
     count = 0
-    for name, field in table.model_fields.items():
-        inner = list(tables(field.annotation))
+    for name, required, inner in _fields(table):
         if name not in tree:
-            count += field.is_required()
+            count += required
         elif isinstance(tree[name], dict) and len(inner) == 1:
             count += _missing(inner[0], tree[name])
     return count
+
+
+@cache
+def _fields(table: type[Table]) -> list[tuple[str, bool, tuple[type[Table], ...]]]:
+    """Name of each key of a table, whether it is needed, and the tables that it admits."""
+    return [(name, field.is_required(), tables(field.annotation)) for name, field in table.model_fields.items()]

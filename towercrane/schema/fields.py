@@ -12,8 +12,6 @@ from towercrane.schema.faults import shown
 from towercrane.schema.units import UnitError, to_si, wanted
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from pydantic.fields import FieldInfo
 
 
@@ -212,12 +210,16 @@ class Expect(Table):
     error: Annotated[float | None, Quantity("1", above=0)] = None
 
 
-def tables(annotation: Any) -> Iterator[type[Table]]:
+def tables(annotation: Any) -> tuple[type[Table], ...]:
     """The tables that a field's annotation admits."""
-    if isinstance(annotation, type) and issubclass(annotation, Table):
-        yield annotation
-    for argument in get_args(annotation):
-        yield from tables(argument)
+    if annotation not in _TABLES:
+        own = (annotation,) if isinstance(annotation, type) and issubclass(annotation, Table) else ()
+        _TABLES[annotation] = (*own, *(table for argument in get_args(annotation) for table in tables(argument)))
+    return _TABLES[annotation]
+
+
+_TABLES: dict[Any, tuple[type[Table], ...]] = {}
+"""Found once: a case is read for every run of a sweep."""
 
 
 def known_keys(table: type[Table], prefix: str = "") -> list[str]:

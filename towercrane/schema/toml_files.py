@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from towercrane.schema.faults import CaseError, Fault, shown
@@ -46,9 +47,22 @@ def read_toml(path: Path, known: Set[str] = frozenset()) -> dict[str, Any]:
         got = f"a byte that is not UTF-8 at position {error.start}"
         raise CaseError([Fault(str(path), "", wanted, got, "save the file with the encoding UTF-8")]) from None
     try:
-        return tomllib.loads(content)
+        return {name: _copied(item) for name, item in _parsed(content).items()}
     except (ValueError, RecursionError) as error:
         raise CaseError([_syntax_fault(path, content, error, known)]) from None
+
+
+@lru_cache(8)
+def _parsed(content: str) -> dict[str, Any]:
+    """What a text says; many runs of a case read the same two files."""
+    return tomllib.loads(content)
+
+
+def _copied(node: Any) -> Any:
+    """Tables and lists that may be changed."""
+    if isinstance(node, dict):
+        return {name: _copied(item) for name, item in node.items()}
+    return [_copied(item) for item in node] if isinstance(node, list) else node
 
 
 def is_deep(tree: Any) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from functools import cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING
 
 from towercrane.schema.faults import did_you_mean, shown
@@ -197,6 +197,16 @@ def to_si(value: object, unit: str) -> float:
     UnitError
         If the value is no finite number, or its unit is unknown or of another dimension.
     """
+    # Many runs of a case read the same texts.
+    return _text_in_si(value, unit) if isinstance(value, str) else _in_si(value, unit)
+
+
+@lru_cache(4096)
+def _text_in_si(value: str, unit: str) -> float:
+    return _in_si(value, unit)
+
+
+def _in_si(value: object, unit: str) -> float:
     try:
         number, text = split(value)
     except UnitError as error:
