@@ -117,6 +117,11 @@ def test_one_slip_makes_one_message(tied, record, changes, key, words):
     assert all(word in str(faults[0]) for word in words), str(faults[0])
 
 
+def test_a_record_in_g_is_in_standard_gravities(tied):
+    motions = motions_of(load_case(tied(HEADER.replace("m/s^2", "g") + REST)))
+    assert float(motions["ground_x"](1.0, 2)) == pytest.approx(0.5 * 9.80665)
+
+
 def test_floors_are_read_in_their_units_one_for_each_collar(tied):
     floors = (FILE, f'{FILE}\nfloors = ["low.csv", "high.csv"]')
     header = "time [s],x [mm],y [mm]\n"

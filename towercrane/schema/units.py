@@ -113,8 +113,10 @@ USUAL = {
     ("kg m", "kg m^2/m"): 1.0,
     ("rpm", "rad/s"): 0.10471975511965977,
     ("kg/m", "N s^2/m^2"): 1.0,
+    ("g", "m/s^2"): 9.80665,
 }
-"""Sizes of the commonest units in SI: a case that has no others is read without loading pint, in half the time."""
+"""Sizes of the commonest units in SI: a case that has no others is read without loading pint, in half the time. Where
+an acceleration is wanted a g is no gram."""
 
 FLOAT = r"[+-]?(?:\d+(?:_\d+)*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)\b"
 NUMBER = re.compile(rf"\s*({FLOAT})\s*(.*?)\s*", re.ASCII)
