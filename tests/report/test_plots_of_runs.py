@@ -218,3 +218,24 @@ def test_figures_of_the_source_compare_its_conditions():
             factor = DEGREE if "sway" in shown[number] else 1e3
             for line, n in zip(figure.axes[0].get_lines(), pairs[number], strict=True):
                 assert_allclose(line.get_ydata(), factor * made_up[n][shown[number]].values)
+
+
+@pytest.mark.parametrize(("value", "noise", "half"), [(0.0, 1e-15, 0.05), (12.0, 1e-14, 0.6), (-4e-4, 1e-17, 2e-5)])
+def test_lines_that_stand_still_show_no_rounding_and_no_offset_over_the_names(tmp_path, value, noise, half):
+    figure = style.figure_of(4.0, 3.0)
+    axes = figure.subplots()
+    axes.plot(TIMES, value + noise * np.cos(9.0 * TIMES))
+    axes.axvline(1.0)
+    style.put(figure, tmp_path / "still.png")
+    assert_allclose(axes.get_ylim(), (value - half, value + half), rtol=1e-9)
+    assert axes.yaxis.get_major_formatter().get_offset() == ""
+
+
+def test_lines_that_move_a_little_keep_their_scale_without_an_offset(tmp_path):
+    figure = style.figure_of(4.0, 3.0)
+    axes = figure.subplots()
+    axes.plot(TIMES, 2e4 + 1e-3 * np.cos(TIMES))
+    style.put(figure, tmp_path / "small.png")
+    low, high = axes.get_ylim()
+    assert 1e-3 < high - low < 3e-3
+    assert axes.yaxis.get_major_formatter().get_offset() == ""

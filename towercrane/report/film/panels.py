@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.patches import Rectangle
 
 from towercrane.cranes.registry import KINDS
-from towercrane.report.plots.style import COLOURS
+from towercrane.report.plots.style import COLOURS, steady
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -153,6 +153,7 @@ class Sway:
         legend = axes.legend(
             loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.1, ncols=2, fontsize=8, frameon=False
         )
+        steady(axes)
         for shown in legend.get_lines():
             shown.set_animated(False)
         self.moving: list[Artist] = [self._now, *(line for line, _ in self._lines)]

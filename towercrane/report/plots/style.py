@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from towercrane.results.files import replacing
 from towercrane.runs.summary import assumed
 
@@ -24,6 +26,9 @@ DASHES = ("-", "--", "-.", ":")
 MARKERS = "osD^v<>Px*"
 """Points differ in shape as well."""
 
+ROUNDING = 1e-9
+"""Part of a line's size, or of one in the unit that it is drawn in, below which it stands still."""
+
 MOST_NOTES = 6
 """Assumed values that are named under a figure one by one."""
 
@@ -39,7 +44,27 @@ def save(figure: Figure, path: str | PathLike[str]) -> None:
 
 def put(figure: Figure, path: Path) -> None:
     """Write a figure to a file that nobody reads yet."""
+    for axes in figure.axes:
+        steady(axes)
     figure.savefig(path, dpi=150)
+
+
+def steady(axes: Axes) -> None:
+    """Let lines that stand still look so: no scale that makes a motion of their rounding, no offset over the axes."""
+    from matplotlib.ticker import ScalarFormatter
+
+    if isinstance(formatter := axes.yaxis.get_major_formatter(), ScalarFormatter):
+        formatter.set_useOffset(False)
+    heights = [np.ravel(own.get_ydata()) for own in axes.get_lines() if own.get_transform() == axes.transData]
+    values = np.concatenate([*heights, np.empty(0)]).astype(float)
+    values = values[np.isfinite(values)]
+    if not len(values) or not axes.get_autoscaley_on():
+        return
+    low, high = float(values.min()), float(values.max())
+    size = max(abs(low), abs(high))
+    if high - low <= ROUNDING * max(size, 1.0):
+        half = 0.05 * (size if size > ROUNDING else 1.0)
+        axes.set_ylim(low - half, high + half)
 
 
 def figure_of(width: float, height: float) -> Figure:
