@@ -251,3 +251,12 @@ def test_planar_sees_what_leaves_the_plane(posed):
     aside = poses.load.copy()
     aside[-1, 1] = 1e-3
     assert not replace(poses, load=aside).planar
+
+
+def test_collars_stand_where_their_floors_hold_the_tower_whatever_it_does():
+    case = load_case("towers/tied-wind", ["run.duration=1 s", "model.tower_modes=2"])
+    result = run_case(case)
+    poses = poses_of(case, result, result["time"].values)
+    assert abs(poses.members["tower"][..., :2]).max() > 1e-3
+    for lines in (poses.members, poses.undeformed):
+        assert_allclose(lines["collars"], np.broadcast_to([[0.0, 0.0, 30.0], [0.0, 0.0, 55.0]], (21, 2, 3)))

@@ -190,3 +190,13 @@ def test_run_that_ends_early_says_so_in_its_last_frame():
     words = [text.get_text() for text in film.figure.axes[0].texts]
     assert "ended: slack rope" in words
     assert words[0] == "0.0280 s"
+
+
+def test_collars_are_drawn_at_rest_and_named(plane):
+    playback = Playback(0.0, 0.4, 1.0, 5.0)
+    held = filmed("towers/tied-wind", "run.duration=0.4 s", "model.tower_modes=1", playback=playback)
+    held.show(2)
+    drawn = [line.get_xydata() for line in held.figure.axes[0].get_lines() if line.get_marker() == "s"]
+    assert any(np.array_equal(places, [[0.0, 30.0], [0.0, 55.0]]) for places in drawn)
+    assert "collars at rest" in [text.get_text() for text in held.figure.legends[0].get_texts()]
+    assert "collars at rest" not in [text.get_text() for text in plane.figure.legends[0].get_texts()]

@@ -37,7 +37,8 @@ class Poses:
         Angle about the vertical to which the drives have turned the crane [rad].
     members : mapping of str to ndarray, shapes (f, points, 3)
         Lines of the deformed crane by name, and points: the one that the rope hangs from, "suspension", and where
-        there are any, those where sections of the jib meet, "joints", and where weights balance it, "ballast".
+        there are any, those where sections of the jib meet, "joints", where weights balance it, "ballast", and where
+        floors at rest hold the tower, "collars".
     undeformed : mapping of str to ndarray
         The same without any deformation, its drives where they are at that time.
     load : ndarray, shape (f, 3)

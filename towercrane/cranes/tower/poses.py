@@ -89,6 +89,10 @@ def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, tim
     along = np.linspace(0.0, crane.jib_length, POINTS)
     deflection = bent(crane.jib_shapes(along))
     pairs = {"tower": (tower, upright)}
+    if crane.collars:
+        # They are parts of a building, which does not bend with the tower.
+        held = np.array([[0.0, 0.0, collar.height] for collar in crane.collars])
+        pairs["collars"] = (np.broadcast_to(held, (len(times), *held.shape)),) * 2
     if crane.luffing is not None:
         angles = sampled(result, "luffing_angle", times), sampled(result, "luffing_command", times)
         pairs |= {
@@ -110,8 +114,8 @@ def tower_poses(model: FlexibleModel, tables: TowerCase, result: xr.Dataset, tim
     if hung.size:
         pairs["ballast"] = on_head(-hung[None], bent(crane.counter_shapes(hung)))
     if crane.tied is not None:
-        kinds = "jib_lateral", "counter_jib_lateral", "jib_vertical", "counter_jib_vertical", "tower_head"
-        bows = [_coordinates(result, kind, times) for kind in (*kinds, "tie", "tie_sideways")]
+        kinds = *BENDING, "tower_head", "tie", "tie_sideways"
+        bows = [_coordinates(result, kind, times) for kind in kinds]
         for name, (moved, straight) in crane.tied.lines(np.concatenate(bows, axis=1)).items():
             pairs[name] = placed(moved, np.broadcast_to(straight, moved.shape))
     return _poses(result, times, heading, pairs, height)

@@ -144,6 +144,7 @@ def _legend(figure: Figure, view: View, title: str, magnification: float | None)
             (view.true, "shaded: true scale"),
             (view.still, "undeformed"),
         ]
+    named += [(view.collars, "collars at rest")] if view.held else []
     named += [(view.rope, "rope"), (view.trace[0], "path of the load")]
     handles = []
     for line, label in named:

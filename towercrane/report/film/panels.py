@@ -32,7 +32,7 @@ ALONG, ABOVE = (0, 2), (0, 1)
 """Coordinates that are seen from the side and from above."""
 
 
-POINTS = "suspension", "joints", "ballast"
+POINTS = "suspension", "joints", "ballast", "collars"
 """Members that are no lines."""
 
 
@@ -74,13 +74,14 @@ class View:
         self.crane = line(CRANE, lw=2.0)
         counterweight = line(CRANE, marker="s", ms=8, ls="")
         joints = line(CRANE, marker="o", ms=3.0, ls="")
+        self.collars = line(STILL, marker="s", ms=9.0, mfc="none", ls="")
         hook = line(CRANE, marker="o", ms=4.5, mfc="white", ls="", visible=shaded)
         self.trace = [line(LOAD, lw=1.4, alpha=alpha) for _, alpha in FADES]
         self.rope = line(ROPE, lw=0.9)
         trolley = line(ROPE, marker="o", ms=4.5, ls="")
         block = line(LOAD, marker="s", ms=8, mec="black", mew=0.6, ls="")
         self.moving: list[Artist] = [
-            self.true, weight, self.still, self.crane, joints, counterweight, hook,
+            self.true, weight, self.still, self.collars, self.crane, joints, counterweight, hook,
             *self.trace[::-1], self.rope, trolley, block,
         ]  # fmt: skip
 
@@ -97,6 +98,9 @@ class View:
             places += [(weight, true["ballast"]), (counterweight, drawn["ballast"])]
         if "joints" in true:
             places.append((joints, drawn["joints"]))
+        self.held = "collars" in true
+        if self.held:
+            places.append((self.collars, true["collars"]))
         self._places = [(artist, points[..., seen]) for artist, points in places]
         self._load = load[:, 0][:, seen]
         self._ages = [round(age * playback.frames_per_second) for age, _ in FADES]
