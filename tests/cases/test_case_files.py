@@ -116,7 +116,9 @@ def test_an_override_reaches_into_a_step(write):
     text = SEQUENCE + 'steps = [{ shape = "trapezoid", end = 50, speed = 1, acceleration = 1 }]'
     path = write(case_text=with_motion(text))
     assert motions_of(load_case(path, ["motion.trolley.steps.0.end=20"]))["trolley"].end == pytest.approx(20.0)
-    assert "index below 1" in faults_of(path, "motion.trolley.steps.7=3")[0].wanted
+    for beyond in ("steps.7=3", "steps.7.end=3"):
+        fault = faults_of(path, f"motion.trolley.{beyond}")[0]
+        assert ("index below 1" in fault.wanted, fault.got) == (True, '"7"')
 
 
 @pytest.mark.parametrize(
@@ -132,6 +134,7 @@ def test_an_override_reaches_into_a_step(write):
         ("payload..mass=3", "", ["key=value"]),
         ("payload.mass=1\nx=2", "payload.mass", ["a mass"]),
         ("payload.mass=", "payload.mass", ["a mass", '""']),
+        ("crane.jib.segments.0.length=3 m", "crane.jib.segments", ["a list, such as [[crane.jib.segments]]", "none"]),
         ("run=3", "run", ["a table [run] with duration"]),
     ],
 )

@@ -181,6 +181,9 @@ def test_lines_are_named_by_what_tells_runs_apart():
     driven = made(["shaft_speed", "slewing_speed", "rope_length"])
     fastest = abs(driven["shaft_speed"].values).max()
     assert style.run_label(driven).startswith(f"some-case: {fastest:.3g} 1, 777 kg")
+    # A drive that stands names nothing.
+    driven["shaft_speed"] = 0.0 * driven["shaft_speed"]
+    assert style.run_label(driven).startswith("some-case: 777 kg")
 
 
 @pytest.mark.parametrize(("kind", "result"), [(slewing, SLEWING), (tower, SPACE), (jib, JIB)])

@@ -29,7 +29,7 @@ def run_summary(**changes):
         "wall_seconds": 0.75,
         "expected": None,
         "notices": ["look twice"],
-        "idle": ["crane.x", "crane.y"],
+        "idle": ["crane.x", "crane.y", "crane.jib.segments.0.z", "crane.jib.segments.1.z"],
         "assumed": ASSUMED,
         "left_out": ["this scene leaves out that"],
     }
@@ -57,7 +57,7 @@ def test_a_run(capsys):
         "solver                dop853, rtol 3e-07, 4321 evaluations, 0.125 s in the solver, 0.750 s in all",
         "note     look twice",
         "left out this scene leaves out that",
-        "unused   crane.x, crane.y: keys of the crane file that this run has no use for",
+        "unused   x, y in [crane]; z in [crane.jib.segments]: keys of the crane file that this run has no use for",
         "assumed  a.key = 3 m: some reason",
     ]
 

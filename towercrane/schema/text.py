@@ -133,15 +133,22 @@ def _put(text: CaseText, key: str, value: Any, origin: str) -> None:
     *parents, last = key.split(".")
     place: Any = text.tree
     for depth, name in enumerate(parents, start=1):
-        if isinstance(place, list) and (index := _index(name, place)) is not None:
+        path, following = ".".join(parents[:depth]), key.split(".")[depth]
+        if isinstance(place, list):
+            if (index := _index(name, place)) is None:
+                text.faults.append(_off_the_list(origin, path, place, name))
+                return
             place = place[index]
         elif isinstance(place, dict):
+            if name not in place and following.isdecimal():
+                hint = f"nothing there has the index {following} to be changed"
+                text.faults.append(Fault(f"--set {origin}", path, f"a list, such as [[{path}]]", "none", hint))
+                return
             if name not in place:
                 place[name] = {}
-                text.origins[".".join(parents[:depth])] = origin
+                text.origins[path] = origin
             place = place[name]
         if not isinstance(place, dict | list):
-            path = ".".join(parents[:depth])
             if path != "crane":  # a crane file that could not be read has its own fault
                 text.faults.append(Fault(f"--set {origin}", path, "a table", shown(place)))
             return
@@ -152,8 +159,11 @@ def _put(text: CaseText, key: str, value: Any, origin: str) -> None:
         place[index] = value
         text.origins[key] = origin
     else:
-        wanted = f"an index below {len(place)}"
-        text.faults.append(Fault(f"--set {origin}", key, wanted, shown(last), "the first has index 0"))
+        text.faults.append(_off_the_list(origin, key, place, last))
+
+
+def _off_the_list(origin: str, key: str, place: list[Any], name: str) -> Fault:
+    return Fault(f"--set {origin}", key, f"an index below {len(place)}", shown(name), "the first has index 0")
 
 
 def _index(name: str, items: list[Any]) -> int | None:

@@ -109,7 +109,8 @@ def run_label(result: xr.Dataset) -> str:
     first, last = result["rope_length"].values[[0, -1]]
     rope = f"{first:.4g} m" if abs(last - first) < 1e-6 else f"{first:.4g} to {last:.4g} m"
     known = [s for s in SPEEDS if s in result and not (s == "slewing_speed" and "shaft_speed" in result)]
-    speeds = (f"{float(abs(result[s]).max()):.3g} {result[s].attrs['units']}, " for s in known)
+    fastest = ((float(abs(result[s]).max()), result[s].attrs["units"]) for s in known)
+    speeds = (f"{speed:.3g} {unit}, " for speed, unit in fastest if speed > ROUNDING)
     label = f"{name}: {''.join(speeds)}{result.attrs['payload_mass']:g} kg, rope {rope}"
     if result.attrs["outcome"] != "finished":
         label += f" ({result.attrs['outcome']} at {result.attrs['end_time']:.2f} s)"

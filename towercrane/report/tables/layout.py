@@ -59,6 +59,14 @@ def assumed_values(console: Console, assumed: list[dict[str, str]]) -> None:
     console.print(f"assumed  {len(assumed)} values that no source gives (reasons: --json): {listed}", markup=False)
 
 
+def by_table(keys: list[str]) -> str:
+    """Keys of a case together with others of their table; those of a list are one."""
+    found: dict[str, dict[str, None]] = {}
+    for key in keys:
+        found.setdefault(_table_of(key), {})[key.rpartition(".")[2]] = None
+    return "; ".join(f"{', '.join(names)} in [{table}]" for table, names in found.items())
+
+
 def _table_of(key: str) -> str:
     """Table of a case that a key is in; those of a list are one."""
     return re.sub(r"\.\d+", "", key).rpartition(".")[0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from towercrane.report.tables.layout import assumed_values as _assumed
+from towercrane.report.tables.layout import by_table
 from towercrane.report.tables.layout import console_of_reports as _console
 from towercrane.report.tables.layout import report_table as _table
 
@@ -66,7 +67,8 @@ def run_tables(summary: dict[str, Any]) -> None:
     for left_out in summary["left_out"]:
         console.print(f"left out {left_out}")
     if summary["idle"]:
-        console.print(f"unused   {', '.join(summary['idle'])}: keys of the crane file that this run has no use for")
+        unused = f"{by_table(summary['idle'])}: keys of the crane file that this run has no use for"
+        console.print(f"unused   {unused}", markup=False)
     _assumed(console, summary["assumed"])
 
 
