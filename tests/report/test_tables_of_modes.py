@@ -47,7 +47,8 @@ def test_a_linear_model(capsys):
         {
             "name": "Some crane", "states": signals, "inputs": signals[:1], "outputs": [], "left_out": [],
             "assumed": ASSUMED,
-            "equilibrium": False, "rope_inclination_rad": 0.0625, "slope": [0.5, -3.25],
+            "equilibrium": False, "about": "a state that is no equilibrium", "rope_inclination_rad": 0.0625,
+            "slope": [0.5, -3.25],
             "eigenvalues": [row, {**row, "dominant_state": "trolley"},
                             {**row, "dominant_state": "creep", "imaginary": 0.0, "damping_ratio": None,
                              "real": -1e-9}],

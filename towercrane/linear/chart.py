@@ -47,6 +47,8 @@ class Chart:
         Its tangent unit vectors.
     turning : tuple, optional
         The coordinate or channel that the frame turns with, by index.
+    pairs : tuple of pairs of int
+        Coordinates that are components of horizontal vectors along fixed axes, and are seen from the frame too.
     """
 
     names: tuple[Signal, ...]
@@ -55,6 +57,7 @@ class Chart:
     direction: Floats
     basis: Floats
     turning: Turning | None
+    pairs: tuple[tuple[int, int], ...] = ()
 
     @property
     def inclination(self) -> float:
@@ -85,20 +88,27 @@ class Chart:
             named |= dict.fromkeys((FIXED_SWAY if turns else SWAY)[: axes - 1], "rad")
         if len(named) != n + axes - 1:
             raise ValueError(f"state_names: wanted {n} coordinates, with sways {n + axes - 1}, got {len(named)}")
+        pairs: tuple[tuple[int, int], ...] = ()
         angle = None if turning is None else _find(turning, list(named)[:n], model.channels, axes)
         names = [Signal(*item) for item in named.items()]
         rates = [Signal(f"{name}{RATE}", per_second(units)) for name, units in names]
         scale, sways = model.system.scale, np.ones(axes - 1)
         scale = np.concatenate([scale[:n], sways, scale[n + axes : 2 * n + axes], sways])
-        q, direction, rate, swing = np.split(state[:-1], [n, n + axes, 2 * n + axes])
+        q, direction, rate, swing = map(np.array, np.split(state[:-1], [n, n + axes, 2 * n + axes]))
         if angle is not None:
             phi, spin, _ = _turn(angle, q, rate, rate, drives)
             direction, swing = _rotation(phi).T @ direction, _rotation(phi).T @ swing
             swing = swing - _cross(spin, direction)
+            # At rest the axes of the coordinates serve, and their names say which those are.
+            group = getattr(model, "turning", None) if spin else None
+            pairs = tuple(pair for pair in group.vectors if max(pair) < n) if group is not None else ()
+            for pair in map(list, pairs):
+                own, moved = _flat(_rotation(phi).T, q[pair]), _flat(_rotation(phi).T, rate[pair])
+                q[pair], rate[pair] = own, moved - _cross(spin, own)[:2]
         direction = direction / np.linalg.norm(direction)
         basis = _tangents(direction)
         at = np.concatenate([q, np.zeros(axes - 1), rate, basis.T @ swing])
-        return cls((*names, *rates), np.where(np.isfinite(scale), scale, 1.0), at, direction, basis, angle)
+        return cls((*names, *rates), np.where(np.isfinite(scale), scale, 1.0), at, direction, basis, angle, pairs)
 
     def full(self, minimal: Floats, drives: Floats) -> Floats:
         """State of the model; its work is zero."""
@@ -107,17 +117,25 @@ class Chart:
             phi, spin, _ = _turn(self.turning, q, rate, rate, drives)
             swing = _rotation(phi) @ (swing + _cross(spin, direction))
             direction = _rotation(phi) @ direction
+            q, rate = np.array(q), np.array(rate)
+            for pair in map(list, self.pairs):
+                own, moved = q[pair], rate[pair] + _cross(spin, q[pair])[:2]
+                q[pair], rate[pair] = _flat(_rotation(phi), own), _flat(_rotation(phi), moved)
         return np.concatenate([q, direction, rate, swing, [0.0]])
 
     def slope(self, minimal: Floats, slope: Floats, drives: Floats) -> Floats:
         """Slope of the minimal state from that of the model's state."""
         q, direction, rate, swing = self._rope(minimal)
         n, axes = len(q), len(direction)
-        velocity, _, acceleration, pull = np.split(slope[:-1], [n, n + axes, 2 * n + axes])
+        velocity, _, acceleration, pull = map(np.array, np.split(slope[:-1], [n, n + axes, 2 * n + axes]))
         if self.turning is not None:
             phi, spin, spin_up = _turn(self.turning, q, rate, acceleration, drives)
             pull = _rotation(phi).T @ pull - _cross(spin_up, direction)
             pull = pull - _cross(spin, 2.0 * swing + _cross(spin, direction))
+            for pair in map(list, self.pairs):
+                own, moved = q[pair], rate[pair]
+                thrown = _cross(spin, 2.0 * moved + _cross(spin, own)[:2])[:2] + _cross(spin_up, own)[:2]
+                velocity[pair], acceleration[pair] = moved, _flat(_rotation(phi).T, acceleration[pair]) - thrown
         return np.concatenate([velocity, self.basis.T @ swing, acceleration, self.basis.T @ pull])
 
     def _rope(self, minimal: Floats) -> tuple[Floats, Floats, Floats, Floats]:
@@ -158,6 +176,11 @@ def _rotation(angle: float) -> Floats:
 def _cross(spin: float, vector: Floats) -> Floats:
     """Product of a rate about the vertical and a vector."""
     return spin * np.array([-vector[1], vector[0], 0.0])
+
+
+def _flat(rotation: Floats, vector: Floats) -> Floats:
+    """A horizontal vector, rotated."""
+    return np.asarray(rotation[:2, :2] @ vector)
 
 
 def _tangents(direction: Floats) -> Floats:

@@ -54,7 +54,8 @@ def linearise(
         Where on the motions [s].
     state : ndarray, shape (size,), optional
         State of the model. Without it, the equilibrium with every drive at rest at its value at ``time`` and the
-        wind at its mean (see :func:`towercrane.simulation.system.start_inputs`); with it, all is as it is at
+        wind at its mean (see :func:`towercrane.simulation.system.start_inputs`); seen from a turning frame and in
+        still air the steady rotation at the rate at which the head is turned then. With it, all is as it is at
         ``time``.
     outputs : sequence of str, optional
         Names of what the model observes, by default every number but energies and resultants that are
@@ -84,9 +85,13 @@ def linearise(
         raise ValueError(f"inputs: wanted 'acceleration' or 'motion', got {inputs!r}")
     drives = _drives(model, motions, time)
     if state is None:
-        drives[1:] = 0.0
+        turns, drives[1:] = drives[1].copy(), 0.0
         if not isinstance(motions, np.ndarray):
             drives[0] = start_inputs(model, motions, _polynomials(drives))[:, 0]
+        blown = [model.channels.index(name) for name in getattr(model, "value_channels", ())]
+        group = getattr(model, "turning", None)
+        if turning is not None and group is not None and not drives[0, blown].any():
+            drives[1, group.channel] = turns[group.channel]
         state = begin(model, _polynomials(drives))
     elif np.shape(state) != (model.system.size,):
         raise ValueError(f"state: wanted shape ({model.system.size},), got {np.shape(state)}")
@@ -118,6 +123,7 @@ def linearise(
 
     arguments = np.concatenate([chart.at, drives.ravel()])
     matrix, errors = jacobian(respond, arguments, scale := np.concatenate([chart.scale, np.ones(3 * channels)]))
+    steady = _steady(model, drives, size) if turning is not None else np.zeros(size + 3 * channels)
     largest = np.max(abs(matrix) * scale, axis=1, initial=0.0)[:, None]
     matrix[abs(matrix) * scale < NOTHING * largest] = 0.0
     relative = errors * scale / np.where(largest > 0.0, largest, 1.0)
@@ -141,7 +147,9 @@ def linearise(
         states=tuple(signals[k] for k in states),
         inputs=tuple(signals[k] for k in given),
         outputs=seen,
-        point=OperatingPoint(arguments[states], arguments[given], here[size:], slope, state, chart.inclination),
+        point=OperatingPoint(
+            arguments[states], arguments[given], here[size:], slope, state, chart.inclination, steady[states]
+        ),
         error=float(np.max(relative[:size], initial=0.0)),
     )
 
@@ -154,6 +162,14 @@ def _kinked(model: Model, name: str, quantities: Mapping[str, Quantity]) -> bool
     own = quantities[name]
     sizes = (float(abs(other.values).max()) for other in quantities.values() if other.units == own.units)
     return float(abs(own.values).max()) < AT_REST * max(sizes)
+
+
+def _steady(model: Model, drives: Floats, size: int) -> Floats:
+    """Slopes of minimal state and channels' values, rates and accelerations in a steady rotation."""
+    found, group = np.zeros(size + drives.size), getattr(model, "turning", None)
+    if group is not None:
+        found[[*group.angles, size + group.channel]] = drives[1, group.channel]
+    return found
 
 
 def _roles(size: int, by_value: NDArray[np.bool_], inputs: str) -> tuple[list[int], list[int]]:

@@ -64,6 +64,8 @@ class OperatingPoint:
         State of the nonlinear model.
     inclination : float
         Angle of the rope from the vertical there [rad].
+    steady : ndarray, optional
+        What the slope is of a state that turns steadily with its head: zero but for the angles that turn.
     """
 
     states: Floats
@@ -72,6 +74,12 @@ class OperatingPoint:
     slope: Floats
     full_state: Floats
     inclination: float = 0.0
+    steady: Floats | None = None
+
+    @property
+    def spin(self) -> float:
+        """Rate at which the head turns steadily [rad/s]."""
+        return 0.0 if self.steady is None else float(max(self.steady, key=abs, default=0.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,10 +139,11 @@ class StateSpace:
 
     @property
     def at_equilibrium(self) -> bool:
-        """Whether the states do not change where the model is taken, but for rounding."""
+        """Whether the states do not change where the model is taken, but for rounding and a steady rotation."""
         point = self.point
         terms = abs(self.a) @ abs(point.states) + abs(self.b) @ abs(point.inputs)
-        return bool(np.all(abs(point.slope) <= BALANCED * (1.0 + terms)))
+        changing = point.slope if point.steady is None else point.slope - point.steady
+        return bool(np.all(abs(changing) <= BALANCED * (1.0 + terms)))
 
     @property
     def frequencies(self) -> Floats:

@@ -205,8 +205,7 @@ def linear_tables(report: dict[str, Any], drives: Collection[str]) -> None:
     values = {signal["name"]: f"{_rounded(signal['value'], 9):g} {signal['units']}" for signal in known}
     # A head that a scene in the plane holds is no drive of the model.
     where = ", ".join(f"{name} {values[name]}" for name in drives if name in values)
-    balanced = "the equilibrium" if report["equilibrium"] else "a state that is no equilibrium"
-    title = f"{report['name']}: small motions about {balanced}"
+    title = f"{report['name']}: small motions about {report['about']}"
     table = _table(
         f"{title}, {where}", "moves most", "frequency [Hz]", "period [s]", "damping ratio", "eigenvalue [1/s]"
     )

@@ -187,10 +187,15 @@ def _small_motions(model: Model, state: Floats, frame: Frame) -> Floats:
     half, basis = len(state) // 2, _basis(model, state)
     wide = np.zeros((len(state), 2 * basis.shape[1]))
     wide[:half, : basis.shape[1]] = wide[half : 2 * half, basis.shape[1] :] = basis
+    seen = wide.copy()
+    for first, moved, count in model.system.directions:
+        rope, rate = slice(first, first + count), slice(moved, moved + count)
+        # The rate of a unit vector stays at right angles to it.
+        wide[rate] -= np.outer(state[rope], state[rate]) @ wide[rope]
     scale = np.ones(wide.shape[1])
 
     def slope(departures: Floats) -> Floats:
-        return np.asarray(wide.T @ np.array([frame.slope(model, state + wide @ own) for own in departures.T]).T)
+        return np.asarray(seen.T @ np.array([frame.slope(model, state + wide @ own) for own in departures.T]).T)
 
     return jacobian(slope, np.zeros(wide.shape[1]), scale)[0]
 
