@@ -12,6 +12,7 @@ from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.members import luffing_of
 from towercrane.cranes.tower.luffing_model import LuffingModel
 from towercrane.runs.run import run_case
+from towercrane.studies.lattice import lattice_report
 from towercrane.studies.space_modes import space_frequencies
 
 SHIPPED = case_folder() / "luffing"
@@ -164,11 +165,17 @@ def test_modes_go_over_the_luffing_angle(written):
     assert all(abs(mode["relative_difference"]) < 2e-3 for mode in report["modes"])
 
 
-@pytest.mark.parametrize("command", [("shape",), ("lattice",)], ids=lambda words: words[0])
-def test_what_is_for_cranes_with_a_trolley_refuses(command, tmp_path):
-    name, *more = command
-    done = towercrane(name, "luffing/manoeuvre", *more, cwd=tmp_path)
-    assert done.returncode == 2
-    assert "the jib pivots" in done.stderr
-    assert len(done.stderr.splitlines()) <= 4
-    assert not list(tmp_path.iterdir())
+def test_a_laced_tower_under_a_jib_that_pivots_is_checked_as_a_truss(tmp_path):
+    """The slewing part with its centre of mass above the tower's top is on the truss and on the beam."""
+    laced = (
+        'crane.tower={height=40, mass_per_length=600, youngs_modulus="206 GPa", torsional_inertia_per_length=700, '
+        'lattice={leg_area="90 cm^2", leg_spacing=2, panel_height=1.6, lacing="zigzag", diagonal_area="12 cm^2", '
+        'horizontal_area="12 cm^2"}}'
+    )
+    report = lattice_report(load_case("luffing/manoeuvre", [laced]))
+    truss, beam, *_ = report["models"]
+    assert [truss["name"], beam["name"]] == ["truss", "shear-flexible"]
+    bodies = (model["answers"]["body_frequencies_hz"][:2] for model in (truss, beam))
+    assert np.allclose(*bodies, rtol=5e-4)
+    done = towercrane("lattice", "luffing/manoeuvre", cwd=tmp_path)
+    assert (done.returncode, "wanted all members of the tower" in done.stderr) == (2, True)

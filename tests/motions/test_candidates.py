@@ -16,7 +16,7 @@ def test_each_drive_of_least_jerk_takes_as_long_as_its_zvd():
         "rope": Plan((Move(rest(12.0, 60.0)),)),
         "slewing": Plan((Move(trapezoid(0.0, 1.0, 0.06, 0.01)),)),
     }
-    found = {c.name: c for c in candidates(plans, PendulumFrequencies(9.81), 9.81)}
+    found = {c.name: c for c in candidates(plans, PendulumFrequencies(9.81), PendulumFrequencies(9.81))}
     for channel in ("trolley", "slewing"):
         smooth, zvd, plain = (found[name].motions[channel] for name in ("minimum-jerk", "zvd", "commanded"))
         assert smooth.duration == pytest.approx(zvd.duration, rel=1e-12)

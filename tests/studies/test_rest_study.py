@@ -63,7 +63,7 @@ def test_study_of_a_trolley_recommends_by_rule():
 def test_runs_that_end_early_are_named_and_never_recommended():
     calm, lost = Trial(0.01, 0.0, 1.0, "finished"), Trial(None, 0.0, 1.0, "slack rope")
     plans = load_case(CASE).plans
-    first, second, *_ = candidates(plans, PendulumFrequencies(9.81), 9.81)
+    first, second, *_ = candidates(plans, PendulumFrequencies(9.81), PendulumFrequencies(9.81))
     rows = [Row(first, {1.0: calm, 1.2: lost}, {}), Row(second, {1.0: calm}, {})]
     done = RestStudy(rows, 0.1, {})
     assert done.recommended is rows[1]
@@ -102,13 +102,17 @@ def test_motions_are_candidates_by_identity_and_stay_as_they_are():
 def test_hoists_keep_their_own_shaping_and_shaped_cases_are_tried_too():
     hoist = 'motion.hoist={shape="zv", end=12, speed=0.4, acceleration=0.2, frequencies=0.5}'
     case = load_case(CASE, [hoist, "motion.trolley.shape=ei"])
-    tried = candidates(case.plans, PendulumFrequencies(9.81), 9.81)
+    tried = candidates(case.plans, PendulumFrequencies(9.81), PendulumFrequencies(9.81))
     assert [c.name for c in tried][:3] == ["commanded", "case", "zv-pendulum"]
     assert_allclose([c.motions["rope"].duration for c in tried], 6 / 0.4 + 2 + 1)
     assert tried[0].duration == pytest.approx(53.0)
     assert tried[1].duration > 60.0
-    with pytest.raises(ValueError, match="wanted a trolley or a slewing drive that moves, got none"):
-        candidates(load_case(CASE, ['motion.trolley={shape="rest", start=5}']).plans, PendulumFrequencies(9.81), 9.81)
+    with pytest.raises(ValueError, match="wanted a trolley, a luffing or a slewing drive that moves, got none"):
+        candidates(
+            load_case(CASE, ['motion.trolley={shape="rest", start=5}']).plans,
+            PendulumFrequencies(9.81),
+            PendulumFrequencies(9.81),
+        )
 
 
 def test_cases_shaped_for_the_model_are_calm():
@@ -193,7 +197,10 @@ def test_command_writes_a_report_tables_for_drives_and_pictures(tmp_path):
     ("arguments", "said"),
     [
         (["slewing/basic/example-1"], "wanted a crane of kind tower"),
-        ([CASE, "--set", 'motion.trolley={shape="rest", start=5}'], "wanted a trolley or a slewing drive that moves"),
+        (
+            [CASE, "--set", 'motion.trolley={shape="rest", start=5}'],
+            "wanted a trolley, a luffing or a slewing drive that moves",
+        ),
         ([CASE, "--within", "0"], "--within 0: wanted a positive distance"),
         ([CASE, "--step", "20"], "--step 20: wanted seconds from 0.001 to 10"),
     ],

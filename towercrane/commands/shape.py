@@ -45,7 +45,7 @@ def shape(
         kinds = " or ".join(kinds_for("shape"))
         task.refuse(f"wanted a crane of kind {kinds}, whose modes are known; got {loaded.kind}")
     if not driven(loaded.plans):
-        task.refuse("wanted a trolley or a slewing drive that moves, got none")
+        task.refuse("wanted a trolley, a luffing or a slewing drive that moves, got none")
     if at_speed := [name for name, plan in loaded.plans.items() if plan.at_speed]:
         task.refuse(f"wanted drives that begin and end at rest, got {', '.join(at_speed)} at speed")
     from towercrane.cases.assumptions import as_attribute, as_entries, as_notes, rests_on

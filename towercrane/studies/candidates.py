@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from towercrane.cranes.tower.sway_frequencies import TURNS, PendulumFrequencies
+from towercrane.cranes.tower.sway_frequencies import TURNS
 from towercrane.motions.plans import Move, Plan, Shaping, shaped_motions
 from towercrane.motions.ramps import ramps
 from towercrane.motions.shaping import boxes, ei, minimum_jerk, zv, zvd
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 ROUNDING = 1e-9
 """Relative excess of a limit that is none."""
 
-HORIZONTAL = ("trolley", *TURNS)
+HORIZONTAL = ("trolley", "luffing", *TURNS)
 """Drives whose ramps make a load sway. A hoist makes it sway by its speed, which shaping does not lessen."""
 
 
@@ -50,17 +50,17 @@ class Candidate:
         return max(motion.duration for motion in self.motions.values())
 
 
-def candidates(plans: Mapping[str, Plan], model: FrequenciesAt, gravity: float) -> list[Candidate]:
+def candidates(plans: Mapping[str, Plan], model: FrequenciesAt, pendulum: FrequenciesAt) -> list[Candidate]:
     """Motions for the same ways: horizontal drives are replanned, the others do as they are told.
 
     Parameters
     ----------
     plans : dict of str to Plan
-        By channel; "trolley" and "rope" among them.
+        By channel; "trolley" or "luffing" and "rope" among them.
     model : callable
         What a drive excites [Hz], see :func:`towercrane.motions.plans.shaped_motions`.
-    gravity : float
-        [m/s^2]
+    pendulum : callable
+        The same of a load on a crane that does not give.
 
     Raises
     ------
@@ -68,13 +68,13 @@ def candidates(plans: Mapping[str, Plan], model: FrequenciesAt, gravity: float) 
         If no horizontal drive moves.
     """
     if not driven(plans):
-        raise ValueError("candidates: wanted a trolley or a slewing drive that moves, got none")
+        raise ValueError("candidates: wanted a trolley, a luffing or a slewing drive that moves, got none")
     plain = _replanned(plans, None)
     found = [Candidate("commanded", "as commanded", shaped_motions(plain, model))]
     if any(move.shaping for channel in driven(plans) for move in plans[channel].moves):
         found.append(Candidate("case", "as in the case", shaped_motions(plans, model)))
-    pendulum = shaped_motions(_replanned(plans, Shaping(zv)), PendulumFrequencies(gravity))
-    found.append(Candidate("zv-pendulum", "ZV, sqrt(g/l)", pendulum))
+    rigid = shaped_motions(_replanned(plans, Shaping(zv)), pendulum)
+    found.append(Candidate("zv-pendulum", "ZV, sqrt(g/l)", rigid))
     for name, title, design in (
         ("zv", "ZV", zv),
         ("zvd", "ZVD", zvd),

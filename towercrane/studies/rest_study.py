@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.cranes.tower.sway_frequencies import SwayFrequencies
+from towercrane.cranes.tower.sway_frequencies import PendulumFrequencies, SwayFrequencies
 from towercrane.motions.motion import Motion, phases, rest
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.simulate import simulate
@@ -57,7 +57,7 @@ class Trial:
         Largest horizontal distance of the load from its final rest after the last motion [m]; None if the run ended
         before.
     torque, force : float
-        Largest torque of the slewing drive [N m] and force of the trolley's [N].
+        Largest torque of the slewing drive [N m]; force of the trolley's, or in the luffing rope [N].
     outcome : str
         "finished", or what ended the run.
     """
@@ -166,7 +166,7 @@ def study(
     crane = _studied(model)
     plans = {channel: plans[channel] for channel in crane.channels}
     sway = SwayFrequencies(model)
-    tried = candidates(plans, sway, crane.crane.gravity)
+    tried = candidates(plans, sway, PendulumFrequencies(crane.crane.gravity, crane.crane))
     torsions = TORSIONS if crane.crane.torsion.count else ()
     trials, rows = len(ROPES) + len(torsions), []
     for number, candidate in enumerate(tried):
@@ -177,7 +177,7 @@ def study(
                 progress((number * trials + len(done)) / (len(tried) * trials))
         ropes = {rope: done[rope, 1.0] for rope in ROPES}
         rows.append(Row(candidate, ropes, {torsion: done[1.0, torsion] for torsion in torsions}))
-    first, last = zip(_ends(plans["trolley"]), _ends(plans["rope"]), strict=True)
+    first, last = zip(*(_ends(plans[channel]) for channel in crane.channels[:2]), strict=True)
     frequencies = {c: (sway(c, *first), sway(c, *last)) for c in driven(plans)}
     return RestStudy(rows, allowed, frequencies)
 
@@ -198,7 +198,8 @@ def attempt(model: FlexibleModel, motions: Mapping[str, Motion], rope: float = 1
         after = result["payload_position"].values[result["time"].values >= stop, :-1]
         residual = float(np.linalg.norm(after - resting_place(model, run), axis=1).max())
     torque = _peak(result["slewing_torque"]) if "slewing_torque" in result else 0.0
-    return Trial(residual, torque, _peak(result["trolley_force"]), outcome)
+    force = "trolley_force" if "trolley_force" in result else "luffing_rope_force"
+    return Trial(residual, torque, _peak(result[force]), outcome)
 
 
 def resting_place(model: FlexibleModel, motions: Mapping[str, Motion]) -> Floats:
@@ -219,8 +220,9 @@ def report(done: RestStudy) -> dict[str, Any]:
     dict
         ``frequencies_hz`` (by drive: at_start, at_end), ``candidates`` (a list with name, title, duration_s,
         within_limits, residual_m, worst_residual_m, rope_residual_m and torsion_residual_m by relative rope length
-        and stiffness, peak_slewing_torque_Nm, peak_trolley_force_N, outcome), ``recommended``, ``reason``,
-        ``allowed_m``, ``watched_s``, ``damping_ratio``.
+        and stiffness, peak_slewing_torque_Nm, peak_trolley_force_N or of a jib that pivots
+        peak_luffing_rope_force_N, outcome), ``recommended``, ``reason``, ``allowed_m``, ``watched_s``,
+        ``damping_ratio``.
     """
     return {
         "frequencies_hz": {
@@ -252,14 +254,14 @@ def _row(row: Row) -> dict[str, Any]:
         "rope_residual_m": {f"{rope:g}": trial.residual for rope, trial in row.ropes.items()},
         "torsion_residual_m": {f"{torsion:g}": trial.residual for torsion, trial in row.torsions.items()},
         "peak_slewing_torque_Nm": row.nominal.torque,
-        "peak_trolley_force_N": row.nominal.force,
+        f"peak_{'luffing_rope' if 'luffing' in row.candidate.motions else 'trolley'}_force_N": row.nominal.force,
         "outcome": row.nominal.outcome,
     }
 
 
 def _studied(model: FlexibleModel) -> FlexibleModel:
     """The crane in still air on a ground at rest, every mode of its structure damped."""
-    damping = ModalDamping(DAMPING, DAMPING, DAMPING, DAMPING)
+    damping = ModalDamping(DAMPING, DAMPING, DAMPING, DAMPING, DAMPING, DAMPING)
     return replace(model, damping=damping, wind=False, ground=False, floors=0)
 
 

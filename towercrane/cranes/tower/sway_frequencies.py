@@ -13,6 +13,7 @@ from towercrane.cranes.tower.equations.small_motions import natural_modes
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.model import FlexibleModel
+    from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
 
 TURNS = ("slewing", "shaft")
 """Channels that turn the jib."""
@@ -77,10 +78,15 @@ class PendulumFrequencies:
     ----------
     gravity : float
         [m/s^2]
+    crane : FlexibleCrane, optional
+        One whose jib pivots: as it luffs the rope that hangs from its head changes.
     """
 
     gravity: float
+    crane: FlexibleCrane | None = None
 
-    def __call__(self, channel: str, trolley: float, rope: float) -> tuple[float, ...]:
+    def __call__(self, channel: str, place: float, rope: float) -> tuple[float, ...]:
         """The pendulum's frequency [Hz], whatever is driven and wherever the trolley is."""
+        if self.crane is not None and self.crane.luffing is not None:
+            rope = self.crane.luffing.below(self.crane.jib_length, place, rope)
         return (float(np.sqrt(self.gravity / rope) / (2.0 * np.pi)),)

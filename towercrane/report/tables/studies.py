@@ -51,6 +51,10 @@ def sensitivity_tables(summary: dict[str, Any]) -> None:
     _assumed(console, summary["assumed"])
 
 
+FORCES = {"trolley": "trolley", "luffing": "luffing rope"}
+"""Where the force of a drive along the jib is, by the drive."""
+
+
 def shape_tables(report: dict[str, Any]) -> None:
     """Motions beside each other, as :func:`towercrane.studies.rest_study.report` gives them."""
     console = _console()
@@ -59,14 +63,15 @@ def shape_tables(report: dict[str, Any]) -> None:
     ropes, torsions = (
         [f"{100 * float(f):.0f} %" for f in first[key]] for key in ("rope_residual_m", "torsion_residual_m")
     )
-    slews = any(drive != "trolley" for drive in drives)
+    slews = any(drive not in FORCES for drive in drives)
+    force = next((FORCES[drive] for drive in drives if drive in FORCES), "")
     columns = ["motion", "time [s]", "left [m]", *(f"rope {percent}" for percent in ropes if percent != "100 %")]
     columns += [f"GJ {percent}" for percent in torsions]
     columns += ["torque [kN m]"] if slews else []
-    columns += ["force [kN]"] if "trolley" in drives else []
+    columns += ["force [kN]"] if force else []
     title = (
         f"{report['crane']}: largest distance of the load from its rest in {report['watched_s']:g} s after the last "
-        f"motion, {report['damping_ratio']:.0%} modal damping; peaks of torque and trolley force"
+        f"motion, {report['damping_ratio']:.0%} modal damping; peaks of torque and {force or 'trolley'} force"
     )
     table = _table(title, *columns)
     table.columns[0].no_wrap = True
@@ -79,7 +84,7 @@ def shape_tables(report: dict[str, Any]) -> None:
             *("ended early" if v is None else f"{v:.4f}" for v in left),
         ]
         cells += [f"{1e-3 * row['peak_slewing_torque_Nm']:.1f}"] if slews else []
-        cells += [f"{1e-3 * row['peak_trolley_force_N']:.2f}"] if "trolley" in drives else []
+        cells += [f"{1e-3 * row[f'peak_{force}_force_N'.replace(' ', '_')]:.2f}"] if force else []
         table.add_row(*cells, style="bold" if row["name"] == report["recommended"] else None)
     console.print(table)
     for drive, found in report["frequencies_hz"].items():

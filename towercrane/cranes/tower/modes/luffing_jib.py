@@ -138,6 +138,11 @@ class LuffingJib:
         """Way of the hoist rope from its winch to the head of a straight jib [m]."""
         return float(np.hypot(*np.subtract(self.head(length, angle), self.winch)))
 
+    def below(self, length: float, angle: float, rope: float) -> float:
+        """Length of rope below the head of a straight jib whose hoist winch is set to a length of its own [m]."""
+        way = self.hoist_way(length, angle) - self.hoist_way(length, self.reference_angle)
+        return rope - way / self.falls
+
     def lever(self, length: float, angle: float) -> float:
         """Arm of the luffing rope about the foot, positive where it lifts a straight jib [m]."""
         tied = np.array(self.head(length, angle, self.attachment))

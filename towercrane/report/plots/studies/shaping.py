@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.tower.sway_frequencies import TURNS
 from towercrane.report.plots.style import COLOURS, DASHES, figure_of, footnote, legend
 from towercrane.studies.candidates import HORIZONTAL
 
@@ -60,7 +59,7 @@ def profiles(study: RestStudy, crane: str, notes: Notes) -> Figure:
     figure = figure_of(8.0, 1.0 + 3.6 * len(drives))
     panels = np.atleast_2d(figure.subplots(2 * len(drives), 1, sharex=True)).reshape(len(drives), 2)
     for channel, (speeds, accelerations) in zip(drives, panels, strict=True):
-        turns = channel in TURNS
+        turns = channel != "trolley"
         factor, unit = (180.0 / np.pi, "deg") if turns else (1.0, "m")
         for i, row in enumerate(study.rows):
             if row.candidate.name not in (*DRAWN, study.recommended.candidate.name):

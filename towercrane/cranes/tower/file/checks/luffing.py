@@ -53,8 +53,6 @@ WITHOUT = {
 
 
 REFUSED = {
-    "lattice": "the check of its tower's lattice is for a jib that does not pivot",
-    "shape": "motions that leave the load at rest are proposed for cranes with a trolley",
     "members": "modes of its members alone are not drawn",
 }
 """What a crane whose jib pivots cannot be used for, and why."""

@@ -24,7 +24,6 @@ WITHOUT = {
 """What a crane with tie bars cannot have, and why."""
 
 REFUSED = {
-    "shape": "motions that leave the load at rest are proposed for jibs that are clamped",
     "members": "modes of its members alone are not drawn",
 }
 """What a crane with tie bars cannot be used for, and why."""
