@@ -30,6 +30,7 @@ def model(
     vertical=3,
     load=1500.0,
     areas=None,
+    nodes=None,
     planes=2,
     crane=CRANE,
     counter=(0, 0),
@@ -37,7 +38,7 @@ def model(
 ):
     modes = ModeCounts(tower, torsion, lateral, vertical, *counter)
     hung = load if isinstance(load, Load) else Load(load)
-    return FlexibleModel(flexible_crane(crane, modes, areas, planes), hung, **options)
+    return FlexibleModel(flexible_crane(crane, modes, areas, planes, nodes), hung, **options)
 
 
 def manoeuvre(heading: float = np.pi / 2) -> dict:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from pydantic import TypeAdapter
 
     from towercrane.cranes.kind import Drives, Track
+    from towercrane.cranes.registry import AnyCase
 
 
 ROUNDING = 1e-9
@@ -86,10 +87,13 @@ class Way:
         return Fault("", key, self.wanted, got, self.hint)
 
 
-def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[Fault], dict[str, Plan]]:
+def check_motions(
+    tree: dict[str, Any], folder: Path, kind: str, checked: AnyCase | None
+) -> tuple[list[Fault], dict[str, Plan]]:
     """Plans by channel, without those that cannot be built, and where they leave their track or the air.
 
-    Parts of the case that are faulty themselves limit nothing, so that all faults show at once.
+    Parts of the case that are faulty themselves limit nothing, so that all faults show at once. ``checked`` are its
+    tables, where nothing else is wrong.
     """
     faults: list[Fault] = []
     plans: dict[str, Plan | None] = {}
@@ -98,9 +102,9 @@ def check_motions(tree: dict[str, Any], folder: Path, kind: str) -> tuple[list[F
         more, plans[track.name] = _track(tree, track, folder)
         faults += more
     if drives.wind:
-        more, wind = wind_motions(tree, folder)
+        more, wind = wind_motions(tree, folder, kind, checked)
         faults = [*faults, *more]
-        plans |= {name: None if motion is None else Plan((Move(motion),)) for name, motion in wind.items()}
+        plans |= {name: Plan((Move(motion),)) for name, motion in wind.items()}
     if drives.earthquake:
         more, shaking = earthquake_motions(tree, folder)
         faults = [*faults, *more]

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cases.wind_file import wind_notices
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -32,7 +34,7 @@ STILL = 0.01
 def table_notices(case: Case) -> tuple[str, ...]:
     """Records that end before the run does, and tables whose noise the crane feels as acceleration."""
     # The case of a result has no motions to look at: what was to be said of them stands in the result.
-    return (*_ended(case), *_shaken(case), *_noisy(case)) if case.plans else ()
+    return (*wind_notices(case), *_ended(case), *_shaken(case), *_noisy(case)) if case.plans else ()
 
 
 def _ended(case: Case) -> Iterator[str]:

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping
 
     from towercrane.cranes.parts.poses import Poses
+    from towercrane.cranes.parts.turbulence.field import Places
     from towercrane.schema.faults import Fault
     from towercrane.schema.provenance import Assumption
     from towercrane.schema.ranges import Range
@@ -145,6 +146,8 @@ class Kind:
     serves : frozenset of str
         What it can be used for besides what every kind can: the studies "modes", "map", "lattice", "compare",
         "verify" and "shape"; "members" for pictures of its members' modes beside those of a run.
+    wind_places : callable, optional
+        Where a wind that differs from place to place blows, of its tables.
     refuses : callable, optional
         Which of them cases of these tables cannot be used for, and why.
     """
@@ -173,6 +176,7 @@ class Kind:
     serves: frozenset[str] = frozenset()
     drives_in: Callable[[Tree], Drives] | None = None
     refuses: Callable[[Any], Mapping[str, str]] | None = None
+    wind_places: Callable[[Any], Places] | None = None
 
     def drives_of(self, tree: Tree) -> Drives:
         """What a case as written moves besides the rope."""

@@ -78,14 +78,19 @@ class Motion:
         ways = self.coefficients * self._spans[:, None] ** powers / powers
         return float(ways.sum() / self.duration)
 
-    def piece(self, time: float) -> Floats:
-        """Coefficients about a ``time`` of zero or more, valid until the next switch time; shape (k,)."""
-        if self.duration <= time + SAME_INSTANT:
-            going = self.end + self.end_rate * max(time - self.duration, 0.0), self.end_rate
-            width = self.coefficients.shape[1]
-            return np.pad(np.array(going), (0, max(width - 2, 0)))[: max(width, 1 + (self.end_rate != 0.0))]
-        index = int(np.searchsorted(self.switch_times, time + SAME_INSTANT, side="right")) - 1
-        return shifted(self.coefficients[index], time - self.switch_times[index])
+    def pieces(self, times: Floats) -> Floats:
+        """Coefficients about times of zero or more, valid until the next switch time; shape (times, k or more)."""
+        index = np.searchsorted(self.switch_times, times + SAME_INSTANT, side="right") - 1
+        index = np.minimum(index, len(self.coefficients) - 1)
+        found = shifted(self.coefficients[index], times - self.switch_times[index])
+        if self.end_rate and found.shape[1] < 2:
+            found = np.pad(found, ((0, 0), (0, 1)))
+        rests = self.duration <= times + SAME_INSTANT
+        found[rests], found[rests, 0] = 0.0, self.end
+        if self.end_rate:
+            found[rests, 0] += self.end_rate * np.maximum(times[rests] - self.duration, 0.0)
+            found[rests, 1] = self.end_rate
+        return found
 
     def __call__(self, time: ArrayLike, derivative: int = 0) -> Floats:
         """Value or derivative at ``time`` [s]; at a switch time the right limit. Shape as ``time``."""
@@ -193,10 +198,9 @@ def phases(motions: tuple[Motion, ...], duration: float) -> Phases:
     times = np.append(distinct(inside), duration)
     width = max((m.coefficients.shape[1] for m in motions), default=1)
     inputs = np.zeros((len(times), len(motions), max(width, 3)))
-    for p, start in enumerate(times):
-        for channel, motion in enumerate(motions):
-            piece = motion.piece(float(start))
-            inputs[p, channel, : len(piece)] = piece
+    for channel, motion in enumerate(motions):
+        pieces = motion.pieces(times)
+        inputs[:, channel, : pieces.shape[1]] = pieces
     return Phases(times, inputs[:-1], inputs[-1])
 
 
@@ -236,10 +240,10 @@ def _roots(polynomials: Floats) -> Floats:
     return found
 
 
-def shifted(coefficients: Floats, time: float) -> Floats:
-    """Coefficients about ``time`` instead of 0, by repeated synthetic division."""
-    shifted = np.array(coefficients, dtype=float)
-    for first in range(len(shifted) - 1):
-        for k in range(len(shifted) - 2, first - 1, -1):
-            shifted[k] += time * shifted[k + 1]
+def shifted(coefficients: Floats, time: ArrayLike) -> Floats:
+    """Coefficients about ``time`` instead of 0, of one polynomial or of many in rows: repeated synthetic division."""
+    shifted, width = np.array(coefficients, dtype=float), np.shape(coefficients)[-1]
+    for first in range(width - 1):
+        for k in range(width - 2, first - 1, -1):
+            shifted[..., k] += time * shifted[..., k + 1]
     return shifted

@@ -34,7 +34,7 @@ def total(motions: Sequence[Motion], delays: Sequence[float], weights: Sequence[
     pieces = np.zeros((max(len(times) - 1, 1), max(m.coefficients.shape[1] for m in motions)))
     for motion, weight in zip(begun, weights, strict=True):
         for row, time in zip(pieces, times, strict=False):
-            piece = motion.piece(float(time))
+            piece = motion.pieces(np.array([time]))[0]
             row[: len(piece)] += weight * piece
     end_rate = sum(weight * motion.end_rate for motion, weight in zip(motions, weights, strict=True))
     return Motion(times if len(times) > 1 else np.zeros(2), pieces, end_rate)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from towercrane.cases.assumptions import as_attribute, rests_on
 from towercrane.cases.models import model_of, motions_of, start_of, targets_of
 from towercrane.cases.table_notices import table_notices
+from towercrane.cases.wind_file import rises_until
 from towercrane.cranes.registry import KINDS
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import labelled, looks_per_row, record
@@ -51,6 +52,7 @@ def record_case(
         result = result or _as_stated(case, model, motions, progress)
     result.attrs["title"] = case.title
     result.attrs["case"] = case.name
+    result.attrs["evaluated_from"] = rises_until(case.checked)
     result.attrs["changes"] = json.dumps(case.changes)
     result.attrs["case_text"] = json.dumps(case.as_written)
     said = KINDS[case.kind].notices

@@ -42,10 +42,11 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
     -------
     dict
         ``outcome``, ``end_time_s``, ``peaks`` per variable (maximum, maximum_time_s, minimum, minimum_time_s,
-        units) among the looks ``look_step_s`` apart, ``spectrum_peaks_hz`` of the structure (of its free vibration
-        where that is long enough) at frequencies of the crane, ``spectrum_other_hz`` (at none of them),
-        ``spectrum_to_hz`` (None without a spectrum), ``spectrum_beyond_hz`` (natural frequencies out of its sight),
-        ``swing_period_s`` after the drives have stopped (None without a regular swing),
+        units) among the looks ``look_step_s`` apart from ``evaluated_from_s`` on, when turbulence has risen,
+        ``spectrum_peaks_hz`` of the structure (of its free vibration where that is long enough) at frequencies of
+        the crane, ``spectrum_other_hz`` (at none of them), ``spectrum_to_hz`` (None without a spectrum),
+        ``spectrum_beyond_hz`` (natural frequencies out of its sight), ``swing_period_s`` after the drives have
+        stopped (None without a regular swing),
         ``natural_frequencies_hz`` where the run ended, in space their ``natural_kinds``, ``energy_balance``,
         ``expected``, ``notices``, ``assumed``, ``idle`` (what the crane file holds for other cases), ``solver``,
         ``wall_seconds``; ``accuracy`` where the case asks for an error, see
@@ -69,6 +70,7 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
         "end_time_s": float(attributes["end_time"]),
         "output_step_s": float(attributes["output_step"]),
         "look_step_s": shown.step,
+        "evaluated_from_s": float(attributes["evaluated_from"]),
         "peaks": peaks(run),
         **shown.report(),
         "natural_frequencies_hz": frequencies,
@@ -105,12 +107,17 @@ def assumed(result: Result) -> list[tuple[str, str, str]]:
 
 
 def peaks(result: Result) -> dict[str, dict[str, Any]]:
-    """Extremes of every variable over time alone among the looks at a run, with their times."""
+    """Extremes of every variable over time alone among the looks at a run, with their times.
+
+    While turbulence rises none are taken; of a run that ended before then its end counts.
+    """
     found, times = {}, result["time"].values
+    first = min(int(np.searchsorted(times, result.attrs.get("evaluated_from", 0.0))), len(times) - 1)
+    times = times[first:]
     for name, variable in result.data_vars.items():
         if variable.dims != ("time",):
             continue
-        values = variable.values
+        values = variable.values[first:]
         high, low = int(np.argmax(values)), int(np.argmin(values))
         found[str(name)] = {
             "maximum": float(values[high]),

@@ -243,7 +243,7 @@ def _side_by_side(
 
     if series and len({company[:2] for company in waiting}) > 1:
         raise ValueError("series: wanted the same duration and output step in all runs, got different ones")
-    for (duration, output_step, method, rtol, atol, *_), members in waiting.items():
+    for (duration, output_step, risen, method, rtol, atol, *_), members in waiting.items():
         runs = [variant.run for variant in members.values() if variant.run is not None]
         about = runs[0].model.about
         names = _names(next(iter(members.values())).case, scalars(runs[0].model), outputs)
@@ -251,6 +251,9 @@ def _side_by_side(
         looks = looks_per_row(duration, output_step)
         times = rows_of(duration, output_step, looks)
         found.times = times[::looks]
+        if not series:
+            # While turbulence rises no extremes are taken.
+            times = times[np.searchsorted(times, risen) :]
         answers = integrate_many(
             runs, times, outputs=names, method=method, rtol=rtol, atol=atol, threads=threads, series=series,
             progress=_counted(progress, len(found.rows) + len(found.faults)),
@@ -258,13 +261,23 @@ def _side_by_side(
         for place, run in enumerate(members):
             if answers.outcomes[place] == INTERRUPTED:
                 continue
-            extremes = dict(zip(names, answers.extremes[place], strict=True))
+            found_at = _extremes(times, answers.series[place], risen) if series and risen else answers.extremes[place]
+            extremes = dict(zip(names, found_at, strict=True))
             ended = float(answers.end_times[place]), int(answers.evaluations[place])
             found.rows[run] = answers.outcomes[place], *ended, extremes
             if series:
                 found.series[run] = answers.series[place][::looks]
         if INTERRUPTED in answers.outcomes:
             break
+
+
+def _extremes(times: Floats, series: Floats, risen: float) -> Floats:
+    """Extremes of outputs from a time on [s], or of the end of a run that ended before; shape (outputs, 4)."""
+    looked = np.flatnonzero(np.isfinite(series).all(axis=1) & (times >= min(risen, times[-1])))
+    looked = looked if len(looked) else np.flatnonzero(np.isfinite(series).all(axis=1))[-1:]
+    high, low = looked[series[looked].argmax(axis=0)], looked[series[looked].argmin(axis=0)]
+    outputs = np.arange(series.shape[1])
+    return np.stack([series[high, outputs], times[high], series[low, outputs], times[low]], axis=1)
 
 
 def _counted(progress: Progress | None, before: int) -> Progress | None:

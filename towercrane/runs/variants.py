@@ -12,6 +12,7 @@ import numpy as np
 
 from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of, motions_of, start_of, targets_of
+from towercrane.cases.wind_file import rises_until
 from towercrane.cranes.registry import KINDS
 from towercrane.kernels.straight.leaves import known_of
 from towercrane.motions.motion import phases
@@ -56,7 +57,8 @@ class Variant:
         """What runs that share lanes have in common."""
         assert self.run is not None, "only runs in lanes have company"
         run, solver, model = self.case.run, self.case.solver, self.run.model
-        system, steps = model.system, (run.duration, run.output_step, solver.method, solver.rtol, solver.atol)
+        looks = run.duration, run.output_step, rises_until(self.case.checked)
+        system, steps = model.system, (*looks, solver.method, solver.rtol, solver.atol)
         equations = system.equations, system.size, known_of(system.constants), system.table.tobytes()
         return (*steps, *equations, known_of(model.seen))
 

@@ -11,7 +11,7 @@ from samples import sectioned_crane as sectioned
 from samples import space_crane as space
 
 from towercrane.cranes.parts.ground import CHANNELS as GROUND
-from towercrane.cranes.parts.wind import WindAreas, steady
+from towercrane.cranes.parts.wind import WindAreas, WindNodes, wind_channels
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.constants import SLIDE_X, SLIDE_Y
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
@@ -27,6 +27,8 @@ LOSSY = {
     "weight_softening": True,
 }
 ROLLING = dataclasses.replace(space.CRANE, roll_inertia=3e5)
+NODES = WindNodes(jib=2, tower=1)
+BLOWN = {"wind": NODES.count, "areas": AREAS, "nodes": NODES}
 SECTIONED = {"tower": 2, "torsion": 1, "lateral": 3, "vertical": 3, "counter": (2, 2), "crane": sectioned.CRANE}
 
 SCENES = {
@@ -87,6 +89,8 @@ SCENES = {
         "slewing": "fixed",
     },
     "of segments, windy": {**SECTIONED, "wind": True, "areas": AREAS, **LOSSY},
+    "in many winds": {"tower": 1, "torsion": 1, "lateral": 2, "vertical": 1, **BLOWN, **LOSSY},
+    "of segments, in many winds": {**SECTIONED, "lateral": 1, "vertical": 1, "counter": (1, 1), **BLOWN, **LOSSY},
     "of segments, driven": {**SECTIONED, "vertical": 2, "slewing": DRIVE, "drive_inertia": 2e5, **LOSSY},
     "driven rigid": {"tower": 0, "torsion": 0, "lateral": 0, "vertical": 1, "slewing": DRIVE, "drive_inertia": 2e5},
 }
@@ -107,7 +111,8 @@ class Instant:
             "rope": [rng.uniform(4, 20), rng.normal(), rng.normal()],
             "slewing": [rng.uniform(-3, 3), 0.2 * rng.normal(), 0.2 * rng.normal()],
         }
-        self.wind = rng.normal(size=3) * 12.0 if model.wind else np.zeros(3)
+        self.wind = rng.normal(size=(max(int(model.wind), 1), 3)) * (12.0 if model.wind else 0.0)
+        self.wind[:, 2] = self.wind[-1, 2]
         if model.slewing == "fixed":
             drives["slewing"] = [0.0, 0.0, 0.0]
         if model.drive is not None:
@@ -115,7 +120,8 @@ class Instant:
             self.q[at], self.rates[at] = rng.uniform(-3, 3), 0.02 * rng.normal()
             # Within the soft line and beyond the corner in turn.
             drives["shaft"] = [float(self.q[at][0]) + rng.choice([-0.05, -0.01, 0.01, 0.05]), 0.1, 0.0]
-        drives |= {channel: [float(motion(0.0)), 0.0, 0.0] for channel, motion in steady(self.wind).items()}
+        blown = [*self.wind[:, :2].ravel(), self.wind[-1, 2]]
+        drives |= {c: [speed, 0.0, 0.0] for c, speed in zip(wind_channels(len(self.wind)), blown, strict=True)}
         if model.ground:
             shaken = [[0.0, rng.normal(), 1.5 * rng.normal()] for _ in range(3)]
             drives |= dict(zip(GROUND, shaken, strict=True))

@@ -49,6 +49,7 @@ TOWER = Kind(
     left_out=later("towercrane.cranes.tower.file.requests", "left_out"),
     notices=later("towercrane.cranes.tower.file.requests", "notices"),
     sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},
+    wind_places=later("towercrane.cranes.tower.file.air", "places_of"),
     refuses=lambda tables: refused(tables) | refused_on_ties(tables),
     serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members"}),
 )  # fmt: skip

@@ -37,7 +37,9 @@ def run_tables(summary: dict[str, Any]) -> None:
             peak["units"],
         )
     console.print(table)
-    console.print(f"largest and smallest of values every {summary['look_step_s']:g} s")
+    risen = summary["evaluated_from_s"]
+    after = f" from {risen:.4g} s on, when the turbulence has risen" if risen else ""
+    console.print(f"largest and smallest of values every {summary['look_step_s']:g} s{after}")
     for change in summary["changes"]:
         console.print(f"changed               {change}")
     period = summary["swing_period_s"]

@@ -165,4 +165,5 @@ def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[
         "ground": tables.earthquake is not None,
         "floors": 0 if tables.earthquake is None else len(tables.earthquake.floors),
         "areas": WindAreas(**dict(crane.wind_areas)) if tables.wind is not None else None,
+        "nodes": None if tables.wind is None else tables.wind.nodes,
     }

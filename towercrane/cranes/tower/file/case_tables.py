@@ -8,12 +8,12 @@ from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from modal.elements.beam_elements import MOST_ELEMENTS
 from towercrane.cranes.parts.tables import CaseTable, SwayStart
+from towercrane.cranes.parts.wind_tables import Wind  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.file.luffing_tables import without_trolley
 from towercrane.cranes.tower.file.tables import Crane  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.targets import ALL, ANY_MOTION, FORETOLD
 from towercrane.schema.fields import (
     Angle,
-    EitherSpeed,
     Factor,
     FileName,
     Length,
@@ -22,7 +22,6 @@ from towercrane.schema.fields import (
     ModeCountIfAny,
     Position,
     Ratio,
-    SpeedIfAny,
     Table,
     ToleranceIfAny,
 )
@@ -71,19 +70,6 @@ class Model(Table):
     jib_vertical_damping_ratio: Ratio = 0.0
     counter_jib_lateral_damping_ratio: Ratio = 0.0
     counter_jib_vertical_damping_ratio: Ratio = 0.0
-
-
-class Wind(Table):
-    """Wind on load and structure: steady, or gusts from a CSV file.
-
-    A steady wind blows towards ``direction``, counted like the slewing angle. Gusts are interpolated linearly between
-    the file's lines of time [s] and velocity along x, y and z [m/s].
-    """
-
-    speed: SpeedIfAny = None
-    direction: Angle = 0.0
-    upward: EitherSpeed = 0.0
-    series: str = ""
 
 
 class Earthquake(Table):

@@ -33,13 +33,14 @@ def heading_of(tables: TowerCase) -> float | None:
 
     None where crane and load leave the jib's plane: where the head turns within the run, the load swings across the
     jib at the start, a wind blows across it, or the ground moves across it. What a CSV file holds is not known here:
-    its turn or its gusts leave the plane, and so does each axis of an earthquake that acts.
+    its turn or its gusts leave the plane, as turbulence across the wind does, and so does each axis of an earthquake
+    that acts.
     """
     turn, wind = tables.motion.slewing or tables.motion.shaft, tables.wind
     if tables.start.sway_tangential or tables.start.sway_tangential_rate:
         return None
     blows = wind is not None and bool(wind.series or wind.speed)
-    pushed = [None if wind is None or wind.series else wind.direction] if blows else []
+    pushed = [wind.direction if wind is not None and wind.one_way else None] if blows else []
     shaken = tables.earthquake.axes if tables.earthquake is not None else ()
     return _heading(turn, tables.run.duration, [*pushed, *_directions(shaken)])
 
@@ -55,7 +56,9 @@ def heading_written(tree: dict[str, Any]) -> float | None:
         return None
     series = at(tree, "wind.series")
     blows = bool(series) or si_at(tree, "wind.speed", "m/s", 0.0) != 0.0
-    pushed = [None if series else si_at(tree, "wind.direction", "rad", 0.0)] if blows else []
+    turbulence = at(tree, "wind.turbulence")
+    one_way = not series and (not isinstance(turbulence, dict) or turbulence.get("across") is False)
+    pushed = [si_at(tree, "wind.direction", "rad", 0.0) if one_way else None] if blows else []
     axes = at(tree, "earthquake.axes")
     shaken = (axes if isinstance(axes, list) else "xyz") if isinstance(at(tree, "earthquake"), dict) else ()
     return _heading(turn, si_at(tree, "run.duration", "s") or inf, [*pushed, *_directions(shaken)])

@@ -41,6 +41,11 @@ class Sight(Kinematics):
         """What holds the crane."""
         return Support(self, self.sections)
 
+    def speed(self, node: int) -> Any:
+        """Horizontal wind at a place that sees a wind of its own."""
+        east, north, _ = self.winds[node]
+        return np.sqrt(east * east + north * north)
+
     def shaken(self, axis: int) -> Any:
         """Acceleration of the ground along a fixed axis."""
         return self.instant.drives[self.seen.crane.ground + axis][2]
@@ -136,9 +141,13 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
         lambda at: at.instant.drives[SLEWING][0], About("rad", "angle of the drive's shaft, referred to the head"),
     ),
     "shaft_speed": (lambda at: at.instant.drives[SLEWING][1], About("rad/s", "speed of the drive's shaft")),
-    "wind_x": (lambda at: at.instant.drives[-3][0], About("m/s", "wind along x")),
-    "wind_y": (lambda at: at.instant.drives[-2][0], About("m/s", "wind along y")),
-    "wind_z": (lambda at: at.instant.drives[-1][0], About("m/s", "wind along z")),
+    "wind_x": (lambda at: at.instant.drives[-3][0], About("m/s", "wind along x, at the load")),
+    "wind_y": (lambda at: at.instant.drives[-2][0], About("m/s", "wind along y, at the load")),
+    "wind_z": (lambda at: at.instant.drives[-1][0], About("m/s", "wind along z, at the load")),
+    "wind_speed_tip": (
+        lambda at: at.speed(at.seen.crane.head_nodes[-1]), About("m/s", "horizontal wind at the jib's tip"),
+    ),
+    "wind_speed_load": (lambda at: at.speed(-1), About("m/s", "horizontal wind at the load")),
     "ground_acceleration_x": (
         lambda at: at.shaken(0), About("m/s^2", "acceleration of the ground along x"),
     ),
@@ -254,11 +263,13 @@ def about(
         counts["tower_y"] = counts["tower_x"]
     there = {
         "shaft": crane.drive is not None,
-        "wind": crane.wind,
+        "wind": bool(crane.wind),
         "ground": bool(crane.ground),
         "counter": model.crane.counter_bends,
     }
     found = {name: shown for name, (_, shown) in read.items() if there.get(name.partition("_")[0], True)}
+    if crane.wind < 2:
+        found = {name: shown for name, shown in found.items() if not name.startswith("wind_speed")}
     springs = [(1.0, own.rotation_stiffness, own.torsional_stiffness) for own in model.crane.collars]
     for name in [name for name in found if name.startswith("collar_")]:
         _, number, what, *_ = name.split("_")

@@ -53,7 +53,10 @@ TIES = tuple(
     )
     for side, said in (("jib", "jib"), ("counter_jib", "counter-jib"))
 )
-WIND = Panel("wind [m/s]", 1.0, {"wind_x": "along x", "wind_y": "along y", "wind_z": "up"})
+WIND = (
+    Panel("wind [m/s]", 1.0, {"wind_x": "along x", "wind_y": "along y", "wind_z": "up"}),
+    Panel("wind speed [m/s]", 1.0, {"wind_speed_load": "at the load", "wind_speed_tip": "at the jib's tip"}),
+)
 
 PICTURES: Pictures = {
     "overview.png": (
@@ -140,7 +143,7 @@ PICTURES: Pictures = {
 """Title and panels of each picture of a run in space, but for those of what only some runs have."""
 
 SOME: Pictures = {
-    "wind.png": ("Wind", (WIND,)),
+    "wind.png": ("Wind", WIND),
     "ground.png": ("Earthquake", (GROUND,)),
     "collars.png": ("Forces on the collars", COLLARS),
     "ties.png": ("Tie bars", TIES),

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from towercrane.cranes.parts.wind_checks import MISSING, check_wind
 from towercrane.cranes.tower.file.case_tables import Model
 from towercrane.cranes.tower.file.checks.jib import laced
 from towercrane.cranes.tower.file.checks.tower import tables_in
 from towercrane.cranes.tower.file.plane import heading_written
 from towercrane.cranes.tower.targets import ALL, absent, lacking
 from towercrane.schema.faults import Fault, shown
-from towercrane.schema.ranges import at, si, si_at
+from towercrane.schema.ranges import at, si
 from towercrane.schema.units import wanted
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
-
-MISSING = "nothing: the key is missing"
 
 NEEDED = {
     "torsion_modes": (("tower.torsional_stiffness", "N m^2"), ("tower.torsional_inertia_per_length", "kg m^2/m")),
@@ -45,7 +44,7 @@ def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
     if at(tree, "model.counter_jib_vertical_modes"):
         yield from _check_bending(tree, "vertical")
     yield from _check_drive(tree)
-    yield from _check_wind(tree)
+    yield from check_wind(tree, PRESSED)
     yield from _check_floors(tree)
 
 
@@ -127,23 +126,6 @@ def _check_drive(tree: dict[str, Any]) -> Iterator[Fault]:
         hint = "without a drive the head turns as [motion.slewing] says"
         what = "a table [crane.drive] with soft_stiffness, stiff_stiffness, corner: [motion.shaft] needs it"
         yield Fault("", "crane.drive", what, "nothing: the table is missing", hint)
-
-
-def _check_wind(tree: dict[str, Any]) -> Iterator[Fault]:
-    """A wind that is described twice or not at all, or meets nothing."""
-    wind = at(tree, "wind")
-    if not isinstance(wind, dict):
-        return
-    steady = [name for name in ("speed", "direction", "upward") if name in wind]
-    if wind.get("series") and steady:
-        what = "a steady wind (speed, direction) or a series of gusts, not both"
-        yield Fault("", "wind.series", what, f"{shown(wind['series'])} beside {', '.join(steady)}", "leave one out")
-    elif not wind.get("series") and "speed" not in wind:
-        what = f"{wanted('m/s')}, or series, the name of a CSV file"
-        yield Fault("", "wind.speed", what, MISSING)
-    if all(si_at(tree, key, unit, 0.0) == 0.0 for key, unit in PRESSED.items()):
-        what = "something that the wind presses on: crane.wind_areas or payload.drag_area above 0"
-        yield Fault("", "wind", what, "no area at all")
 
 
 def _check_floors(tree: dict[str, Any]) -> Iterator[Fault]:
