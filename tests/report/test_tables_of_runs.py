@@ -16,6 +16,7 @@ def run_summary(**changes):
         "crane": "Some crane",
         "peaks": {"some_output": peak, "other_output": {**peak, "maximum": 44.5, "units": "N"}},
         "look_step_s": 0.04,
+        "evaluated_from_s": 0.0,
         "changes": ["a.key=5"],
         "swing_period_s": 8.51239,
         "spectrum_of": "tower_tip_displacement",

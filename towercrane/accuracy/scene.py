@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from towercrane.cases.case import Case
-    from towercrane.cranes.parts.wind import WindAreas
+    from towercrane.cranes.parts.wind import WindAreas, WindNodes
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.parameters import TowerCrane
@@ -57,7 +57,7 @@ class Scene:
     damping : ModalDamping
     self_weight, rope_as_rod : bool
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
-    drive, drive_inertia, areas, ground, floors
+    drive, drive_inertia, areas, nodes, ground, floors
         As of :func:`towercrane.cranes.tower.crane_model.tower_crane_model`.
     """
 
@@ -75,6 +75,7 @@ class Scene:
     drive: Drive | None = None
     drive_inertia: float = 0.0
     areas: WindAreas | None = None
+    nodes: WindNodes | None = None
     ground: bool = False
     floors: int = 0
 
@@ -123,6 +124,7 @@ class Scene:
             drive=self.drive,
             drive_inertia=self.drive_inertia,
             areas=self.areas,
+            nodes=self.nodes,
             ground=self.ground,
             floors=self.floors,
             damping=self.damping,

@@ -1,4 +1,4 @@
-"""What a case's CSV tables do to a run that nobody would expect, in sentences."""
+"""What a case's CSV tables and its wind do to a run that nobody would expect, in sentences."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from towercrane.cases.wind_file import wind_notices
+from towercrane.cranes.registry import KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,6 +27,9 @@ FEWEST = 8
 SAME_INSTANT = 1e-6
 """[s]"""
 
+STEADY = 0.02
+"""Part of the wind by which it may change with the load's height before that is named."""
+
 STILL = 0.01
 """Velocity of the ground over its largest that rounding of a record leaves."""
 
@@ -34,7 +37,33 @@ STILL = 0.01
 def table_notices(case: Case) -> tuple[str, ...]:
     """Records that end before the run does, and tables whose noise the crane feels as acceleration."""
     # The case of a result has no motions to look at: what was to be said of them stands in the result.
-    return (*wind_notices(case), *_ended(case), *_shaken(case), *_noisy(case)) if case.plans else ()
+    return (*_blowing(case), *_ended(case), *_shaken(case), *_noisy(case)) if case.plans else ()
+
+
+def _blowing(case: Case) -> Iterator[str]:
+    """What a wind is made of that differs from place to place, and what it leaves out."""
+    wind, places = getattr(case.checked, "wind", None), KINDS[case.kind].wind_places
+    if wind is None or not wind.differs or places is None:
+        return
+    from towercrane.cranes.parts.turbulence.field import turbulence_of
+
+    where, profile = places(case.checked), wind.over_height
+    if wind.turbulence is not None:
+        own, speed = turbulence_of(wind, where, case.run.duration), wind.speed * float(profile.share(where.hub))
+        across = f" and {own.deviation_across:.3g} m/s across" if own.across else ""
+        yield (
+            f"wind.turbulence: standard deviations of {own.deviation:.3g} m/s along{across}, about {speed:.4g} "
+            f"m/s at {where.hub:g} m, by the spectrum of {own.spectrum.source}, at {len(where.points)} places whose "
+            f"coherence is that of IEC 61400-1:2019, C.16; it rises within {own.ramp:.4g} s, of which no extremes "
+            "are taken"
+        )
+    height, rope = where.points[-1, 2], case.plans["rope"].commanded
+    shares = profile.share([height, *(height + rope(0.0) - end for end in rope.range())])
+    if np.ptp(shares) > STEADY * shares[0]:
+        yield (
+            f"wind.profile: the load's wind stays that of its height at the start, {height:.3g} m; where the hoist "
+            f"moves it the profile would have {shares.min() / shares[0]:.3g} to {shares.max() / shares[0]:.3g} of it"
+        )
 
 
 def _ended(case: Case) -> Iterator[str]:

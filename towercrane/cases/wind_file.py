@@ -6,20 +6,17 @@ from dataclasses import replace
 from math import cos, sin
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from towercrane.cranes.registry import KINDS
 from towercrane.schema.csv_series import read_series
 from towercrane.schema.faults import CaseError, Fault
 from towercrane.schema.ranges import at, si_at
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
+    import numpy as np
     from numpy.typing import NDArray
 
-    from towercrane.cases.case import Case
     from towercrane.cranes.registry import AnyCase
     from towercrane.motions.motion import Motion
 
@@ -32,9 +29,6 @@ AXES = {
     axis: (axis, f"wind_{axis}", f"wind {axis}", f"v{axis}", speed) for axis, speed in zip("xyz", "uvw", strict=True)
 }
 """Components, and the names that a header may give them."""
-
-STILL = 0.02
-"""Part of the wind by which it may change with the load's height before that is named."""
 
 STRONGEST = 80.0
 """Largest plausible component of the wind [m/s]."""
@@ -70,32 +64,6 @@ def rises_until(checked: AnyCase) -> float:
     from towercrane.cranes.parts.turbulence.field import ramp_of
 
     return ramp_of(wind, places(checked))
-
-
-def wind_notices(case: Case) -> Iterator[str]:
-    """What a wind is made of that differs from place to place, and what it leaves out."""
-    wind, places = getattr(case.checked, "wind", None), KINDS[case.kind].wind_places
-    if wind is None or not wind.differs or places is None:
-        return
-    from towercrane.cranes.parts.turbulence.field import turbulence_of
-
-    where, profile = places(case.checked), wind.over_height
-    if wind.turbulence is not None:
-        own, speed = turbulence_of(wind, where, case.run.duration), wind.speed * float(profile.share(where.hub))
-        across = f" and {own.deviation_across:.3g} m/s across" if own.across else ""
-        yield (
-            f"wind.turbulence: standard deviations of {own.deviation:.3g} m/s along{across}, about {speed:.4g} "
-            f"m/s at {where.hub:g} m, by the spectrum of {own.spectrum.source}, at {len(where.points)} places whose "
-            f"coherence is that of IEC 61400-1:2019, C.16; it rises within {own.ramp:.4g} s, of which no extremes "
-            "are taken"
-        )
-    height, rope = where.points[-1, 2], case.plans["rope"].commanded
-    shares = profile.share([height, *(height + rope(0.0) - end for end in rope.range())])
-    if np.ptp(shares) > STILL * shares[0]:
-        yield (
-            f"wind.profile: the load's wind stays that of its height at the start, {height:.3g} m; where the hoist "
-            f"moves it the profile would have {shares.min() / shares[0]:.3g} to {shares.max() / shares[0]:.3g} of it"
-        )
 
 
 def _blown(tree: dict[str, Any], folder: Path) -> tuple[list[Fault], dict[str, Motion]]:

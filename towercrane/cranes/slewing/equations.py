@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane.cranes.parts.air import air_at, load_force
 from towercrane.cranes.parts.coupling import coupling_torque
-from towercrane.kernels.algebra import dot
+from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.choices import below, choose
 from towercrane.kernels.payload import Hung, Load, Rope, Structure, hang_load, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
@@ -66,7 +67,10 @@ class Body:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Constants:
-    """Matrices and vectors are those of the n coordinates; ``driven`` is the one that drive and friction act on."""
+    """Matrices and vectors are those of the n coordinates; ``driven`` is the one that drive and friction act on.
+
+    ``wind`` is the number of places that see a wind of their own: one for all, or every point and the load.
+    """
 
     bodies: tuple[Body, ...]
     suspension: int
@@ -80,6 +84,7 @@ class Constants:
     rope_damping: float
     gravity: float
     load: Load
+    wind: int
     friction_state: float = field(default=BY_RATE, metadata=CHANGING)
 
 
@@ -124,17 +129,26 @@ def motion_of(body: Body, q: Any, rates: Any) -> Motion:
     )
 
 
-def drag_on(body: Body, motion: Motion) -> Sequence[Any]:
+def winds_of(crane: Constants, drives: Row) -> list[Vector]:
+    """Velocity of the air at every point, and at the load."""
+    found = air_at(crane.wind, drives)
+    return found if len(found) > 1 else found * (len(crane.bodies) + 1)
+
+
+def drag_on(body: Body, motion: Motion, wind: Vector) -> Sequence[Any]:
     """Force of the air on a point."""
-    (cosine, sine), (vx, vy, vz) = motion.unit, motion.velocity
-    speed = np.sqrt(dot(motion.velocity, motion.velocity))
+    cosine, sine = motion.unit
+    through = vx, vy, vz = [own - air for own, air in zip(motion.velocity, wind, strict=True)]
+    speed = np.sqrt(dot(through, through))
     ahead, aside, up = (-drag * speed for drag in body.drag)
     along, across = turned((cosine, -sine), vx, vy)
     return *turned(motion.unit, ahead * along, aside * across), up * vz
 
 
-def structure(crane: Constants, q: Any, rates: Any, shaft: Pair, friction: Any = 0.0) -> tuple[Structure, Any]:
-    """Crane without its load, the shaft at an angle and a rate; power of shaft, dampers, drag and friction [W]."""
+def structure(
+    crane: Constants, q: Any, rates: Any, shaft: Pair, winds: Sequence[Vector], friction: Any = 0.0
+) -> tuple[Structure, Any]:
+    """Crane without its load, the shaft at an angle and a rate; power of shaft, dampers, air and friction [W]."""
     force, power = list(crane.steady_force), 0.0
     for i, (springs, dampers) in enumerate(zip(crane.stiffness, crane.damping, strict=True)):
         for spring, damper, own, rate in zip(springs, dampers, q, rates, strict=True):
@@ -142,8 +156,8 @@ def structure(crane: Constants, q: Any, rates: Any, shaft: Pair, friction: Any =
             power = power - rates[i] * damper * rate
     mass = [[0.0] * i + [inertia] for i, inertia in enumerate(crane.inertia)]
     motions = [motion_of(body, q, rates) for body in crane.bodies]
-    for body, motion in zip(crane.bodies, motions, strict=True):
-        air, gravity = drag_on(body, motion), (0.0, 0.0, crane.gravity)
+    for body, motion, wind in zip(crane.bodies, motions, winds[:-1], strict=True):
+        air, gravity = drag_on(body, motion, wind), (0.0, 0.0, crane.gravity)
         power = power + dot(air, motion.velocity)
         pull = [f - body.mass * (b + g) for f, b, g in zip(air, motion.bias, gravity, strict=True)]
         for i, column in enumerate(motion.columns):
@@ -158,7 +172,8 @@ def structure(crane: Constants, q: Any, rates: Any, shaft: Pair, friction: Any =
     # What the shaft puts in is stored in the coupling, turns the platform or is lost between them and in its bearing.
     power = power + torque * shaft[1] - drive.damping * slip * slip + friction * rates[driven]
     tip = motions[crane.suspension]
-    return Structure(mass, force, tip.velocity, tip.bias, list(zip(*tip.columns, strict=True))), power
+    jacobian = list(zip(*tip.columns, strict=True))
+    return Structure(mass, force, tip.velocity, tip.bias, jacobian, winds[-1]), power
 
 
 def held(crane: Structure, i: int, sticks: Any) -> Structure:
@@ -188,10 +203,11 @@ def needed_at_rest(crane: Structure, i: int, hung: Hung) -> Any:
 
 
 def forces_at_rest(crane: Constants, _t: Any, q: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
-    """Forces on the coordinates while nothing moves, friction apart, the load hanging straight down; no guards."""
-    bare, _ = structure(crane, q, [0.0] * len(q), (inputs[SHAFT][0], 0.0))
-    weight = crane.load.mass * crane.gravity
-    return [force - weight * up for force, up in zip(bare.force, bare.jacobian[-1], strict=True)], []
+    """Forces on the coordinates while nothing moves, friction apart, the load hanging at rest; no guards."""
+    winds = winds_of(crane, inputs)
+    bare, _ = structure(crane, q, [0.0] * len(q), (inputs[SHAFT][0], 0.0), winds)
+    pull, columns = load_force(crane.load, crane.gravity, winds[-1]), zip(*bare.jacobian, strict=True)
+    return [force + dot(column, pull) for force, column in zip(bare.force, columns, strict=True)], []
 
 
 def equations(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
@@ -207,7 +223,8 @@ def equations(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any],
     elif drive.friction == "stick-slip":
         way = choose(below(SLIP_AHEAD, crane.friction_state), np.sign(rate), crane.friction_state)
         sticks, sliding = below(abs(way), SLIP_AHEAD), way * rate
-    bare, power = structure(crane, state.coordinates, state.rates, (angle, shaft_rate), -limit * way)
+    winds = winds_of(crane, [polynomial(channel, t) for channel in inputs])
+    bare, power = structure(crane, state.coordinates, state.rates, (angle, shaft_rate), winds, -limit * way)
     hung = hang_load(held(bare, driven, sticks), state, rope, crane.load, crane.gravity)
     needed = needed_at_rest(bare, driven, hung)
     beyond = abs(state.coordinates[driven] - angle) - drive.corner

@@ -6,11 +6,19 @@ from typing import TYPE_CHECKING
 
 from towercrane.cranes.kind import Drives, Kind, Signals, later
 from towercrane.cranes.parts.height import summed
+from towercrane.cranes.parts.wind_checks import check_wind
 from towercrane.cranes.slewing.tables import BasicCase, EnhancedCase, MultiMassCase
 from towercrane.schema.ranges import SPRINGS, Range
 
 if TYPE_CHECKING:
     from towercrane.cranes.slewing.tables import SlewingCase
+
+PRESSED = {
+    **{f"crane.drag.{point}": "N s^2/m^2" for point in ("tower_top", "jib_tip", "counterweight")},
+    "payload.drag_area": "m^2",
+    "payload.drag": "N s^2/m^2",
+}
+"""What the wind may press on, and its unit."""
 
 HEIGHT = summed("crane.geometry.tower_height", "crane.geometry.top_height")
 
@@ -20,7 +28,9 @@ def _kind(name: str, tables: type[SlewingCase], *ranges: Range) -> Kind:
     return Kind(
         name=name,
         tables=tables,
-        drives=Drives(HEIGHT, "the height of the tower with its top", joints=(("shaft",),)),
+        drives=Drives(HEIGHT, "the height of the tower with its top", joints=(("shaft",),), wind=True),
+        checks=(lambda tree: check_wind(tree, PRESSED),),
+        wind_places=later("towercrane.cranes.slewing.build", "places_of"),
         ranges=ranges,
         build=later("towercrane.cranes.slewing.build", "model_of"),
         poses=later("towercrane.cranes.slewing.poses", "slewing_poses"),

@@ -10,7 +10,7 @@ import numpy as np
 from towercrane.cranes.parts.base import Reaction, added, base_about, base_outputs, rope_on_crane, together
 from towercrane.cranes.parts.coupling import coupling_energy, coupling_torque
 from towercrane.cranes.parts.points import Point, load_places, load_places_about, turned_back
-from towercrane.cranes.slewing.equations import AXES, ROPE, SHAFT, TENSION, drag_on, motion_of, turned
+from towercrane.cranes.slewing.equations import AXES, ROPE, SHAFT, TENSION, drag_on, motion_of, turned, winds_of
 from towercrane.kernels.algebra import dot
 from towercrane.kernels.payload import state_of
 from towercrane.simulation.observed import About
@@ -69,8 +69,11 @@ def seen_of(crane: LumpedCrane, constants: Constants) -> Seen:
     return Seen(constants, tuple(springs), names, jib, tuple(linear), counter)
 
 
-def about_of(crane: LumpedCrane) -> dict[str, About]:
-    """What the outputs of a crane are."""
+WINDS = {f"wind_{axis}": About("m/s", f"wind along {axis}, at the load") for axis in "xyz"}
+
+
+def about_of(crane: LumpedCrane, *, wind: bool = False) -> dict[str, About]:
+    """What the outputs of a crane are, and of the wind where one blows."""
     return {
         "sway_tangential": About("rad", "sway across the jib, atan2(across, down), positive in the turning sense"),
         "sway_radial": About("rad", "sway along the jib, atan2(along, down), positive outward"),
@@ -85,11 +88,12 @@ def about_of(crane: LumpedCrane) -> dict[str, About]:
             name: About("rad" if name in crane.angles else "m", f"coordinate: {name.replace('_', ' ')}")
             for name in crane.coordinates
         },
+        **(WINDS if wind else {}),
         **base_about(),
         **load_places_about("the slewing axis"),
         "total_energy": About("J", "kinetic and potential energy"),
         "input_work": About(
-            "J", "work of shaft and winch less what dampers, friction and drag took, since the start"
+            "J", "work of shaft, winch and wind less what dampers, friction and drag took, since the start"
         ),
     }
 
@@ -124,6 +128,7 @@ def lumped_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
         "hoist_rope_force": instant.guards[TENSION],
         **{output.name: dot(output.of, q) + dot(output.of_rates, rates) for output in seen.linear},
         **dict(zip(seen.coordinates, q, strict=True)),
+        **dict(zip(WINDS, winds_of(crane, instant.drives)[-1], strict=True)),
         **base_outputs(base_of(seen, instant)),
         **load_places(place, heading),
         "total_energy": energy + structure_energy(seen, q, rates, points),
@@ -137,13 +142,13 @@ def base_of(seen: Seen, instant: Instant) -> Reaction:
     state, moved = (state_of(rows, count, AXES) for rows in (instant.state, instant.slopes))
     q, rates, accelerations = state.coordinates, state.rates, moved.rates
     pushed = []
-    for body in crane.bodies:
+    for body, wind in zip(crane.bodies, winds_of(crane, instant.drives)[:-1], strict=True):
         motion = motion_of(body, q, rates)
         felt = [
             bias + dot([column[k] for column in motion.columns], accelerations)
             for k, bias in enumerate(motion.bias)
         ]  # fmt: skip
-        air, weight = drag_on(body, motion), (0.0, 0.0, crane.gravity)
+        air, weight = drag_on(body, motion, wind), (0.0, 0.0, crane.gravity)
         x, y, z = (f - body.mass * (a + g) for f, a, g in zip(air, felt, weight, strict=True))
         at = point_of(body, q, rates).place
         pushed.append(((at[0], at[1], at[2]), (x, y, z)))

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.parts.corner import Corners
+from towercrane.cranes.parts.wind import wind_channels
 from towercrane.cranes.slewing import equations
 from towercrane.cranes.slewing.equations import Arm, Body, Constants, structure
 from towercrane.cranes.slewing.friction import Transitions
@@ -38,16 +40,24 @@ class LumpedSystem:
     load : Load
     rope_as_rod : bool
         Let the rope push. Without it a slack rope ends the run.
+    wind : int
+        Number of places that see a wind of their own: 1, one wind for all; each of the points and the load; 0: none.
     """
 
     crane: LumpedCrane
     load: Load
     rope_as_rod: bool = False
+    wind: int = 0
 
     @property
     def channels(self) -> tuple[str, ...]:
-        """Motions: angle of the drive's shaft [rad] and length of the unstretched rope [m]."""
-        return ("shaft", "rope")
+        """Motions: angle of the drive's shaft [rad], length of the unstretched rope [m], wind [m/s]."""
+        return ("shaft", "rope", *self.value_channels)
+
+    @property
+    def value_channels(self) -> tuple[str, ...]:
+        """Channels that act by their value alone, of which a crane at rest knows the mean: the wind's components."""
+        return wind_channels(self.wind)
 
     @property
     def coordinates(self) -> int:
@@ -72,7 +82,7 @@ class LumpedSystem:
     @property
     def channel_units(self) -> tuple[str, ...]:
         """Units of the motions."""
-        return ("rad", "m")
+        return ("rad", "m", *("m/s" for _ in self.value_channels))
 
     @property
     def state_names(self) -> dict[str, str]:
@@ -111,6 +121,7 @@ class LumpedSystem:
             rope_damping=crane.rope_damping,
             gravity=crane.gravity,
             load=self.load,
+            wind=self.wind,
         )
 
     @cached_property
@@ -152,7 +163,8 @@ class LumpedSystem:
         from scipy.linalg import eigh
 
         n, drive, constants = self.coordinates, self.crane.drive, self.constants
-        bare, _ = structure(constants, np.zeros(n), np.zeros(n), (0.0, 0.0))
+        still = [(0.0, 0.0, 0.0)] * (len(constants.bodies) + 1)
+        bare, _ = structure(constants, np.zeros(n), np.zeros(n), (0.0, 0.0), still)
         stiffness, mass = np.zeros((2, n + self.elastic, n + self.elastic))
         stiffness[:n, :n] = constants.stiffness
         stiffness[constants.driven, constants.driven] += max(drive.soft, drive.stiff)
@@ -179,9 +191,12 @@ class LumpedSystem:
         check_start(state)
         n, y = self.coordinates, np.zeros(self.size)
         y[:n] = self.equilibrium(inputs) if state == "equilibrium" else self.undeformed(inputs)
-        if self.elastic and state == "equilibrium":
-            y[n] = self.load.mass * self.crane.gravity / self.crane.rope_stiffness
         y[self.rope + 2] = -1.0
+        if state == "equilibrium":
+            *_, wind = equations.winds_of(self.constants, inputs)
+            pull = np.array(load_force(self.load, self.crane.gravity, wind))
+            y[self.rope : self.rope + 3] = pull / np.linalg.norm(pull)
+            y[n : self.rope] = np.linalg.norm(pull) / (self.crane.rope_stiffness or 1.0)
         return y
 
     def hang(self, state: Floats, _inputs: Floats, direction: Floats, rate: Floats) -> Floats:
@@ -213,7 +228,7 @@ class LumpedSystem:
         return np.asarray(np.linalg.lstsq(held, values, rcond=None)[0])
 
     def equilibrium(self, inputs: Floats) -> Floats:
-        """Coordinates at rest under all weights, load hanging straight down; shape (n,)."""
+        """Coordinates at rest under all weights and the wind, the load hanging at rest; shape (n,)."""
         n, origin, numbers = self.coordinates, self.undeformed(inputs), self.system.numbers
         code = written(equations.forces_at_rest, self.constants, [numbers], n, inputs.shape)
         forces = code.values(numbers, self.system.table)

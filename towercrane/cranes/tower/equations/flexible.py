@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.parts.corner import Corners
 from towercrane.cranes.tower.equations import motion
 from towercrane.cranes.tower.equations.actions.collars import corners_of, names_of
@@ -17,7 +18,7 @@ from towercrane.cranes.tower.equations.coordinates import Coordinates
 from towercrane.cranes.tower.equations.joints import Joints
 from towercrane.cranes.tower.equations.matrices import geometric_stiffness, scale, softening, stiffness
 from towercrane.cranes.tower.equations.play import contact_stiffness
-from towercrane.cranes.tower.equations.structure import load_force, static_force, structure
+from towercrane.cranes.tower.equations.structure import static_force, structure
 from towercrane.kernels.payload import SLACK, Load, State, Structure
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
@@ -143,7 +144,9 @@ class Equations(Coordinates):
         if state == "equilibrium":
             y[:n] = self.equilibrium(inputs)
             *_, air = winds_of(self.constants, [[value] for value in inputs[:, 0]])
-            force = np.array(load_force(self.constants, [air[k] for k in self.constants.fixed_axes]))
+            force = np.array(
+                load_force(self.load, self.constants.gravity, [air[k] for k in self.constants.fixed_axes])
+            )
             # Without weight and wind any direction will do.
             hung = force / np.linalg.norm(force) if force.any() else hung
         y[n : n + self.axes] = hung

@@ -17,8 +17,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
+from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.tower.equations.actions.collars import held_back, meet
 from towercrane.cranes.tower.equations.actions.drive import Driven, drive
 from towercrane.cranes.tower.equations.actions.ground import ground_of, shake
@@ -37,7 +36,7 @@ from towercrane.cranes.tower.equations.projection import (
 )
 from towercrane.cranes.tower.equations.tied.fields import move_fields
 from towercrane.cranes.tower.equations.tied.ties import Taut, pull_ties
-from towercrane.kernels.algebra import Row, Vector, dot
+from towercrane.kernels.algebra import Vector, dot
 from towercrane.kernels.payload import State, Structure
 
 if TYPE_CHECKING:
@@ -184,16 +183,9 @@ def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[A
     """Forces on the coordinates y at rest, with the load that hangs at rest in the wind; inputs at their values."""
     state = State(y, (), (), [0.0] * crane.coordinates, (), ())
     hanging = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]]).hanging
-    pull = load_force(crane, hanging.wind)
+    pull = load_force(crane.load, crane.gravity, hanging.wind)
     columns = zip(*hanging.jacobian, strict=True)
     return [own + dot(column, pull) for own, column in zip(hanging.force, columns, strict=True)], []
-
-
-def load_force(crane: Constants, wind: Row) -> list[Any]:
-    """Force of weight and of a wind along the load's axes on the load at rest [N]."""
-    speed = np.sqrt(dot(wind, wind))
-    pull = [crane.load.drag * speed * own for own in wind]
-    return [*pull[:-1], pull[-1] - crane.load.mass * crane.gravity]
 
 
 def slewing_torque(share: Share, projected: list[Projected], accelerations: list[Any], pull: list[Any]) -> Any:

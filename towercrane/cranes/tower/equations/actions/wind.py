@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane.cranes.parts.air import air_at
 from towercrane.kernels.algebra import Vector, dot
 
 if TYPE_CHECKING:
@@ -27,14 +28,10 @@ class Blown(NamedTuple):
 def winds_of(crane: Constants, drives: Drives) -> list[Vector]:
     """Velocity of the air at each place along the axes of the coordinates, the load's the last; zero without wind.
 
-    The last three channels are the components for the load; those along x and y for the others stand before them.
+    See :func:`towercrane.cranes.parts.air.air_at`.
     """
-    if not crane.wind:
-        return [(0.0, 0.0, 0.0)]
-    channels = [channel[0] for channel in drives[-2 * crane.wind - 1 :]]
-    c, s, up = crane.plane_cosine, crane.plane_sine, channels[-1]
-    pairs = zip(channels[:-1:2], channels[1:-1:2], strict=True)
-    return [(c * east + s * north, c * north - s * east, up) for east, north in pairs]
+    c, s = crane.plane_cosine, crane.plane_sine
+    return [(c * east + s * north, c * north - s * east, up) for east, north, up in air_at(crane.wind, drives)]
 
 
 def pressures(crane: Constants, head: Head, winds: list[Vector]) -> list[Any]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.tower.equations.actions.collars import sides
 from towercrane.cranes.tower.equations.actions.drive import Driven, drive
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
@@ -24,7 +25,7 @@ from towercrane.cranes.tower.equations.projection import (
     project_row,
     share_of,
 )
-from towercrane.cranes.tower.equations.structure import load_force, resist, slewing_torque
+from towercrane.cranes.tower.equations.structure import resist, slewing_torque
 from towercrane.kernels.algebra import dot
 from towercrane.kernels.payload import Rope, State, Structure, hang_load, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
@@ -147,7 +148,10 @@ def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[A
     """Forces on the coordinates y at rest, with the load that hangs at rest; inputs at their values."""
     state = State(y, (), (), [0.0] * crane.coordinates, (), ())
     found = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]])
-    pull, columns = load_force(crane, found.hanging.wind), zip(*found.hanging.jacobian, strict=True)
+    pull, columns = (
+        load_force(crane.load, crane.gravity, found.hanging.wind),
+        zip(*found.hanging.jacobian, strict=True),
+    )
     tension = np.sqrt(dot(pull, pull))
     parts = zip(found.hanging.force, columns, found.rope.paid, strict=True)
     return [own + dot(column, pull) + tension * paid for own, column, paid in parts], []
