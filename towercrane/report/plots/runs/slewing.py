@@ -19,13 +19,15 @@ DEGREES = 180.0 / np.pi
 def overview(result: xr.Dataset) -> Figure:
     """Drive, sway, moments and rope tension, one below the other."""
     time = result["time"]
-    panels = (
+    known: tuple[tuple[str, float, tuple[str, ...]], ...] = (
         ("speed [rad/s]", 1.0, ("shaft_speed",)),
         ("sway [deg]", DEGREES, ("sway_tangential", "sway_radial")),
         ("jib moment [N m]", 1.0, ("jib_moment_horizontal", "jib_moment_vertical")),
         ("drive torque [N m]", 1.0, ("drive_torque", "drive_torque_elastic")),
         ("rope tension [N]", 1.0, ("hoist_rope_force",)),
+        ("wind [m/s]", 1.0, ("wind_x", "wind_y", "wind_z")),
     )
+    panels = [panel for panel in known if any(name in result for name in panel[2])]
     figure = figure_of(9.0, 2.0 * len(panels))
     rows = figure.subplots(len(panels), 1, sharex=True)
     for axes, (label, factor, names) in zip(rows, panels, strict=True):
