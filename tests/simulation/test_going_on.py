@@ -1,15 +1,18 @@
 """Runs that go on from the saved end of another."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from towercrane import load_case
-from towercrane.cases.models import model_of, motions_of
+from towercrane.cases.models import model_of, motions_of, start_of
 from towercrane.motions.motion import phases
+from towercrane.results import files
 from towercrane.results.files import load, save
 from towercrane.runs.run import record_case
-from towercrane.runs.sweep import sweep
+from towercrane.runs.variants import Variants
 from towercrane.schema.faults import CaseError
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.simulate import record
@@ -56,12 +59,12 @@ def test_a_run_goes_on_to_the_last_bit_and_is_the_run_that_never_stopped(ended):
 
 
 def test_lanes_go_on_too(ended):
-    path, _ = ended
-    case = going_on(path, ["solver.rtol=1e-6", "solver.atol=1e-8", "run.duration=2 s"])
-    swept = sweep(case, {"payload.drag_area": ["1 m^2", "3 m^2"]}, outputs=["sway_radial"])
-    for number, area in enumerate(("1 m^2", "3 m^2")):
-        alone = record_case(load_case(case.path, [*case.changes, f"payload.drag_area={area}"]))
-        assert float(swept["sway_radial_max"].values[number]) == alone.rows["sway_radial"].values.max()
+    path, before = ended
+    variants = Variants(going_on(path), {"payload.drag_area": ["1 m^2", "3 m^2"]})
+    for number in range(2):
+        state, refusal = variants[number].run.start()
+        assert np.array_equal(state, before.attrs["end_state"])
+        assert not refusal
 
 
 @pytest.mark.parametrize(
@@ -77,8 +80,9 @@ def test_lanes_go_on_too(ended):
 def test_what_does_not_fit_is_told_in_one_message(ended, changes, words):
     path, _ = ended
     case = going_on(path, changes)
+    model = model_of(case)
     with pytest.raises(CaseError) as caught:
-        record_case(case)
+        start_of(case, model, motions_of(case))
     (fault,) = caught.value.faults
     assert fault.key == "start.from"
     for word in words:
@@ -99,23 +103,22 @@ def test_nothing_else_says_how_a_run_begins_that_goes_on(changes, got):
     assert (fault.key, fault.got) == ("start.from", got)
 
 
-def test_modes_of_another_sign_and_ends_that_are_none_are_refused(ended, tmp_path):
-    path, _ = ended
-    result = load(path)
-    other = {
-        "sign": ("end", result.attrs["end"].replace('"basis": [', '"basis": [-'), "modes of other shapes or signs"),
-        "outcome": ("outcome", "slack rope", 'one that ended as "slack rope"'),
-        "state": ("end_state", np.full_like(result.attrs["end_state"], np.nan), "5 finite states"),
-        "old": ("end", None, "one that does not hold its end"),
-    }
-    for name, (attribute, value, said) in other.items():
-        changed = result.copy()
-        changed.attrs = {k: v for k, v in result.attrs.items() if k != attribute}
+def test_modes_of_another_sign_and_ends_that_are_none_are_refused(ended, monkeypatch):
+    path, before = ended
+    result, case = load(path), going_on(path)
+    others = [
+        ("end", result.attrs["end"].replace('"basis": [', '"basis": [-'), "modes of other shapes or signs"),
+        ("outcome", "slack rope", 'one that ended as "slack rope"'),
+        ("end_state", np.full_like(result.attrs["end_state"], np.nan), "finite states"),
+        ("end", None, "one that does not hold its end"),
+    ]
+    for attribute, value, said in others:
+        attrs = {k: v for k, v in result.attrs.items() if k != attribute}
         if value is not None:
-            changed.attrs[attribute] = value
-        save(changed, tmp_path / f"{name}.nc")
-        with pytest.raises(CaseError, match=said.replace("5 finite", "finite")):
-            record_case(going_on(tmp_path / f"{name}.nc"))
+            attrs[attribute] = value
+        monkeypatch.setattr(files, "load", lambda _, attrs=attrs: SimpleNamespace(attrs=attrs))
+        with pytest.raises(CaseError, match=said):
+            start_of(case, before.model, before.motions)
 
 
 def test_another_model_of_the_crane_does_not_go_on(ended):

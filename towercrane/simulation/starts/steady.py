@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.simulation.differences import jacobian
-from towercrane.simulation.equilibrium import MOST_STEPS, SETTLED
+from towercrane.simulation.equilibrium import SETTLED
 from towercrane.simulation.outcomes import UNSTABLE
 from towercrane.simulation.system import NoEquilibrium
 
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 SPEEDS = 8
 """Equal steps from rest to the rate of a steady rotation."""
+
+MOST_STEPS, STEP, FAR = 20, 1e-5, 1e3
+"""Steps of Newton's method, of its differences and at most of itself, per scale."""
 
 BALANCED = 1e-9
 """Acceleration that is left over, relative to the terms that cancel in it."""
@@ -161,20 +164,21 @@ def _at_rest(model: Model, state: Floats, frame: Frame, basis: Floats, why: str)
 
     if not basis.shape[1]:
         return state
-    before, none = np.inf, np.zeros(basis.shape[1])
+    before, count = np.inf, basis.shape[1]
+    none, steps = np.zeros((count, 1)), np.diag(STEP * scale)
     for _ in range(MOST_STEPS):
-        matrix, _ = jacobian(residual, none, scale)
-        left = residual(none[:, None])[:, 0]
+        found = residual(np.hstack([steps, -steps, none]))
+        matrix, left = (found[:, :count] - found[:, count:-1]) / (2.0 * STEP * scale), found[:, -1]
         try:
             change = np.asarray(np.linalg.solve(matrix, -left), dtype=np.float64)
         except np.linalg.LinAlgError:
             break
         state = _restored(model, moved(change))
         size = float(np.max(abs(change) / scale))
-        if not np.isfinite(size):
+        if not size < FAR:
             break
         if size < 1e-13 or 0.5 * before < size < SETTLED:
-            left, terms = residual(none[:, None])[:, 0], abs(matrix) @ (abs(basis.T @ state[:half]) + scale)
+            left, terms = residual(none)[:, 0], abs(matrix) @ (abs(basis.T @ state[:half]) + scale)
             if np.all(abs(left) <= BALANCED * terms):
                 return state
             break
