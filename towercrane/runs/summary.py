@@ -10,6 +10,8 @@ import numpy as np
 from towercrane.cases.assumptions import idle_in_file, left_out
 from towercrane.cranes.kind import Natural
 from towercrane.cranes.registry import KINDS
+from towercrane.runs.extremes import extremes_of
+from towercrane.runs.loads import loads_of
 from towercrane.runs.vibration import vibration
 from towercrane.simulation.arguments import TIGHTEST
 from towercrane.simulation.energy_balance import NOT_CONSERVED
@@ -42,7 +44,8 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
     -------
     dict
         ``outcome``, ``end_time_s``, ``peaks`` per variable (maximum, maximum_time_s, minimum, minimum_time_s,
-        units) among the looks ``look_step_s`` apart from ``evaluated_from_s`` on, when turbulence has risen,
+        units) between the looks ``look_step_s`` apart from ``evaluated_from_s`` on, when turbulence has risen,
+        ``loads`` (see :func:`towercrane.runs.loads.loads_of`),
         ``spectrum_peaks_hz`` of the structure (of its free vibration where that is long enough) at frequencies of
         the crane, ``spectrum_other_hz`` (at none of them), ``spectrum_to_hz`` (None without a spectrum),
         ``spectrum_beyond_hz`` (natural frequencies out of its sight), ``swing_period_s`` after the drives have
@@ -52,7 +55,7 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
         ``wall_seconds``; ``accuracy`` where the case asks for an error, see
         :func:`towercrane.accuracy.promise.promise`.
     """
-    attributes = run.attrs
+    attributes, found = run.attrs, extremes_of(run)
     free = _after_the_drives(run)
     natural = _natural(case, run, float(attributes["end_time"]))
     frequencies = natural.frequencies
@@ -71,7 +74,17 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
         "output_step_s": float(attributes["output_step"]),
         "look_step_s": shown.step,
         "evaluated_from_s": float(attributes["evaluated_from"]),
-        "peaks": peaks(run),
+        "peaks": {
+            name: {
+                "maximum": highest.value,
+                "maximum_time_s": highest.time,
+                "minimum": found.lowest[name].value,
+                "minimum_time_s": found.lowest[name].time,
+                "units": run[name].units,
+            }
+            for name, highest in found.highest.items()
+        },
+        "loads": loads_of(run, found),
         **shown.report(),
         "natural_frequencies_hz": frequencies,
         **({"natural_kinds": natural.kinds} if natural.kinds else {}),

@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 from towercrane.results.recording import Recording
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from towercrane.motions.motion import Motion
     from towercrane.simulation.system import Model
 
@@ -21,7 +24,10 @@ class Run(Recording):
     model : Model
     motions : dict of str to Motion
         What drove it, by channel.
+    states : ndarray, shape (times, size)
+        Those that the solver had at the looks.
     """
 
     model: Model
     motions: dict[str, Motion]
+    states: NDArray[np.float64]

@@ -159,7 +159,7 @@ def record(
         "wall_seconds": time.perf_counter() - began,
         "versions": json.dumps(versions()),
     }
-    return Run(times, quantities, provenance, looks, model=model, motions=motions)
+    return Run(times, quantities, provenance, looks, model=model, motions=motions, states=states[: len(times)])
 
 
 def _motion(motions: dict[str, Motion], channel: str) -> Motion:

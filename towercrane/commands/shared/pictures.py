@@ -20,6 +20,8 @@ def run_pictures(case: Case, run: Run) -> dict[str, Any]:
         drawn = dict(import_module(f"towercrane.report.plots.runs.{kind.pictures}").run_pictures(result))
     else:
         drawn = panels.run_pictures(result, kind.pictures)
+    # Every crane does something to its base.
+    drawn = panels.over_times(result, panels.BASE) | drawn
     if "members" not in kind.serves or kind.refusal("members", case.checked):
         return drawn
     return {**drawn, "modes.png": mode_picture(case, run.model)}

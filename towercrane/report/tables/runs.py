@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import degrees
 from typing import TYPE_CHECKING, Any
 
 from towercrane.report.tables.layout import assumed_values as _assumed
@@ -37,9 +38,10 @@ def run_tables(summary: dict[str, Any]) -> None:
             peak["units"],
         )
     console.print(table)
-    risen = summary["evaluated_from_s"]
-    after = f" from {risen:.4g} s on, when the turbulence has risen" if risen else ""
-    console.print(f"largest and smallest of values every {summary['look_step_s']:g} s{after}")
+    if risen := summary["evaluated_from_s"]:
+        console.print(f"largest and smallest from {risen:.4g} s on, when the turbulence has risen")
+    if summary["loads"]:
+        _loads(console, summary["loads"])
     for change in summary["changes"]:
         console.print(f"changed               {change}")
     period = summary["swing_period_s"]
@@ -72,6 +74,31 @@ def run_tables(summary: dict[str, Any]) -> None:
         unused = f"{by_table(summary['idle'])}: keys of the crane file that this run has no use for"
         console.print(f"unused   {unused}", markup=False)
     _assumed(console, summary["assumed"])
+
+
+KILO = {"N": "kN", "N m": "kN m"}
+
+
+def _loads(console: Console, loads: dict[str, dict[str, Any]]) -> None:
+    """Design loads, as :func:`towercrane.runs.loads.loads_of` gives them."""
+    table = _table("Loads and dynamic factors", "load", "unit", "largest", "at [s]", "static", "factor", left=2)
+    for name, load in loads.items():
+        most, static, factor = load[load["largest"]], load["static"], load["dynamic_factor"]
+        # What is nothing but rounding at rest is nothing.
+        resting = abs(static) > 1e-9 * abs(most["value"]) if static is not None else False
+        table.add_row(
+            name.replace("_", " "),
+            KILO[load["units"]],
+            f"{1e-3 * most['value']:.5g}",
+            f"{most['time_s']:.2f}",
+            "unknown" if static is None else f"{1e-3 * static if resting else 0.0:.4g}",
+            f"{factor:.4g}" if factor else "",
+        )
+    console.print(table)
+    console.print("static: at rest under the load, drives where they are at that time")
+    if tips := loads.get("overturning_moment"):
+        towards = degrees(tips[tips["largest"]]["direction_rad"])
+        console.print(f"largest overturning moment: tips towards {towards:.1f} deg from the x axis")
 
 
 def _spectrum(console: Console, summary: dict[str, Any]) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from towercrane.cranes.kind import Panel
 from towercrane.cranes.tower.modes.collars import MOST_COLLARS
 from towercrane.cranes.tower.modes.tied.bars import MOST_TIES
+from towercrane.report.plots.runs.panels import BASE
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -122,23 +123,7 @@ PICTURES: Pictures = {
             ),
         ),
     ),
-    "base.png": (
-        "Loads on the base",
-        (
-            Panel(
-                "overturning [kN m]",
-                1e-3,
-                {"base_moment_x": "about x", "base_moment_y": "about y", "overturning_moment": "resultant"},
-            ),
-            Panel("torque [kN m]", 1e-3, {"base_torque": "about the vertical"}),
-            Panel(
-                "horizontal [kN]",
-                1e-3,
-                {"base_force_x": "along x", "base_force_y": "along y", "base_shear": "resultant"},
-            ),
-            Panel("vertical [kN]", 1e-3, {"base_force_z": "up"}),
-        ),
-    ),
+    **BASE,
 }
 """Title and panels of each picture of a run in space, but for those of what only some runs have."""
 
