@@ -79,11 +79,7 @@ class Rods:
 
     def gradient(self, state, inputs, small=1e-5):
         """Derivatives of the accelerations by places and turns, for a crane at rest."""
-        columns = []
-        for way in small * np.eye(6 * len(self.free)):
-            ahead, back = (self.moved(state, sign * way.reshape(-1, 6)) for sign in (1.0, -1.0))
-            columns.append((self.accelerations(ahead, inputs) - self.accelerations(back, inputs)) / (2.0 * small))
-        return np.array(columns).T
+        return at.gradient(state, *self.parts, self.rail, inputs, self.free, small)
 
     def at_rest(self, state, inputs, loads=1):
         """Equilibrium by Newton's method, gravity put on in as many steps."""

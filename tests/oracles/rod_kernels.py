@@ -252,6 +252,31 @@ def rates(state, ends, elements, nodes, ropes, spans, hinges, lengths, rail, inp
     return energy
 
 
+@kernel()
+def gradient(state, ends, elements, nodes, ropes, spans, hinges, rail, inputs, free, small):
+    """Derivatives of the accelerations of free nodes by their places and turns."""
+    forces, lengths, out = np.zeros((len(nodes), 6)), np.zeros(len(ropes)), np.zeros_like(state)
+    moved, found = state.copy(), np.zeros((6 * len(free), 6 * len(free)))
+    for i, own in enumerate(free):
+        q0, q = state[own, TURN], vector(state, own, TURN + 1)
+        for k in range(6):
+            for sign in (1.0, -1.0):
+                if k < 3:
+                    moved[own, PLACE + k] += sign * small
+                else:
+                    # The quaternion times (1, half the turn).
+                    half = 0.5 * sign * small
+                    unit = half * (k == 3), half * (k == 4), half * (k == 5)
+                    moved[own, TURN] = q0 - dot(q, unit)
+                    push(moved, own, TURN + 1, add(cross(q, unit), unit, q0), 1.0)
+                rates(moved, ends, elements, nodes, ropes, spans, hinges, lengths, rail, inputs, forces, out)
+                moved[own] = state[own]
+                for j in range(len(free)):
+                    for m in range(6):
+                        found[6 * j + m, 6 * i + k] += sign / (2.0 * small) * out[free[j], SPEED + m]
+    return found
+
+
 @kernel(python_entry=True, allocates=True)
 def march(state, ends, elements, nodes, ropes, spans, hinges, rail, inputs, step):
     """Steps of the classical Runge-Kutta method, in place; ``inputs`` (2 steps + 1, 5) at steps and half-way."""
