@@ -24,7 +24,11 @@ class Unstable(ArithmeticError):
     """No stable equilibrium was found."""
 
 
-def stable_equilibrium(residual: Callable[[Floats], Floats], scale: Floats) -> Floats:
+def stable_equilibrium(
+    residual: Callable[[Floats], Floats],
+    scale: Floats,
+    contact: Callable[[Floats], tuple[Floats, Floats]] | None = None,
+) -> Floats:
     """Coordinates at which the forces vanish and any small displacement is resisted.
 
     Parameters
@@ -33,6 +37,9 @@ def stable_equilibrium(residual: Callable[[Floats], Floats], scale: Floats) -> F
         Generalised forces at coordinates; both of shape (n, p), a column for each of p places.
     scale : ndarray, shape (n,)
         Size of each coordinate that belongs to about a metre or a radian.
+    contact : callable, optional
+        Forces besides, shape (n,), of springs that are met at a way, and their stiffness, shape (n, n), at
+        coordinates of shape (n,): their corners are no place for differences.
 
     Returns
     -------
@@ -52,10 +59,13 @@ def stable_equilibrium(residual: Callable[[Floats], Floats], scale: Floats) -> F
     before = np.inf
     for _ in range(MOST_STEPS):
         forces = residual(q[:, None] + around)
-        tangent = (forces[:, :n] - forces[:, n:-1]) / (2e-5 * scale)
+        tangent, force = (forces[:, :n] - forces[:, n:-1]) / (2e-5 * scale), forces[:, -1]
+        if contact is not None:
+            pushed, held = contact(q)
+            tangent, force = tangent + held, force + pushed
         if np.linalg.eigvalsh(tangent + tangent.T).min() <= 0.0:
             raise Unstable("the stiffness is not positive definite")
-        change = np.linalg.solve(tangent, forces[:, -1])
+        change = np.linalg.solve(tangent, force)
         q = q + change
         size = float(np.max(abs(change) / scale))
         # Where a soft member holds a stiff crane, rounding ends the quadratic convergence earlier.

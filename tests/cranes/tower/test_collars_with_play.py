@@ -113,13 +113,33 @@ def test_a_floor_that_moves_farther_than_its_play_pushes_by_the_rest():
     for number, k, gap in zip((1, 2), STIFF, (4e-3, 8e-3), strict=True):
         row = exact.nodes[number, 0] @ exact.shapes
         gives = float(row / exact.omega**2 @ row)
-        for way in (0.5 * gap, gap + 1e-4):
+        for way in (0.5 * gap, gap + 1e-6, gap + 1e-4):
             moved = inputs.copy()
             moved[4 + 2 * number : 6 + 2 * number, 0] = 0.6 * way, -0.8 * way
             q = model.equilibrium(moved)
             force = max(way - gap, 0.0) / (1.0 / k + gives)
             bent = [q[model.parts[part]] @ model.crane.tower(HEIGHTS[number - 1]) for part in ("tower_x", "tower_y")]
             assert_allclose(bent, force * gives * np.array([0.6, -0.8]), rtol=1e-8, atol=1e-16)
+
+
+def test_a_tower_finds_its_rest_among_collars_however_they_stand():
+    """Corners of the forces lie within the steps of differences, and Newton's steps pass several."""
+    model = space.model(2, 1, 0, 0, load=Load(HUNG), crane=loose(1e-5, 5e-3), ground=True, floors=2)
+    rng, pressed, n = np.random.default_rng(9), [], model.coordinates
+    for _ in range(60):
+        inputs = np.zeros((10, 3))
+        inputs[:3, 0] = rng.uniform(0.0, 40.0), ROPE, rng.uniform(0.0, 6.0)
+        inputs[6:, 0] = 10.0 ** rng.uniform(-6, -2) * rng.normal(size=4)
+        q = model.equilibrium(inputs)
+        forces, stiffness = model.contact(q, inputs)
+        left = model.static_forces(q[:, None], inputs)[:, 0] + forces
+        assert np.max(abs(left)) < 1e-9 * np.max(abs(forces))
+        pressed.append(np.linalg.matrix_rank(stiffness))
+        step = 1e-9 * rng.normal(size=n)
+        change = model.contact(q - step, inputs)[0] - model.contact(q + step, inputs)[0]
+        assert np.max(abs(change - 2.0 * stiffness @ step)) < 1e-3 * np.max(abs(change))
+    # Each collar that is met resists in two directions.
+    assert {2, 4} == set(pressed)
 
 
 @pytest.mark.parametrize("height", HEIGHTS)

@@ -11,7 +11,7 @@ import numpy as np
 from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.parts.corner import Corners
 from towercrane.cranes.tower.equations import motion
-from towercrane.cranes.tower.equations.actions.collars import corners_of, names_of
+from towercrane.cranes.tower.equations.actions.collars import corners_of, names_of, pressed_at_rest
 from towercrane.cranes.tower.equations.actions.wind import winds_of
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TURN, Constants, constants_of
 from towercrane.cranes.tower.equations.coordinates import Coordinates
@@ -20,6 +20,7 @@ from towercrane.cranes.tower.equations.matrices import geometric_stiffness, scal
 from towercrane.cranes.tower.equations.play import contact_stiffness
 from towercrane.cranes.tower.equations.structure import static_force, structure
 from towercrane.kernels.payload import SLACK, Load, State, Structure
+from towercrane.kernels.straight.leaves import numbers_of
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB
@@ -187,7 +188,7 @@ class Equations(Coordinates):
             return forces(origin[:, None] + departures, held)
 
         try:
-            return origin + stable_equilibrium(residual, self.system.scale[:n])
+            return origin + stable_equilibrium(residual, self.system.scale[:n], self._contact(origin, inputs))
         except Unstable as failure:
             raise self.gives_way(f"{failure}; ") from failure
 
@@ -198,8 +199,24 @@ class Equations(Coordinates):
             origin[self.parts["slewing"]] = inputs[SLEWING, 0]
         return origin
 
+    def contact(self, q: Floats, inputs: Floats) -> tuple[Floats, Floats]:
+        """Forces of collars with play on the crane at rest, and their stiffness there.
+
+        Parameters
+        ----------
+        q : ndarray, shape (coordinates,)
+        inputs : ndarray
+            Polynomials of a phase, whose values count.
+        """
+        return pressed_at_rest(self.constants, q, [(value, 0.0, 0.0) for value in inputs[:, 0].tolist()])
+
+    def _contact(self, origin: Floats, inputs: Floats) -> Callable[[Floats], tuple[Floats, Floats]] | None:
+        """The same by departures from an origin; None without such collars."""
+        return None if self.constants.play is None else lambda departures: self.contact(origin + departures, inputs)
+
     def static_forces(self, q: Floats, inputs: Floats) -> Floats:
-        """Generalised forces on the crane at rest with its load hanging at rest; shapes (coordinates, p)."""
+        """Generalised forces on the crane at rest with its load hanging at rest, but for those of collars with play;
+        shapes (coordinates, p)."""
         return self._forces_at_rest(q, np.ascontiguousarray(inputs[:, :1]))
 
     @cached_property
@@ -207,8 +224,9 @@ class Equations(Coordinates):
         return self._written_at_rest(static_force)
 
     def _written_at_rest(self, forces: Callable[..., Any]) -> Callable[[Floats, Floats], Floats]:
-        numbers, shape = self.system.numbers, (len(self.channels), 1)
-        code = written(forces, self.constants, [numbers], self.coordinates, shape)
+        constants, shape = replace(self.constants, play=None), (len(self.channels), 1)
+        numbers = numbers_of(constants)
+        code = written(forces, constants, [numbers], self.coordinates, shape)
         return code.values(numbers, self.constants.shapes)
 
     def gives_way(self, why: str = "") -> NoEquilibrium:

@@ -81,7 +81,7 @@ def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None
         stiffness[:n, :n] = model.constants.stiffness
     elif n:
         slope, _ = jacobian(lambda q: -model.static_forces(q, inputs), about, model.system.scale[:n])
-        stiffness[:n, :n] = 0.5 * (slope + slope.T)
+        stiffness[:n, :n] = 0.5 * (slope + slope.T) + model.contact(about, inputs)[1]
     stiffness[n:, n:] = load * model.crane.gravity / model.rope_at_rest(there, inputs) * np.eye(sways)
     return mass, stiffness
 

@@ -15,9 +15,13 @@ from towercrane.kernels.algebra import dot
 from towercrane.kernels.choices import below, choose
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from towercrane.cranes.tower.equations.constants import Constants, Drives
     from towercrane.cranes.tower.equations.play import Play
     from towercrane.kernels.algebra import Row
+
+    Floats = NDArray[np.float64]
 
 
 class Met(NamedTuple):
@@ -61,6 +65,27 @@ def held_back(crane: Constants, drives: Drives, met: list[Met]) -> tuple[list[An
             for place, bend in zip(crane.part(kind), crane.play.bends[k], strict=False):
                 forces[place] = forces[place] - bend * force
     return forces, power
+
+
+def pressed_at_rest(crane: Constants, q: Floats, drives: Drives) -> tuple[Floats, Floats]:
+    """Forces of collars with play on coordinates at rest, shape (n,), and their stiffness, shape (n, n).
+
+    Along the way of the tower a collar has its spring, across it what the turning of its force gives.
+    """
+    met = meet(crane, q.tolist(), drives)
+    stiffness = np.zeros((len(q), len(q)))
+    for k, own in enumerate(met):
+        if crane.play is None or own.beyond <= 0.0:
+            continue
+        along = np.array(own.force) / np.hypot(*own.force)
+        turned = own.beyond / (own.beyond + crane.play.gaps[k])
+        spring = crane.play.stiffness[k] * (turned * np.eye(2) + (1.0 - turned) * np.outer(along, along))
+        bends = np.zeros((2, len(q)))
+        for row, kind in zip(bends, ("tower_x", "tower_y"), strict=True):
+            part = crane.part(kind)
+            row[part.start : part.stop] = crane.play.bends[k][: len(part)]
+        stiffness += bends.T @ spring @ bends
+    return np.array(held_back(crane, drives, met)[0], dtype=float), stiffness
 
 
 def sides(beyond: list[Any]) -> list[Any]:
