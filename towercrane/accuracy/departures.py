@@ -16,6 +16,7 @@ import numpy as np
 from towercrane.accuracy.path import Path
 from towercrane.accuracy.readings import ROUNDING, components, held, readings
 from towercrane.cranes.parts.coupling import coupling_torque
+from towercrane.cranes.tower.equations.coordinates import UPRIGHT
 from towercrane.cranes.tower.equations.matrices import geometric_stiffness
 from towercrane.cranes.tower.equations.small_motions import linear_matrices
 from towercrane.simulation.outcomes import TOWER_BUCKLED
@@ -207,7 +208,7 @@ class Departures:
     def _in_plane(self) -> NDArray[np.bool_]:
         """Which coordinates move in the jib's plane."""
         found = np.zeros(len(self.all), dtype=bool)
-        for kind in ("tower_x", "jib_vertical", "counter_jib_vertical"):
+        for kind in self.model.parts.keys() & UPRIGHT:
             found[self.model.parts[kind]] = True
         found[self.model.coordinates] = True
         return found

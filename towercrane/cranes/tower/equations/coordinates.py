@@ -28,6 +28,12 @@ if TYPE_CHECKING:
 ANGLES = "slewing", "luffing"
 """Kinds of coordinates that are no modes: of the head where a drive turns it, of a jib that pivots."""
 
+UPRIGHT = "tower_x", "jib_vertical", "counter_jib_vertical", "luffing", "tower_head", "tie"
+"""Kinds of coordinates that move in the vertical plane of a jib along x."""
+
+SIDEWAYS = "tower_y", "jib_lateral", "counter_jib_lateral", "tie_sideways"
+"""Kinds that move out of it without turning."""
+
 BOWS = {"tie": "tie_sag", "tie_sideways": "tie_bow"}
 """Kinds of coordinates that are the bows of ties [m], down and to the left, and their names."""
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.tower.equations.actions.collars import meet
+from towercrane.cranes.tower.equations.coordinates import SIDEWAYS, UPRIGHT
 from towercrane.simulation.differences import jacobian
 
 if TYPE_CHECKING:
@@ -226,10 +227,8 @@ def _head_frame(model: Equations, heading: float) -> Floats:
 def _rows(model: Equations) -> dict[str, list[int]]:
     n = model.coordinates
     at = {kind: list(range(*rows.indices(n))) for kind, rows in model.parts.items()}
-    upright = "tower_x", "jib_vertical", "counter_jib_vertical", "luffing", "tower_head", "tie"
-    sideways = "tower_y", "jib_lateral", "counter_jib_lateral", "tie_sideways"
     groups = (
-        *([row for kind in kinds for row in at.get(kind, [])] for kinds in (upright, sideways)),
+        *([row for kind in kinds for row in at.get(kind, [])] for kinds in (UPRIGHT, SIDEWAYS)),
         at["torsion"] + at["slewing"],
         [n],
         [n + 1],
