@@ -7,7 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 from oracles.jets import Jet
 from oracles.space_points import CraneCloud
+from samples import lab_crane
 from samples import space_crane as space
+from samples.qtz5613 import in_plane
 from scipy.linalg import expm
 
 from towercrane.cases.case import load_case
@@ -20,6 +22,7 @@ from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import Motion, phases, rest
 from towercrane.motions.profiles import trapezoid
 from towercrane.runs.run import run_case
+from towercrane.simulation.integrate import integrate
 from towercrane.simulation.simulate import simulate
 from towercrane.simulation.starts.begin import begin
 from towercrane.simulation.starts.start import Start
@@ -211,3 +214,47 @@ def test_a_state_that_moves_is_no_equilibrium_and_its_slope_is_told():
     moving = linearise(model, motions_of(case), time=20.0, state=linear.point.full_state, outputs=[])
     assert not moving.at_equilibrium
     assert_allclose(moving.point.inputs[:3], [float(motions_of(case)[f"wind_{axis}"](20.0)) for axis in "xyz"])
+
+
+# --- every kind that a wind blows on -------------------------------------------------------------------
+
+DAMPED = {name: 40.0 * value for name, value in vars(lab_crane.BASIC).items() if name.startswith("damping")}
+BLOWN = {
+    "plane": (lambda: in_plane(space.CRANE, LOAD, 2, 2, areas=AREAS), ("trolley", "rope")),
+    "driven": (lambda: windy(slewing=DRIVE, drive_inertia=2e5), ("trolley", "rope", "shaft")),
+    "basic": (lambda: lumped_in_wind("basic"), ("shaft", "rope")),
+    "multi-mass": (lambda: lumped_in_wind("multi-mass"), ("shaft", "rope")),
+}
+
+
+def lumped_in_wind(kind, **changes):
+    drags = {f"drag_{place}": 3.0 for place in ("tower_top", "jib_tip", "counterweight")}
+    crane = lab_crane.crane(kind, friction_law="none", **drags, **changes)
+    return dataclasses.replace(crane, wind=1, load=Load(50.5, rope_damping=160.0, drag_area=0.5))
+
+
+@pytest.mark.parametrize("kind", BLOWN)
+def test_nothing_moves_at_the_start_in_the_wind(kind):
+    make, drives = BLOWN[kind]
+    model = make()
+    places = {"trolley": 31.0, "rope": 9.0 if "trolley" in drives else 2.0}
+    velocity = VELOCITY * [1.0, kind != "plane", 1.0] * (1.0 if "trolley" in drives else 0.4)
+    motions = {name: rest(places.get(name, 0.7 if "slewing" in drives else 0.0)) for name in drives} | steady(
+        velocity
+    )
+    cut = phases(tuple(motions[channel] for channel in model.channels), 1.0)
+    still, blown = (begun(model, motions | air) for air in (steady([0.0, 0.0, 0.0]), {}))
+    slope, weight = (model.system.slope(0.0, state, cut.inputs[0])[0][:-1] for state in (blown, still))
+    assert np.max(abs(slope)) < 1e-10 * np.max(abs(weight))
+
+
+def test_a_damped_crane_comes_to_rest_where_it_would_begin():
+    drive = {"drive_soft_stiffness": 2e3, "drive_stiff_stiffness": 4e3, "drive_damping": 1500.0}
+    model = lumped_in_wind("basic", **DAMPED, **drive)
+    motions = {"shaft": rest(0.0), "rope": rest(2.0)} | steady([3.0, -5.0, 1.0])
+    cut = phases(tuple(motions[channel] for channel in model.channels), 90.0)
+    fallen = begun(model, motions, start=Start("zero"))
+    end = integrate(model.system, cut, fallen, np.array([90.0]), rtol=1e-9, atol=1e-13).end_state
+    wanted = begun(model, motions)
+    assert np.max(abs(wanted - fallen)[:-1]) > 0.01
+    assert_allclose(end[:-1], wanted[:-1], rtol=0, atol=1e-10)
