@@ -5,18 +5,26 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from samples import jointed_jib
+from samples.qtz5613 import CRANE, in_plane
 
-from towercrane import load_case
+from towercrane import Load, load_case
 from towercrane.cases.models import model_of, motions_of, start_of
-from towercrane.motions.motion import phases
+from towercrane.linear.linearise import linearise
+from towercrane.motions.motion import phases, rest
+from towercrane.motions.profiles import trapezoid
 from towercrane.results import files
 from towercrane.results.files import load, save
 from towercrane.runs.run import record_case
 from towercrane.runs.variants import Variants
 from towercrane.schema.faults import CaseError
 from towercrane.simulation.integrate import integrate
+from towercrane.simulation.outcomes import SLACK_ROPE
 from towercrane.simulation.simulate import record
+from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.end import end_of, other_side
 from towercrane.simulation.starts.start import Start
+from towercrane.simulation.system import NoEquilibrium
 
 FEW = ["model.tower_modes=1", "model.jib_vertical_modes=1"]
 TIGHT = ["solver.rtol=1e-10", "solver.atol=1e-12"]
@@ -135,3 +143,21 @@ def test_a_crane_may_be_renamed_and_its_load_changed(ended):
     run = record_case(case)
     assert run.attrs["outcome"] == "finished"
     assert run["hoist_rope_force"].values[0] == pytest.approx(900 * 9.81, rel=0.02)
+
+
+def test_a_trolley_between_two_sections_goes_on_where_it_came_from_alone():
+    model = jointed_jib.model(True)
+    joint = float(model.constants.sections[2])
+    out = {"trolley": trapezoid(joint - 0.3, joint, 0.5, 0.5), "rope": rest(9.0)}
+    end = end_of(model, out, 2.0)
+    for onward, other in ((rest(joint), True), (trapezoid(joint, joint - 0.2, 0.5, 0.5), False)):
+        assert other_side(end, model, {**out, "trolley": onward}) is other
+
+
+def test_linear_models_are_of_no_state_in_which_a_run_would_end():
+    model = in_plane(CRANE, Load(800.0), 1, 1)
+    motions = {"trolley": rest(20.0), "rope": rest(12.0)}
+    inputs = phases(tuple(motions.values()), 1.0).inputs[0]
+    with pytest.raises(NoEquilibrium) as caught:
+        linearise(model, motions, state=begin(model, inputs, Start(along=2.0)), outputs=[])
+    assert caught.value.outcome == SLACK_ROPE

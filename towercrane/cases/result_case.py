@@ -13,7 +13,7 @@ from towercrane.schema.faults import CaseError, Fault
 from towercrane.schema.provenance import split_provenance
 from towercrane.schema.text import leaves
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
-from towercrane.simulation.starts.end import leaps, other_states
+from towercrane.simulation.starts.end import leaps, other_side, other_states
 from towercrane.simulation.starts.start import Start
 
 if TYPE_CHECKING:
@@ -72,6 +72,10 @@ def saved_start(case: Case, model: Model | None, motions: Mapping[str, Motion] |
     if off := [f"{name} at {was}, not {now}" for name, was, now in leaps(end, model, motions)]:
         raise refuse(
             f"motions that begin as {named} ends", ", ".join(off), "a motion's start, start_speed, rope.length"
+        )
+    if other_side(end, model, motions):
+        raise refuse(
+            "a trolley that is on one section of its jib", "one that stands where two meet", "move it a little"
         )
     return Start(saved=tuple(state), time=float(end["time"]))
 

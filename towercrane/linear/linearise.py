@@ -11,7 +11,7 @@ from towercrane.linear.statespace import RATE, OperatingPoint, Signal, StateSpac
 from towercrane.motions.motion import Motion
 from towercrane.simulation.differences import jacobian
 from towercrane.simulation.starts.begin import begin
-from towercrane.simulation.system import start_inputs
+from towercrane.simulation.system import NoEquilibrium, start_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -77,7 +77,7 @@ def linearise(
     Raises
     ------
     NoEquilibrium
-        If there is none to start from.
+        If there is none to start from, or a run would end at once in the state.
     ValueError
         If an argument does not fit the model.
     """
@@ -96,6 +96,7 @@ def linearise(
     elif np.shape(state) != (model.system.size,):
         raise ValueError(f"state: wanted shape ({model.system.size},), got {np.shape(state)}")
     state = np.array(state, dtype=float)
+    _check_state(model, state, drives)
     chart = Chart.about(model, state, drives, turning)
     alone = state[None], drives[None]
     quantities = _observed(model, *alone, *_slopes(model, *alone))
@@ -162,6 +163,15 @@ def _kinked(model: Model, name: str, quantities: Mapping[str, Quantity]) -> bool
     own = quantities[name]
     sizes = (float(abs(other.values).max()) for other in quantities.values() if other.units == own.units)
     return float(abs(own.values).max()) < AT_REST * max(sizes)
+
+
+def _check_state(model: Model, state: Floats, drives: Floats) -> None:
+    """Refuse a state in which a run would end at once: a rope that is slack, a trolley off its jib."""
+    guards = model.system.slope(0.0, state, _polynomials(drives))[1]
+    if len(fallen := np.flatnonzero(guards < model.system.floors)):
+        raise NoEquilibrium(
+            model.system.guards[fallen[0]], "small motions about such a state are of no crane that goes on"
+        )
 
 
 def _steady(model: Model, drives: Floats, size: int) -> Floats:

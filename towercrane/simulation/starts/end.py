@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.motions.motion import phases
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
@@ -23,12 +25,14 @@ def end_of(model: Model, motions: Mapping[str, Motion], time: float) -> dict[str
     -------
     dict
         ``coordinates`` by name, ``basis`` (numbers that tell modes from those of another crane or of other signs),
-        ``drives``: value and rate of each [m or rad, and per s], by channel.
+        ``drives``: value and rate of each [m or rad, and per s], by channel; ``between``: what crossings have told
+        its last phase, as on which side of a joint the trolley is.
     """
     by_value = getattr(model, "value_channels", ())
     drives = [channel for channel in model.channels if channel not in by_value]
     return _described(model) | {
-        "drives": {name: [float(motions[name](time, order)) for order in range(2)] for name in drives}
+        "drives": {name: [float(motions[name](time, order)) for order in range(2)] for name in drives},
+        "between": _between(model, motions, time, -1),
     }
 
 
@@ -44,6 +48,12 @@ def other_states(end: Mapping[str, Any], model: Model) -> str:
     return ""
 
 
+def other_side(end: Mapping[str, Any], model: Model, motions: Mapping[str, Motion]) -> bool:
+    """Whether a run would begin on another side of a joint than that on which one ended."""
+    all_of_them = max(motions[channel].duration for channel in model.channels) + 1.0
+    return bool(end["between"] != _between(model, motions, all_of_them, 0))
+
+
 def leaps(end: Mapping[str, Any], model: Model, motions: Mapping[str, Motion]) -> Iterator[tuple[str, str, str]]:
     """Drives that begin elsewhere, or at another speed, than a run ended: name, where that was, where this is."""
     for channel, (value, rate) in end["drives"].items():
@@ -54,6 +64,15 @@ def leaps(end: Mapping[str, Any], model: Model, motions: Mapping[str, Motion]) -
         for was, now, per in zip((value, rate), begins, (unit, f"{unit}/s"), strict=True):
             if abs(was - now) > SAME * max(1.0, abs(was)):
                 yield channel, f"{was:.9g} {per}", f"{now:.9g} {per}"
+
+
+def _between(model: Model, motions: Mapping[str, Motion], duration: float, phase: int) -> list[Any]:
+    """What crossings add to the inputs of a phase of motions that go on for so long [s]."""
+    crossings = model.system.crossings
+    if crossings is None or not duration > 0.0:
+        return []
+    cut = crossings.cut(phases(tuple(motions[channel] for channel in model.channels), duration))
+    return list(cut.inputs[phase, len(model.channels) :].tolist())
 
 
 def _described(model: Model) -> dict[str, Any]:
