@@ -67,10 +67,10 @@ def test_the_change_by_more_modes_bounds_that_by_still_more(mapped):
 
 def test_a_load_with_which_the_crane_does_not_stand_has_an_outcome_and_no_numbers(mapped):
     crane, richer, data = mapped
-    heavy = 30000.0 if "ties" in crane.members else 90000.0
+    # Beyond its last tie the load lifts the jib between them.
+    heavy, outcome = (8000.0, "slack tie bar") if "ties" in crane.members else (90000.0, "no stable equilibrium")
     found = model_map(crane, richer, data.position.values, [1000.0, heavy], modes=3)
-    assert found.outcome.values.tolist()[0] == "finished"
-    assert found.outcome.values[1] in ("slack tie bar", "no stable equilibrium", "tower buckled")
+    assert found.outcome.values.tolist() == ["finished", outcome]
     assert found.attrs["outcome"] == found.outcome.values[1]
     assert np.isfinite(found.frequency[0]).all()
     assert np.isnan(found.frequency[1]).all()

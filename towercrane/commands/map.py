@@ -20,7 +20,7 @@ from towercrane.commands.shared.terminal import (
     say,
     with_bar,
 )
-from towercrane.simulation.outcomes import FINISHED
+from towercrane.simulation.outcomes import FINISHED, TOWER_BUCKLED
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -116,8 +116,9 @@ def frequency_map(
     if report["outcome"] != FINISHED:
         for row in report["payloads"]:
             if row["outcome"] != FINISHED:
-                factor = f"{row['buckling_factor']:.4g} times the weights"
-                say(f"load {row['payload_kg']:g} kg: {row['outcome']} at {factor}")
+                factor = f" at {row['buckling_factor']:.4g} times the weights"
+                ends = factor if row["outcome"] == TOWER_BUCKLED else ""
+                say(f"load {row['payload_kg']:g} kg: {row['outcome']}{ends}")
         raise typer.Exit(ENDED_EARLY)
 
 
