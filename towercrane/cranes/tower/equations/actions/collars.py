@@ -48,7 +48,9 @@ def meet(crane: Constants, coordinates: Row, drives: Drives) -> list[Met]:
         pressed = below(gap, way)
         depth = choose(pressed, way - gap, 0.0)
         share = stiffness * depth / choose(pressed, way, gap)
-        found.append(Met((share * x, share * y), way - gap, 0.5 * stiffness * (depth * depth)))
+        # No force is a plain zero, whatever side the tower is on.
+        force = choose(pressed, share * x, 0.0), choose(pressed, share * y, 0.0)
+        found.append(Met(force, way - gap, 0.5 * stiffness * (depth * depth)))
     return found
 
 
