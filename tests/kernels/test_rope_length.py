@@ -126,7 +126,6 @@ def test_every_method_keeps_the_rope_s_length_between_its_steps_too(method):
 @pytest.mark.parametrize(
     "name",
     [
-        "slewing/basic/example-1",
         "slewing/enhanced/example-1",
         "slewing/multi-mass/example-1",
         "jib-crane/plan",

@@ -42,14 +42,18 @@ def test_states_are_named_and_minimal(kind):
     names = [signal.name for signal in linear.states]
     structural = list(model.state_names)
     assert names[: len(structural)] == structural
-    assert len(names) == 2 * (model.rope + 2 + 2)  # coordinates, two sways, two drives, and their rates
+    assert len(names) == 2 * (model.freedoms + 2)  # coordinates, the load's, two drives, and their rates
     assert [signal.name for signal in linear.outputs] == ["sway_radial", "drive_torque"]
 
 
 def test_sways_along_fixed_axes_have_their_names():
     for turning, sways in ((None, ("sway_x", "sway_y")), ("platform_angle", ("sway_outward", "sway_sideways"))):
-        linear = linearise(crane("basic"), STILL, turning=turning, outputs=[])
+        linear = linearise(crane("enhanced"), STILL, turning=turning, outputs=[])
         assert tuple(s.name for s in linear.states if "sway" in s.name and "rate" not in s.name) == sways
+    for turning, places in ((None, "xy"), ("platform_angle", ("outward", "sideways"))):
+        linear = linearise(crane("basic"), STILL, turning=turning, outputs=[])
+        names = [s.name for s in linear.states if s.name.startswith("load_") and "rate" not in s.name]
+        assert names == [f"load_{place}" for place in (*places, *("z" if turning is None else ("up",)))]
 
 
 def test_small_motion_of_the_full_model_has_the_linear_frequency():

@@ -1,6 +1,7 @@
 """The laboratory crane of the tests, without a case file; what no source prints is assumed."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -67,7 +68,11 @@ BASIC = SimpleNamespace(
     }
 )
 LOAD = Load(50.5, drag_area=2 * 0.08 / AIR_DENSITY)
-BUILDERS = {"multi-mass": slewing.multi_mass, "enhanced": slewing.enhanced, "basic": slewing.basic}
+BUILDERS = {
+    "multi-mass": slewing.multi_mass,
+    "enhanced": slewing.enhanced,
+    "basic": partial(slewing.basic, rope_length=2.0),
+}
 PARAMETERS = {"multi-mass": MULTI_MASS, "enhanced": ENHANCED, "basic": BASIC}
 
 

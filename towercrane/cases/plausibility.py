@@ -7,6 +7,7 @@ from math import pi
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cases.kinds import known_leaves
+from towercrane.cranes.parts.load import check_rope, stretched
 from towercrane.cranes.registry import KINDS
 from towercrane.schema.faults import Fault, did_you_mean, shown
 from towercrane.schema.ranges import (
@@ -151,6 +152,11 @@ RANGES = (
     Range("payload.drag", "N s^2/m^2", 1e-5, 1e3, ("g/m",)),
     Range("map.payload_masses*", "kg", 1, 1e6, ("t", "g")),
     Range("rope.length", "m", 0.1, 1000, LENGTHS),
+    Range("rope.stiffness", "N", 1e3, 1e12, ("MN", "kN")),
+    Range("rope.axial_stiffness", "N", 1e3, 1e12, ("MN", "kN")),
+    Range("rope.extra_length", "m", 1e-3, 1000, LENGTHS),
+    Range("rope.relaxation_time", "s", 1e-7, 1.0, ("ms",)),
+    Range("rope.damping_ratio", "1", 1e-5, 2.0, ("%",)),
     Range("motion.*.speed", "m/s", 1e-3, FASTEST, ("m/min", "mm/s", "km/h"), signed=True),
     Range("motion.*_speed", "m/s", 1e-3, FASTEST, ("m/min", "mm/s", "km/h"), signed=True),
     Range("motion.*.acceleration", "m/s^2", 1e-4, 20, ("cm/s^2", "mm/s^2")),
@@ -209,7 +215,7 @@ def check_values(tree: dict[str, Any], kind: str) -> Iterator[Fault]:
     """Values that do not fit each other, motions and towers apart."""
     yield from _check_from(tree)
     yield from _check_sways(tree, *KINDS[kind].sways)
-    for check in (_check_output, _check_elements, _check_drag, _check_friction, _check_method):
+    for check in (_check_output, _check_elements, _check_drag, _check_friction, _check_method, check_rope):
         yield from check(tree)
 
 
@@ -247,7 +253,7 @@ def _check_sways(tree: dict[str, Any], first: str, second: str) -> Iterator[Faul
 
 def _check_method(tree: dict[str, Any]) -> Iterator[Fault]:
     """A solver that is none, that cannot follow friction from sticking to slipping, or that feeds vibration."""
-    law, name = at(tree, "crane.friction.law"), at(tree, "solver.method")
+    law, name, stretches = at(tree, "crane.friction.law"), at(tree, "solver.method"), stretched(tree)
     if not isinstance(name, str):
         return
     if (method := METHODS.get(name)) is None:
@@ -258,6 +264,10 @@ def _check_method(tree: dict[str, Any]) -> Iterator[Fault]:
         able = " or ".join(shown(own.name) for own in METHODS.values() if own.follows_switches)
         hint = 'friction that sticks and slips switches equations; "tanh" friction needs no switching'
         yield Fault("", "solver.method", f"{able} with stick-slip friction", shown(name), hint)
+    elif stretches and not method.follows_switches:
+        able = " or ".join(shown(own.name) for own in METHODS.values() if own.follows_switches)
+        hint = "a rope that slackens and is caught switches equations"
+        yield Fault("", "solver.method", f"{able} with an elastic rope", shown(name), hint)
     rtol, atol = si_at(tree, "solver.rtol", "1", 1e-8), si_at(tree, "solver.atol", "1", 1e-10)
     if rtol and atol and (reason := method.refusal(rtol, atol)):
         yield Fault("", "solver.rtol", f"tolerances at which {name} is stable", f"{rtol:g}, atol {atol:g}", reason)

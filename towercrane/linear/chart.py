@@ -2,7 +2,8 @@
 
 The rope's unit vector n and its rate p have more components than freedom. They give way to sway coordinates s on
 the plane that touches the unit sphere at the operating point: n = E s + sqrt(1 - s.s) n0 with the tangent unit
-vectors E, so s = E' n and s'' = E' p' hold without approximation, and s is the sway angle to first order.
+vectors E, so s = E' n and s'' = E' p' hold without approximation, and s is the sway angle to first order. On an
+elastic rope the state has the load's place instead, whose departures are coordinates as they are.
 """
 
 from __future__ import annotations
@@ -27,13 +28,16 @@ if TYPE_CHECKING:
 SWAY, FIXED_SWAY = ("sway_outward", "sway_sideways"), ("sway_x", "sway_y")
 """Names of the sways in axes that turn with the crane, or of one that does not turn, and in fixed ones."""
 
+PLACE, FIXED_PLACE = ("load_outward", "load_sideways", "load_up"), ("load_x", "load_y", "load_z")
+"""Names of the load's departures on an elastic rope, in the same axes."""
+
 TURNING = ("platform_angle", "slewing_angle", "slewing", "slew")
 """Coordinates and channels that are the angle of a crane's jib about the vertical."""
 
 
 @dataclass(frozen=True, eq=False)
 class Chart:
-    """Minimal state (q, s, q', s') beside a model's state (q, n, q', p, work).
+    """Minimal state (q, s, q', s') beside a model's state (q, n, q', p, work): s is sways, or a load's departure.
 
     Parameters
     ----------
@@ -42,9 +46,9 @@ class Chart:
     scale, at : ndarray, shape (size,)
         A large change of each entry, and the operating point.
     direction : ndarray, shape (axes,)
-        The rope at the operating point, seen from the turning frame if there is one.
-    basis : ndarray, shape (axes, axes - 1)
-        Its tangent unit vectors.
+        The rope, or the load's place, at the operating point, seen from the turning frame if there is one.
+    basis : ndarray, shape (axes, axes - 1) or (axes, axes)
+        Tangent unit vectors of the rope's direction; of an elastic rope the axes.
     turning : tuple, optional
         The coordinate or channel that the frame turns with, by index.
     pairs : tuple of pairs of int
@@ -58,11 +62,6 @@ class Chart:
     basis: Floats
     turning: Turning | None
     pairs: tuple[tuple[int, int], ...] = ()
-
-    @property
-    def inclination(self) -> float:
-        """Angle of the rope from the vertical at the operating point [rad]."""
-        return float(np.arctan2(np.linalg.norm(self.direction[:-1]), -self.direction[-1]))
 
     @classmethod
     def about(cls, model: Model, state: Floats, drives: Floats, turning: str | None) -> Chart:
@@ -81,18 +80,20 @@ class Chart:
             If there is no such angle, or the model's names do not fit its coordinates.
         """
         axes = int(getattr(model, "axes", 3))
-        n = (model.system.size - 1) // 2 - axes
+        n, free = (model.system.size - 1) // 2 - axes, axes - 1 if model.system.rope is None else axes
+        fixed, own = (FIXED_SWAY, SWAY) if free < axes else (FIXED_PLACE, PLACE)
         named: dict[str, str] = dict(getattr(model, "state_names", {f"coordinate_{i + 1}": "" for i in range(n)}))
         if len(named) == n:
             turns = turning is None and any(name in TURNING for name in (*named, *model.channels))
-            named |= dict.fromkeys((FIXED_SWAY if turns else SWAY)[: axes - 1], "rad")
-        if len(named) != n + axes - 1:
-            raise ValueError(f"state_names: wanted {n} coordinates, with sways {n + axes - 1}, got {len(named)}")
+            of_load, unit = fixed if turns else own, "rad" if free < axes else "m"
+            named |= dict.fromkeys([*of_load[: axes - 1], *of_load[2:]][:free], unit)
+        if len(named) != n + free:
+            raise ValueError(f"state_names: wanted {n} coordinates, with sways {n + free}, got {len(named)}")
         pairs: tuple[tuple[int, int], ...] = ()
         angle = None if turning is None else _find(turning, list(named)[:n], model.channels, axes)
         names = [Signal(*item) for item in named.items()]
         rates = [Signal(f"{name}{RATE}", per_second(units)) for name, units in names]
-        scale, sways = model.system.scale, np.ones(axes - 1)
+        scale, sways = model.system.scale, np.ones(free)
         scale = np.concatenate([scale[:n], sways, scale[n + axes : 2 * n + axes], sways])
         q, direction, rate, swing = map(np.array, np.split(state[:-1], [n, n + axes, 2 * n + axes]))
         if angle is not None:
@@ -103,11 +104,12 @@ class Chart:
             group = getattr(model, "turning", None) if spin else None
             pairs = tuple(pair for pair in group.vectors if max(pair) < n) if group is not None else ()
             for pair in map(list, pairs):
-                own, moved = _flat(_rotation(phi).T, q[pair]), _flat(_rotation(phi).T, rate[pair])
-                q[pair], rate[pair] = own, moved - _cross(spin, own)[:2]
-        direction = direction / np.linalg.norm(direction)
-        basis = _tangents(direction)
-        at = np.concatenate([q, np.zeros(axes - 1), rate, basis.T @ swing])
+                moved, still = _flat(_rotation(phi).T, rate[pair]), _flat(_rotation(phi).T, q[pair])
+                q[pair], rate[pair] = still, moved - _cross(spin, still)[:2]
+        if free < axes:
+            direction = direction / np.linalg.norm(direction)
+        basis = _tangents(direction) if free < axes else np.eye(axes)
+        at = np.concatenate([q, np.zeros(free), rate, basis.T @ swing])
         return cls((*names, *rates), np.where(np.isfinite(scale), scale, 1.0), at, direction, basis, angle, pairs)
 
     def full(self, minimal: Floats, drives: Floats) -> Floats:
@@ -140,8 +142,10 @@ class Chart:
 
     def _rope(self, minimal: Floats) -> tuple[Floats, Floats, Floats, Floats]:
         """Coordinates, rope, rates and rate of the rope, the rope's as the turning frame sees them."""
-        half, sways = len(minimal) // 2, len(self.direction) - 1
+        half, sways = len(minimal) // 2, self.basis.shape[1]
         q, s, rate, s_rate = np.split(minimal, [half - sways, half, 2 * half - sways])
+        if sways == len(self.direction):
+            return q, self.direction + s, rate, s_rate
         along = np.sqrt(1.0 - s @ s)
         direction = along * self.direction + self.basis @ s
         return q, direction, rate, self.basis @ s_rate - (s @ s_rate) / along * self.direction

@@ -10,7 +10,7 @@ from towercrane.linear.chart import Chart, per_second
 from towercrane.linear.statespace import RATE, OperatingPoint, Signal, StateSpace
 from towercrane.motions.motion import Motion
 from towercrane.simulation.differences import jacobian
-from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.begin import begin, rope_direction
 from towercrane.simulation.system import NoEquilibrium, start_inputs
 
 if TYPE_CHECKING:
@@ -149,7 +149,13 @@ def linearise(
         inputs=tuple(signals[k] for k in given),
         outputs=seen,
         point=OperatingPoint(
-            arguments[states], arguments[given], here[size:], slope, state, chart.inclination, steady[states]
+            arguments[states],
+            arguments[given],
+            here[size:],
+            slope,
+            state,
+            _inclination(model, chart, drives, state),
+            steady[states],
         ),
         error=float(np.max(relative[:size], initial=0.0)),
     )
@@ -180,6 +186,12 @@ def _steady(model: Model, drives: Floats, size: int) -> Floats:
     if group is not None:
         found[[*group.angles, size + group.channel]] = drives[1, group.channel]
     return found
+
+
+def _inclination(model: Model, chart: Chart, drives: Floats, state: Floats) -> float:
+    """Angle of the rope from the vertical in a state [rad]."""
+    along = chart.direction if model.system.rope is None else rope_direction(model, state, _polynomials(drives))
+    return float(np.arctan2(np.linalg.norm(along[:-1]), -along[-1]))
 
 
 def _roles(size: int, by_value: NDArray[np.bool_], inputs: str) -> tuple[list[int], list[int]]:

@@ -105,7 +105,13 @@ def _close(run: Run, start: int, names: list[str], looked: dict[str, Floats]) ->
     pieces = [_again(run, cut, first, last, switches) for first, last in zip(edges[::2], edges[1::2], strict=True)]
     times, states = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
     quantities = run.model.observe(run.motions, times, states, *evaluate(run.model.system, cut, times, states))
-    return times, {name: quantities[name].values for name in names}
+    if run.switches is None:
+        return times, {name: quantities[name].values for name in names}
+    # Where equations switch, forces may jump.
+    after = (run.switches.times >= run.times[start]) & (run.switches.times <= run.times[-1])
+    switched = {name: run.switches[name].values[after] for name in names}
+    found = {name: np.concatenate([quantities[name].values, switched[name]]) for name in names}
+    return np.concatenate([times, run.switches.times[after]]), found
 
 
 def _jumps(run: Run, cut: Phases) -> Floats:
@@ -141,7 +147,8 @@ def _promising(values: Floats) -> NDArray[np.int64]:
 def _again(run: Run, cut: Phases, first: int, last: int, switches: Floats) -> tuple[Floats, Floats]:
     """Close times between two looks, both limits of every switch among them, and the states there."""
     begin, end = run.times[first], run.times[last]
-    fastest = run.model.system.fastest() if run.model.system.fastest is not None else 0.0
+    known = run.model.system.fastest_in(cut)
+    fastest = known() if known is not None else 0.0
     count = int(np.clip((end - begin) / (last - first) * fastest / CLOSELY, LEAST, MOST))
     within = switches[(switches > begin) & (switches <= end)]
     grid = begin + (end - begin) * np.linspace(0.0, 1.0, (last - first) * count + 1)

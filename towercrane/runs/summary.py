@@ -12,11 +12,12 @@ from towercrane.cranes.kind import Natural
 from towercrane.cranes.registry import KINDS
 from towercrane.runs.extremes import extremes_of
 from towercrane.runs.loads import loads_of
+from towercrane.runs.slack import rope_notice, rope_report
 from towercrane.runs.vibration import vibration
 from towercrane.simulation.arguments import TIGHTEST
 from towercrane.simulation.energy_balance import NOT_CONSERVED
 from towercrane.simulation.methods.registry import method_of
-from towercrane.simulation.outcomes import FINISHED
+from towercrane.simulation.outcomes import FINISHED, SLACK_ROPE
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
@@ -32,6 +33,9 @@ GROWTH = 1.5
 
 LOOSE = 1e-3
 """Gap in the energy balance, relative to the change, that is named."""
+
+REMEDIES = {SLACK_ROPE: "a rope that does not stretch cannot be caught; with rope.stiffness it goes on"}
+"""What is said of outcomes that a case can avoid."""
 
 SMALL = 0.1
 """Tip deflection over length beyond which slopes are not small."""
@@ -51,6 +55,7 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
         ``spectrum_beyond_hz`` (natural frequencies out of its sight), ``swing_period_s`` after the drives have
         stopped (None without a regular swing),
         ``natural_frequencies_hz`` where the run ended, in space their ``natural_kinds``, ``energy_balance``,
+        ``rope`` of one that stretches (see :func:`towercrane.runs.slack.rope_report`),
         ``expected``, ``notices``, ``assumed``, ``idle`` (what the crane file holds for other cases), ``solver``,
         ``wall_seconds``; ``accuracy`` where the case asks for an error, see
         :func:`towercrane.accuracy.promise.promise`.
@@ -91,7 +96,7 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
         "swing_mode": natural.swing_mode,
         "energy_balance": energy_balance(run),
         "expected": expected(case, run),
-        "notices": [*notices(case, run, natural, free), *shown.unseen],
+        "notices": [*notices(case, run, natural, free), *rope_notice(run, found), *shown.unseen],
         "assumed": [{"key": key, "value": value, "why": why} for key, value, why in assumed(run)],
         "left_out": left_out(case),
         "idle": list(idle_in_file(case)),
@@ -104,6 +109,7 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
         },
         "versions": json.loads(attributes["versions"]),
         "wall_seconds": attributes["wall_seconds"],
+        **({"rope": rope} if (rope := rope_report(run)) else {}),
         **({"accuracy": promised} if (promised := accuracy(run)) else {}),
     }  # fmt: skip
 
@@ -185,7 +191,8 @@ def notices(case: Case, run: Run, natural: Natural, free: slice) -> list[str]:
     """What deserves a second look, in sentences."""
     found = []
     if run.attrs["outcome"] != FINISHED:
-        reason = f": {run.attrs['message']}" if run.attrs["message"] else ""
+        said = run.attrs["message"] or REMEDIES.get(run.attrs["outcome"], "")
+        reason = f": {said}" if said else ""
         found.append(f"ended at {run.attrs['end_time']:.6g} s: {run.attrs['outcome']}{reason}")
     if (promised := accuracy(run)) and promised["reasons"]:
         found.append(f"error asked for: {promised['outcome']}: {'; '.join(promised['reasons'])}")

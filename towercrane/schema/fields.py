@@ -177,10 +177,25 @@ class Payload(Table):
 
 
 class Rope(Table):
-    """Rope at the start, and what it does where its tension would fall below zero."""
+    """Rope at the start; whether it stretches, else what it does where its tension would fall below zero.
+
+    The stiffness is that of all falls together, force per strain; the extra length, per fall, is that between drum
+    and falls.
+    """
 
     length: Length
     slack: Literal["stop", "rod"] = "stop"
+    stiffness: AxialStiffnessIfAny = None
+    axial_stiffness: AxialStiffnessIfAny = None
+    falls: Annotated[StrictInt, Field(ge=1, le=100)] = 1
+    extra_length: Reach = 0.0
+    relaxation_time: Wait = 0.0
+    damping_ratio: Ratio = 0.0
+
+    @property
+    def stretches(self) -> bool:
+        """Whether it is said how it stretches."""
+        return bool(self.stiffness or self.axial_stiffness)
 
 
 class Run(Table):

@@ -1,7 +1,7 @@
 """Directions among the states: unit vectors with their rates, and how a solver keeps them so.
 
 A vector n with its rate p stands for a direction when |n| = 1 and n.p = 0. Errors of steps break both, and what is
-broken does not stay as it is. The equations of :func:`towercrane.kernels.payload.hang_load` make of n = N u and p = w
+broken does not stay as it is. The equations of :func:`towercrane.kernels.hanging.hang_load` make of n = N u and p = w
 + c u, with u a unit vector and w at right angles to it, N' = c and c' = |w|^2 (1 / N - 1): small errors follow
 N'' = -|w|^2 (N - 1), and |w|^2 pulses with twice the frequency of the swing. Where its mean comes near the square of
 that frequency, which is so from about 1.15 rad of swing on, they grow without bound.

@@ -106,6 +106,8 @@ def integrate(
         smallest_step=run.smallest_step,
         cpu_seconds=time.process_time() - began_cpu,
         wall_seconds=time.perf_counter() - began,
+        switch_times=np.array([time for time, _ in run.switched]),
+        switch_states=np.array([state for _, state in run.switched]).reshape(-1, system.size),
     )
 
 

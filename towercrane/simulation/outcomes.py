@@ -10,6 +10,8 @@ COLLAPSED = "step size collapsed"
 NOT_FINITE = "state not finite"
 
 SLACK_ROPE = "slack rope"
+ROPE_SLACK = "rope goes slack"
+ROPE_CAUGHT = "rope is caught"
 SLACK_TIE = "slack tie bar"
 NOT_LEVEL = "jib not level on its ties"
 TROLLEY_OFF_JIB = "trolley off the jib"

@@ -26,8 +26,11 @@ class Run(Recording):
         What drove it, by channel.
     states : ndarray, shape (times, size)
         Those that the solver had at the looks.
+    switches : Recording or None
+        The same quantities right after each switch of its equations, if there was one.
     """
 
     model: Model
     motions: dict[str, Motion]
     states: NDArray[np.float64]
+    switches: Recording | None = None

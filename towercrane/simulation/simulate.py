@@ -14,6 +14,7 @@ import numpy as np
 
 from modal.checks import check_positive
 from towercrane.motions.motion import Motion, phases
+from towercrane.results.recording import Recording
 from towercrane.results.versions import versions
 from towercrane.simulation import energy_balance
 from towercrane.simulation.arguments import check_tolerances
@@ -159,7 +160,13 @@ def record(
         "wall_seconds": time.perf_counter() - began,
         "versions": json.dumps(versions()),
     }
-    return Run(times, quantities, provenance, looks, model=model, motions=motions, states=states[: len(times)])
+    switches = None
+    if len(run.switch_times):
+        limits = evaluate(model.system, cut, run.switch_times, run.switch_states)
+        seen = model.observe(motions, run.switch_times, run.switch_states, *limits)
+        switches = Recording(run.switch_times, seen, provenance)
+    states = states[: len(times)]
+    return Run(times, quantities, provenance, looks, model=model, motions=motions, states=states, switches=switches)
 
 
 def _motion(motions: dict[str, Motion], channel: str) -> Motion:
@@ -200,4 +207,5 @@ def looks_per_row(duration: float, output_step: float) -> int:
 
 def _nothing(start: np.ndarray[Any, np.dtype[np.float64]], outcome: str) -> Trajectory:
     """Run that ended before its first step."""
-    return Trajectory(np.zeros(1), start[None], outcome, 0.0, start, 0, 0, 0, np.inf, 0.0, 0.0)
+    none = np.empty(0), np.empty((0, len(start)))
+    return Trajectory(np.zeros(1), start[None], outcome, 0.0, start, 0, 0, 0, np.inf, 0.0, 0.0, *none)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -86,6 +86,8 @@ class System:
         What a guard does instead of ending the run.
     fastest : callable, optional
         Highest angular frequency of its small motions [rad/s], if it is known.
+    rope : int, optional
+        Row of the inputs that is the length of a rope which stretches; ``fastest`` then takes the shortest [m].
     crossings : Crossings, optional
     """
 
@@ -97,7 +99,8 @@ class System:
     constants: Any = None
     directions: Integers = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))
     switch: Switch | None = None
-    fastest: Callable[[], float] | None = None
+    fastest: Callable[..., float] | None = None
+    rope: int | None = None
     crossings: Crossings | None = None
 
     @cached_property
@@ -113,6 +116,12 @@ class System:
     def place_of(self, name: str) -> int:
         """Where a number of the constants is among all."""
         return place_of(self.constants, name)
+
+    def fastest_in(self, phases: Phases) -> Callable[[], float] | None:
+        """Highest angular frequency of its small motions in phases [rad/s], if it is known."""
+        if self.fastest is None or self.rope is None:
+            return self.fastest
+        return partial(self.fastest, min(*phases.inputs[:, self.rope, 0], phases.after[self.rope, 0]))
 
     def alike(self, other: System) -> bool:
         """Whether the same equations, with other numbers, serve another system."""

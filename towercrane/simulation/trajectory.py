@@ -45,6 +45,8 @@ class Trajectory:
         Smallest step [s].
     cpu_seconds, wall_seconds : float
         Time in the solver [s].
+    switch_times, switch_states : ndarray, shapes (k,) and (k, size)
+        When equations were changed by a switch, and the states right after [s].
     """
 
     times: Floats
@@ -58,6 +60,8 @@ class Trajectory:
     smallest_step: float
     cpu_seconds: float
     wall_seconds: float
+    switch_times: Floats
+    switch_states: Floats
 
 
 class Run:
@@ -68,6 +72,7 @@ class Run:
         self.state, self.samples = state, samples
         self.time, self.smallest_step = 0.0, np.inf
         self.counts = np.zeros(5, dtype=np.int64)
+        self.switched: list[tuple[float, Floats]] = []
 
 
 def leapt(run: Run, phases: Phases, phase: int) -> Floats:

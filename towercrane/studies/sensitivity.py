@@ -185,12 +185,12 @@ def study(
         reduced={
             "rigid": leave,
             "coordinates": list(reduced_model.crane.coordinates),
-            "degrees_of_freedom": reduced_model.rope + 2,
+            "degrees_of_freedom": reduced_model.freedoms,
             "change": _change(reduced, nominal, outputs),
             "cost": reduced.attrs["evaluations"] / nominal.attrs["evaluations"],
         },
         ended=ended,
-        degrees_of_freedom=full.rope + 2,
+        degrees_of_freedom=full.freedoms,
     )
 
 
@@ -226,7 +226,7 @@ def _members(
 ) -> list[dict[str, Any]]:
     """What each member's rigidity changes, least first."""
     crane: LumpedCrane = full.crane
-    names = [spring.name for spring in crane.springs] + (["rope"] if full.elastic else [])
+    names = [spring.name for spring in crane.springs] + (["rope"] if crane.rope else [])
     found: list[dict[str, Any]] = []
     for name in names:
         rigid = dataclasses.replace(full, crane=make_rigid(crane, [name]))

@@ -36,7 +36,8 @@ def test_static_equilibrium_in_closed_form():
         assert_allclose(value, expected.get(name, 0.0), rtol=1e-12, atol=1e-15)
     assert_allclose(crane("enhanced").equilibrium(inputs())[3], expected["tower_x"], rtol=1e-12)
     basic = crane("basic").start(inputs())
-    assert_allclose(basic[[0, 4]], [-64.5 * 9.81 / 6e4, 50.5 * 9.81 / 7.5e5], rtol=1e-12)
+    sunk, stretch = 64.5 * 9.81 / 6e4, 50.5 * 9.81 / 7.5e5
+    assert_allclose(basic[[0, 6]], [-sunk, 1.8 + 0.4 - sunk - 2.0 - stretch], rtol=1e-12)
 
 
 def frequencies(model: LumpedModel, held: LumpedModel | None = None) -> np.ndarray:

@@ -233,10 +233,10 @@ def test_a_jib_held_level_at_the_tower_is_one_with_its_trolley_at_the_end():
     n = fixed.coordinates
     q, rates = (0.3 * fixed.system.scale[:n] * rng.normal(size=n) for _ in range(2))
     rope, slewing = (15.0, 0.3, -0.2), (0.7, 0.1, 0.3)
-    held = State(np.append(q, 0.0), (), (), np.append(rates, 0.0), (), ())
+    held = State(np.append(q, 0.0), (), np.append(rates, 0.0), ())
     found = luffing.structure(constants, held, [(0.0, 0.0, 0.0), rope, slewing])
     end = (crane.jib.length, 0.0, 0.0)
-    expected = structure(fixed.constants, State(q, (), (), rates, (), ()), [end, rope, slewing]).hanging
+    expected = structure(fixed.constants, State(q, (), rates, ()), [end, rope, slewing]).hanging
     mass, wanted = found.hanging.mass_matrix()[:n, :n], expected.mass_matrix()
     assert_allclose(mass, wanted, rtol=0.0, atol=1e-12 * abs(wanted).max())
     assert_allclose(found.hanging.force[:n], expected.force, rtol=1e-11, atol=1e-9)

@@ -153,7 +153,7 @@ def test_points_that_move_across_an_axis_are_the_plain_jib():
     crane, n = model.constants, model.coordinates
     rng = np.random.default_rng(2)
     q, rates = model.system.scale[:n] * rng.normal(size=(2, n))
-    state = State(list(q), (), (), list(rates), (), ())
+    state = State(list(q), (), list(rates), ())
     head, _ = head_of(crane, state, [(20.0, 0.0, 0.0), (10.0, 0.0, 0.0), (0.4, 0.3, 0.2)])
     felt = tuple(9.81 * down for down in head.rotation[6:])
     left, up = bend(crane, head, felt, state)

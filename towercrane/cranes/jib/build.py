@@ -23,4 +23,4 @@ def model_of(tables: JibCase) -> PlannedJibCrane:
     from towercrane.cranes.jib.parameters import JibCrane
 
     crane = JibCrane(**parameters_of(tables.crane))
-    return PlannedJibCrane(crane, load_of(tables.payload), rope_as_rod=tables.rope.slack == "rod")
+    return PlannedJibCrane(crane, load_of(tables.payload, tables.rope), rope_as_rod=tables.rope.slack == "rod")

@@ -3,7 +3,7 @@
 Source: Al-Ajmi, Abu-El Yazied, Abu-El-Hagag, Makady, Dynamic modeling and load sway simulation of jib cranes,
 Eq. 2 and 6-16, derived anew. Of what is printed, Eq. 2, 8, J_11, J_22 and J_33 hold; J_23 repeats J_22, D_33 has
 sin(theta_23) for the cosine, and the load's velocity w and hence A_11, A_14, A_15, A_45 carry wrong signs. The
-load is not in this file: :func:`towercrane.kernels.payload.hang_load` adds it.
+load is not in this file: :func:`towercrane.kernels.hanging.hang_load` adds it.
 
 The joint angles theta are slew about the vertical, elevation of the primary boom above the horizontal, and
 elevation of the secondary boom relative to the primary one. Axes are inertial, z up, the origin at the post's foot.
@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from towercrane.kernels.algebra import dot
-from towercrane.kernels.payload import Load, Rope, Structure, hang_load, slopes, state_of
+from towercrane.kernels.hanging import hang_load
+from towercrane.kernels.payload import Load, Rope, Structure, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
 
 if TYPE_CHECKING:
@@ -92,6 +93,7 @@ def structure(crane: JibCrane, angles: Any, rates: Any) -> Structure:
         [0.0, reach, a3 * c23],
     ]
     return Structure(
+        place=[reach * c1, reach * s1, crane.post_height + rise],
         mass=[
             [crane.post_inertia + inertia],
             [0.0, m2 * a2 * a2 / 3.0 + m3 * (a3 * a3 / 3.0 + a2 * a2 + a2 * a3 * c3)],
@@ -119,7 +121,7 @@ def planned(own: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], lis
     """
     plan, state = _planned_joints(t, inputs), state_of(y, 0, AXES)
     booms = structure(own.crane, plan.angles, plan.rates)
-    held = Structure([], [], booms.velocity, _suspension(booms, plan), [[]] * AXES)
+    held = Structure([], [], booms.place, booms.velocity, _suspension(booms, plan), [[]] * AXES)
     hung = hang_load(held, state, _rope(t, inputs), own.load, own.crane.gravity)
     torques = []
     for i in range(JOINTS):
@@ -129,7 +131,9 @@ def planned(own: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], lis
         for k in range(AXES):
             torque = torque - booms.jacobian[k][i] * hung.pull(k)
         torques.append(torque)
-    return slopes(state, hung, hung.power + dot(torques, plan.rates)), [hung.tension, *torques]
+    return slopes(state, hung, hung.power + dot(torques, plan.rates)), [
+        hung.tension, *torques, *hung.guards,
+    ]  # fmt: skip
 
 
 def driven(own: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
@@ -180,4 +184,4 @@ def _moved(own: Constants, t: Any, y: Any, inputs: Any, torques: Sequence[Any]) 
     booms = structure(own.crane, state.coordinates, state.rates)
     booms = booms._replace(force=[force + torque for force, torque in zip(booms.force, torques, strict=True)])
     hung = hang_load(booms, state, _rope(t, inputs), own.load, own.crane.gravity)
-    return slopes(state, hung, hung.power + dot(torques, state.rates)), [hung.tension, *torques]
+    return slopes(state, hung, hung.power + dot(torques, state.rates)), [hung.tension, *torques, *hung.guards]

@@ -17,20 +17,25 @@ import numpy as np
 
 from towercrane.cranes.jib import equations
 from towercrane.cranes.jib.outputs import ABOUT, Seen, driven_outputs, planned_outputs
-from towercrane.kernels.payload import SLACK
+from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
+from towercrane.cranes.parts.hoisting.on_rope import OnRope
+from towercrane.cranes.parts.points import ROPE_STRETCH
+from towercrane.kernels.payload import SLACK, Structure
+from towercrane.kernels.polynomial import polynomial
 from towercrane.simulation.observed import observe
 from towercrane.simulation.outcomes import SLACK_ROPE
 from towercrane.simulation.starts.start import OUT_OF_PLANE
 from towercrane.simulation.starts.turning import Turning
-from towercrane.simulation.system import System, check_start
+from towercrane.simulation.system import System
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from towercrane.cranes.jib.parameters import JibCrane
     from towercrane.kernels.payload import Load
+    from towercrane.simulation.observed import About
 
     Floats = NDArray[np.float64]
 
@@ -45,7 +50,7 @@ DRIVEN_ROPE = (equations.JOINTS, 2 * equations.JOINTS + equations.AXES)
 
 
 @dataclass(frozen=True, eq=False)
-class JibModel:
+class JibModel(OnRope):
     """What the models of a jib crane share.
 
     Parameters
@@ -60,9 +65,14 @@ class JibModel:
     load: Load
     rope_as_rod: bool = field(default=False, kw_only=True)
 
-    about = ABOUT
+    axes, rope = equations.AXES, 0
     observe = observe
     sways = OUT_OF_PLANE
+
+    @property
+    def about(self) -> dict[str, About]:
+        """What the outputs are."""
+        return ABOUT if self.load.elasticity is None else {**ABOUT, "rope_stretch": ROPE_STRETCH}
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -102,7 +112,7 @@ class JibModel:
         scale = np.ones(works[-1] + 1)
         reach = self.crane.primary_length + self.crane.secondary_length
         scale[list(works)] = self.load.work_scale(self.crane.gravity, reach)
-        return System(
+        system = System(
             equations=rhs,
             size=works[-1] + 1,
             guards=guards,
@@ -111,6 +121,26 @@ class JibModel:
             constants=self.constants,
             directions=np.array([(*rope, equations.AXES) for rope in ropes]),
         )
+        return on_its_rope(system, self.load, equations.ROPE, self.fastest_on, self.rope_as_rod)
+
+    def fastest_on(self, length: float) -> float:
+        """Highest angular frequency of the load on so much elastic rope, the joints on their paths [rad/s]."""
+        held = Structure([], [], [], [], [], [[]] * equations.AXES)
+        return fastest_on(np.zeros((0, 0)), held, self.load, length)
+
+    def suspended(self, state: Floats, inputs: Floats) -> Structure:
+        """The booms in a state, on the paths of their inputs."""
+        angles, rates = inputs[: equations.JOINTS, 0], inputs[: equations.JOINTS, 1]
+        return equations.structure(self.crane, angles, rates)
+
+    def below(self, _state: Floats, inputs: Floats) -> tuple[float, float, float]:
+        """Rope below the booms' end, what the winch has given of it and its rate [m, m, m/s]."""
+        length, rate, _ = polynomial(inputs[equations.ROPE], 0.0)
+        return length, length, rate
+
+    def load_at_rest(self, _inputs: Floats) -> Floats:
+        """Force on the load at rest [N]; shape (3,)."""
+        return np.array([0.0, 0.0, -self.load.mass * self.crane.gravity])
 
     def jib_heading(self, _state: Floats, inputs: Floats) -> float:
         """Slewing angle of the booms [rad]."""
@@ -165,7 +195,7 @@ class PlannedJibCrane(JibModel):
         ValueError
             If the state is not one of the two.
         """
-        return np.concatenate([hanging(state), np.zeros(equations.AXES + 1)])
+        return self.hung(np.zeros(self.system.size), inputs, state)
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,6 +221,7 @@ class DrivenJibCrane(JibModel):
     start_angles: tuple[float, float, float]
     start_rates: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
+    rope = equations.JOINTS
     outputs = staticmethod(driven_outputs)
 
     @property
@@ -215,19 +246,22 @@ class DrivenJibCrane(JibModel):
 
     def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State at the start angles with the load at rest; arguments as of :meth:`PlannedJibCrane.start`."""
-        return driven_start(self.start_angles, self.start_rates, state)
+        found = np.zeros(self.system.size)
+        found[: equations.JOINTS] = self.start_angles
+        found[equations.JOINTS + equations.AXES : 2 * equations.JOINTS + equations.AXES] = self.start_rates
+        return self.hung(found, inputs, state)
+
+    def suspended(self, state: Floats, _inputs: Floats) -> Structure:
+        """The booms in a state."""
+        angles, rates = state[: equations.JOINTS], state[equations.JOINTS + equations.AXES :][: equations.JOINTS]
+        return equations.structure(self.crane, angles, rates)
 
     def jib_heading(self, state: Floats, _inputs: Floats) -> float:
         """Slewing angle of the booms [rad]."""
         return float(state[0])
 
-
-def hanging(state: str) -> Floats:
-    """Direction of a rope that hangs; shape (3,)."""
-    check_start(state)
-    return np.array([0.0, 0.0, -1.0])
-
-
-def driven_start(angles: ArrayLike, rates: ArrayLike, state: str) -> Floats:
-    """State (theta, n, theta', p, work) with the load at rest."""
-    return np.concatenate([np.asarray(angles, dtype=float), hanging(state), rates, np.zeros(equations.AXES + 1)])
+    def fastest_on(self, length: float) -> float:
+        """Highest angular frequency of load and booms where they begin, on so much elastic rope [rad/s]."""
+        joints = np.zeros((equations.JOINTS, equations.JOINTS))
+        booms = equations.structure(self.crane, self.start_angles, self.start_rates)
+        return fastest_on(joints, booms, self.load, length)

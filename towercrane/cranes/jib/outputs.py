@@ -104,10 +104,10 @@ def _outputs(own: Constants, instant: Instant, state: State, accelerations: Any,
     """Outputs of joints and rope in a state, with the joints' accelerations and the work put in."""
     crane, angles, (length, hauling, _) = own.crane, state.coordinates, instant.drives[ROPE]
     suspension, energy = survey(crane, angles, state.rates)
-    load = suspension.hung(length, hauling, state.direction, state.swing)
-    outward, sideways = turned_back(angles[0], state.direction)
-    down, tension = -state.direction[2], instant.guards[TENSION]
-    pull, couple = rope_on_crane(tension, own.load.rope_damping, length, state.direction, state.swing)
+    carried = suspension.carry(own.load, state, length, hauling, instant.guards)
+    outward, sideways = turned_back(angles[0], carried.along)
+    down, tension = -carried.along[2], instant.guards[TENSION]
+    pull, couple = rope_on_crane(tension, *carried.rope)
     base = base_of(crane, state, accelerations, pull)
     return {
         "joint_angle": [*angles],
@@ -116,9 +116,10 @@ def _outputs(own: Constants, instant: Instant, state: State, accelerations: Any,
         "sway_lateral": np.arctan2(sideways, np.sqrt(outward * outward + down * down)),
         "joint_torque": [*instant.guards[TORQUE : TORQUE + JOINTS]],
         "hoist_rope_force": tension,
+        **carried.shown,
         **base_outputs(base._replace(moment=added(base.moment, couple))),
-        **load_places(load.place, angles[0]),
-        "total_energy": energy + load.energy(own.load.mass, crane.gravity),
+        **load_places(carried.load.place, angles[0]),
+        "total_energy": energy + carried.load.energy(own.load.mass, crane.gravity) + carried.stored,
         "input_work": work,
     }
 

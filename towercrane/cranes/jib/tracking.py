@@ -10,13 +10,14 @@ import numpy as np
 
 from modal.checks import check_fields
 from towercrane.cranes.jib import equations
-from towercrane.cranes.jib.model import DRIVEN_ROPE, JibModel, driven_start, hanging
+from towercrane.cranes.jib.model import DRIVEN_ROPE, JibModel
 from towercrane.cranes.jib.outputs import TRACKING_ABOUT, tracking_outputs
 from towercrane.simulation.outcomes import SLACK_ROPE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from towercrane.simulation.observed import About
     from towercrane.simulation.system import System
 
     Floats = NDArray[np.float64]
@@ -49,11 +50,18 @@ class TrackingJibCrane(JibModel):
     stiffness: float = 0.0
     damping: float = 0.0
 
+    rope = equations.JOINTS
     outputs = staticmethod(tracking_outputs)
-    about = TRACKING_ABOUT
+
+    @property
+    def about(self) -> dict[str, About]:
+        """What the outputs are."""
+        return TRACKING_ABOUT
 
     def __post_init__(self) -> None:
         check_fields(self, not_negative=("stiffness", "damping"))
+        if self.load.elasticity is not None:
+            raise ValueError("TrackingJibCrane.load: wanted a rope that does not stretch, got an elastic one")
 
     @cached_property
     def constants(self) -> equations.Constants:
@@ -69,5 +77,7 @@ class TrackingJibCrane(JibModel):
 
     def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State on the plan with both loads at rest; arguments as of :meth:`PlannedJibCrane.start`."""
-        crane = driven_start(inputs[: equations.JOINTS, 0], inputs[: equations.JOINTS, 1], state)
-        return np.concatenate([crane, hanging(state), np.zeros(equations.AXES + 1)])
+        found = np.zeros(self.system.size)
+        rates = slice(DRIVEN_ROPE[1] - equations.JOINTS, DRIVEN_ROPE[1])
+        found[: equations.JOINTS], found[rates] = inputs[: equations.JOINTS, 0], inputs[: equations.JOINTS, 1]
+        return self.hung(found, inputs, state)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def model_of(tables: OverheadCase) -> OverheadModel:
     """Model of an overhead crane's case."""
     crane = OverheadCrane(**flat(tables.crane))
-    return OverheadModel(crane, load_of(tables.payload), rope_as_rod=tables.rope.slack == "rod")
+    return OverheadModel(crane, load_of(tables.payload, tables.rope), rope_as_rod=tables.rope.slack == "rod")
 
 
 def lengths_of(model: OverheadModel) -> dict[str, float]:

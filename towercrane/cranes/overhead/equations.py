@@ -9,7 +9,7 @@ the girder's mass beside this 0.5. A trolley away from mid-span finds the girder
 the span by 14 %.
 
 Bridge and trolley follow their motions; what their drives must do for it is read off. The load is not in this file:
-:func:`towercrane.kernels.payload.hang_load` adds it. Axes are fixed: x along the runway, y along the bridge, z up.
+:func:`towercrane.kernels.hanging.hang_load` adds it. Axes are fixed: x along the runway, y along the bridge, z up.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from typing import Any
 
 import numpy as np
 
-from towercrane.kernels.payload import Load, Rope, Structure, hang_load, slopes, state_of
+from towercrane.kernels.hanging import hang_load
+from towercrane.kernels.payload import Load, Rope, Structure, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
 
 BRIDGE, TROLLEY, ROPE = range(3)
@@ -45,32 +46,51 @@ class Constants:
     carriage_mass: float
     trolley_mass: float
     gravity: float
+    runway_height: float
     load: Load
+
+
+def structure(crane: Constants, q: Any, rate: Any, bridge: Any, trolley: Any) -> Structure:
+    """Bridge and trolley without the load.
+
+    Parameters
+    ----------
+    crane : Constants
+    q, rate : number
+        Uplift at mid-span and its rate [m, m/s].
+    bridge, trolley : sequence of 3 numbers
+        Places with their rates and accelerations [m, m/s, m/s^2].
+    """
+    (place, across, across_more), (along, along_rate, along_more) = trolley, bridge
+    wave, mass, girder = np.pi / crane.span, crane.trolley_mass, crane.girder_mass
+    shape, tilt = np.sin(wave * place), wave * np.cos(wave * place)
+    heave = 2.0 * tilt * across * rate + (tilt * across_more - wave * wave * shape * across * across) * q
+    return Structure(
+        mass=[[0.5 * girder + mass * shape * shape]],
+        force=[
+            -crane.stiffness * q
+            - crane.damping * rate
+            - 2.0 / np.pi * girder * crane.gravity
+            - mass * shape * (crane.gravity + heave)
+        ],
+        place=[along, place, crane.runway_height + shape * q],
+        velocity=[along_rate, across, shape * rate + tilt * across * q],
+        bias=[along_more, across_more, heave],
+        jacobian=[[0.0], [0.0], [shape]],
+    )
 
 
 def equations(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
     """Slopes of the state (q, n, q', p, work), and guards."""
     state, rope = state_of(y, 1, AXES), Rope(*polynomial(inputs[ROPE], t))
-    _, along, along_more = polynomial(inputs[BRIDGE], t)
-    place, across, across_more = polynomial(inputs[TROLLEY], t)
-    wave = np.pi / crane.span
-    shape, tilt = np.sin(wave * place), wave * np.cos(wave * place)
+    bridge, trolley_motion = polynomial(inputs[BRIDGE], t), polynomial(inputs[TROLLEY], t)
+    _, along, _ = bridge
+    place, across, _ = trolley_motion
     (q,), (rate,) = state.coordinates, state.rates
     trolley, girder, gravity = crane.trolley_mass, crane.girder_mass, crane.gravity
-    heave = 2.0 * tilt * across * rate + (tilt * across_more - wave * wave * shape * across * across) * q
-    bridge = Structure(
-        mass=[[0.5 * girder + trolley * shape * shape]],
-        force=[
-            -crane.stiffness * q
-            - crane.damping * rate
-            - 2.0 / np.pi * girder * gravity
-            - trolley * shape * (gravity + heave)
-        ],
-        velocity=[along, across, shape * rate + tilt * across * q],
-        bias=[along_more, across_more, heave],
-        jacobian=[[0.0], [0.0], [shape]],
-    )
-    hung = hang_load(bridge, state, rope, crane.load, gravity)
+    wave = np.pi / crane.span
+    tilt = wave * np.cos(wave * place)
+    hung = hang_load(structure(crane, q, rate, bridge, trolley_motion), state, rope, crane.load, gravity)
 
     # What bridge and trolley must push with: inertia less the pull of rope and hinge.
     ahead, aside, up = hung.suspension
@@ -82,4 +102,6 @@ def equations(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any],
     end = 0.5 * (girder + crane.carriage_mass) * gravity + girder * hung.accelerations[0] / np.pi
     share = place / crane.span
     rails = end + (1.0 - share) * down, end + share * down
-    return slopes(state, hung, power), [hung.tension, along_force, across_force, *rails]
+    return slopes(state, hung, power), [
+        hung.tension, along_force, across_force, *rails, *hung.guards,
+    ]  # fmt: skip

@@ -10,7 +10,11 @@ import numpy as np
 
 from towercrane.cranes.overhead import equations
 from towercrane.cranes.overhead.outputs import ABOUT, Seen, overhead_outputs
-from towercrane.kernels.payload import SLACK
+from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
+from towercrane.cranes.parts.hoisting.on_rope import OnRope
+from towercrane.cranes.parts.points import ROPE_STRETCH
+from towercrane.kernels.payload import SLACK, Structure
+from towercrane.kernels.polynomial import polynomial
 from towercrane.simulation.observed import observe
 from towercrane.simulation.outcomes import SLACK_ROPE
 from towercrane.simulation.system import System, check_start
@@ -20,12 +24,13 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.overhead.parameters import OverheadCrane
     from towercrane.kernels.payload import Load
+    from towercrane.simulation.observed import About
 
     Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class OverheadModel:
+class OverheadModel(OnRope):
     """Overhead crane with a load in space.
 
     Parameters
@@ -45,9 +50,14 @@ class OverheadModel:
     load: Load
     rope_as_rod: bool = False
 
+    axes, rope = equations.AXES, equations.ROPE_DIRECTION
     outputs = staticmethod(overhead_outputs)
-    about = ABOUT
     observe = observe
+
+    @property
+    def about(self) -> dict[str, About]:
+        """What the outputs are."""
+        return ABOUT if self.load.elasticity is None else {**ABOUT, "rope_stretch": ROPE_STRETCH}
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -71,7 +81,7 @@ class OverheadModel:
         guards = (SLACK_ROPE, "bridge force", "trolley force", "first rail", "second rail")
         scale = np.ones(equations.SIZE)
         scale[equations.WORK] = load.work_scale(crane.gravity, crane.bridge_span)
-        return System(
+        system = System(
             equations=equations.equations,
             size=equations.SIZE,
             guards=guards,
@@ -79,12 +89,35 @@ class OverheadModel:
             scale=scale,
             constants=equations.Constants(
                 crane.bridge_span, crane.stiffness, crane.damping, crane.girder_mass, crane.bridge_end_carriage_mass,
-                crane.trolley_mass, crane.gravity, load,
+                crane.trolley_mass, crane.gravity, crane.runway_height, load,
             ),
             directions=np.array([[equations.ROPE_DIRECTION, equations.SWAY, equations.AXES]]),
             # A trolley on it only adds inertia.
             fastest=lambda: crane.frequency,
         )  # fmt: skip
+        return on_its_rope(system, load, equations.ROPE, self.fastest_on, self.rope_as_rod)
+
+    def fastest_on(self, length: float) -> float:
+        """Highest angular frequency of its small motions on so much elastic rope [rad/s], the trolley at mid-span."""
+        middle = np.array([[0.0, 0.0], [0.5 * self.crane.bridge_span, 0.0]])
+        return fastest_on(
+            np.array([[self.crane.stiffness]]), self.suspended(np.zeros(equations.SIZE), middle), self.load, length
+        )
+
+    def suspended(self, state: Floats, inputs: Floats) -> Structure:
+        """Bridge and trolley in a state, as their drives move them."""
+        bridge, trolley = (polynomial(inputs[row], 0.0) for row in (equations.BRIDGE, equations.TROLLEY))
+        uplift, rate = state[equations.UPLIFT], state[equations.RATE]
+        return equations.structure(self.system.constants, uplift, rate, bridge, trolley)
+
+    def below(self, _state: Floats, inputs: Floats) -> tuple[float, float, float]:
+        """Rope below the trolley, what the winch has given of it and its rate [m, m, m/s]."""
+        length, rate, _ = polynomial(inputs[equations.ROPE], 0.0)
+        return length, length, rate
+
+    def load_at_rest(self, _inputs: Floats) -> Floats:
+        """Force on the load at rest [N]; shape (3,)."""
+        return np.array([0.0, 0.0, -self.load.mass * self.crane.gravity])
 
     def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State in which bridge and load are at rest.
@@ -109,13 +142,12 @@ class OverheadModel:
         y = np.zeros(equations.SIZE)
         if state == "equilibrium":
             y[equations.UPLIFT] = self.crane.uplift_at_rest(inputs[equations.TROLLEY, 0], self.load.mass)
-        y[equations.ROPE_DIRECTION + equations.AXES - 1] = -1.0
-        return y
+        return self.hung(y, inputs, state)
 
     @property
     def seen(self) -> Seen:
         """What outputs are told beside the instant."""
-        return Seen(self.system.constants, self.crane.runway_height)
+        return Seen(self.system.constants)
 
     def provenance(self) -> dict[str, Any]:
         """Crane and load, for a result's attributes."""

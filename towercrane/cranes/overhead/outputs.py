@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.overhead.equations import AXES, BRIDGE, ROPE, TROLLEY
+from towercrane.cranes.overhead.equations import AXES, BRIDGE, ROPE, SECOND_RAIL, TROLLEY
 from towercrane.cranes.parts.base import BASE, NONE, Reaction, rope_on_crane
 from towercrane.cranes.parts.points import Point
 from towercrane.kernels.payload import state_of
@@ -52,33 +52,33 @@ ABOUT = {
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """The crane as its equations know it, and the height of its rails."""
+    """The crane as its equations know it."""
 
     crane: Constants
-    runway_height: float
 
 
 def overhead_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
     """Outputs at an instant, see :data:`ABOUT`."""
-    crane, height, state = seen.crane, seen.runway_height, state_of(instant.state, 1, AXES)
+    crane, state = seen.crane, state_of(instant.state, 1, AXES)
     (bridge, bridge_rate, _), (trolley, trolley_rate, trolley_more), (length, hauling, _) = (
         instant.drives[row] for row in (BRIDGE, TROLLEY, ROPE)
     )
-    tension, bridge_force, trolley_force, first_rail, second_rail = instant.guards
-    (uplift,), (rate,), direction = state.coordinates, state.rates, state.direction
+    tension, bridge_force, trolley_force, first_rail, second_rail = instant.guards[: SECOND_RAIL + 1]
+    (uplift,), (rate,), height = state.coordinates, state.rates, crane.runway_height
     wave = np.pi / crane.span
     shape, tilt = np.sin(wave * trolley), wave * np.cos(wave * trolley)
     suspension = Point(
         [bridge, trolley, height + shape * uplift],
         [bridge_rate, trolley_rate, shape * rate + tilt * trolley_rate * uplift],
     )
-    load = suspension.hung(length, hauling, direction, state.swing)
+    carried = suspension.carry(crane.load, state, length, hauling, instant.guards)
+    load, direction = carried.load, carried.along
 
     energy = 0.5 * (crane.girder_mass + crane.carriage_mass) * bridge_rate * bridge_rate
     energy = energy + 0.25 * crane.girder_mass * rate * rate + 0.5 * crane.stiffness * uplift * uplift
     energy = energy + crane.gravity * crane.girder_mass * (height + 2.0 / np.pi * uplift)
     energy = energy + suspension.energy(crane.trolley_mass, crane.gravity)
-    pull, _ = rope_on_crane(tension, crane.load.rope_damping, length, direction, state.swing)
+    pull, _ = rope_on_crane(tension, *carried.rope)
     runway = -bridge_force, pull[1] - crane.trolley_mass * trolley_more, -(first_rail + second_rail)
     return {
         "bridge_position": bridge,
@@ -91,12 +91,13 @@ def overhead_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
         "sway_along_runway": np.arctan2(direction[0], -direction[2]),
         "sway_along_bridge": np.arctan2(direction[1], -direction[2]),
         "hoist_rope_force": tension,
+        **carried.shown,
         "bridge_force": bridge_force,
         "trolley_force": trolley_force,
         "first_rail_load": first_rail,
         "second_rail_load": second_rail,
         **{name: read(Reaction(runway, NONE)) for name, (read, _) in RUNWAY.items()},
         "payload_position": load.place,
-        "total_energy": energy + load.energy(crane.load.mass, crane.gravity),
+        "total_energy": energy + load.energy(crane.load.mass, crane.gravity) + carried.stored,
         "input_work": instant.state[-1],
     }

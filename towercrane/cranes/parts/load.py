@@ -1,16 +1,81 @@
-"""The load of a case."""
+"""The load of a case, on its rope."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from towercrane.kernels.elastic_rope import BY_STRAIN, TAUT, Elasticity
 from towercrane.kernels.payload import AIR_DENSITY, Load
+from towercrane.schema.faults import Fault, shown
+from towercrane.schema.ranges import at
 
 if TYPE_CHECKING:
-    from towercrane.schema.fields import Payload
+    from collections.abc import Iterator
+
+    from towercrane.schema.fields import Payload, Rope
 
 
-def load_of(payload: Payload) -> Load:
-    """The load and its rope's losses."""
+def load_of(payload: Payload, rope: Rope | None = None) -> Load:
+    """The load, its rope's losses, and how it stretches if the rope is told and does."""
     drag_area = payload.drag_area or 2.0 * payload.drag / AIR_DENSITY
-    return Load(mass=payload.mass, rope_damping=payload.rope_damping, drag_area=drag_area)
+    elasticity = None if rope is None else elasticity_of(payload, rope)
+    return Load(payload.mass, payload.rope_damping, drag_area, elasticity)
+
+
+def elasticity_of(payload: Payload, rope: Rope) -> Elasticity | None:
+    """How a rope stretches, if it does; a damping ratio is of this load on its length at the start."""
+    stiffness = rope.stiffness or rope.falls * (rope.axial_stiffness or 0.0)
+    if not stiffness:
+        return None
+    relaxation = rope.relaxation_time
+    if rope.damping_ratio:
+        spring = stiffness / (rope.length + rope.extra_length)
+        relaxation = 2.0 * rope.damping_ratio * float(np.sqrt(payload.mass / spring))
+    return Elasticity(stiffness, rope.extra_length, relaxation, TAUT if rope.slack == "rod" else BY_STRAIN)
+
+
+BASIC = "crane.stiffness.rope"
+"""Where the file of a crane whose rope is a spring of its own has it."""
+
+OF_STRETCH = ("extra_length", "relaxation_time", "damping_ratio", "falls")
+"""Keys that say more of a rope's stiffness."""
+
+
+def stretched(tree: dict[str, Any]) -> bool:
+    """Whether the rope of a case as written stretches."""
+    return any(at(tree, key) is not None for key in (BASIC, "rope.stiffness", "rope.axial_stiffness"))
+
+
+def check_rope(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Keys of a rope that do not go together; of one that belongs to the crane all are the crane file's."""
+    rope = at(tree, "rope")
+    if not isinstance(rope, dict):
+        return
+    stiffnesses, more = [key for key in ("stiffness", "axial_stiffness") if key in rope], set(rope) & {*OF_STRETCH}
+    if at(tree, BASIC) is not None:
+        for key in [*stiffnesses, *sorted(more)]:
+            hint = f"the crane file has its rope as a spring, {BASIC.partition('.')[2]}"
+            yield Fault("", f"rope.{key}", "no key here", shown(rope[key]), hint)
+    elif len(stiffnesses) == 2:
+        hint = "stiffness is that of all falls together, axial_stiffness E A of the rope, times falls"
+        yield Fault("", "rope.axial_stiffness", "no key beside stiffness", shown(rope["axial_stiffness"]), hint)
+    elif not stiffnesses:
+        for key in sorted(more):
+            hint = "without a stiffness the rope does not stretch"
+            yield Fault("", f"rope.{key}", "a key beside stiffness or axial_stiffness", shown(rope[key]), hint)
+    elif "falls" in more and "stiffness" in rope:
+        hint = "stiffness is that of all falls together; axial_stiffness is E A of the rope, times falls"
+        yield Fault("", "rope.falls", "no key beside stiffness", shown(rope["falls"]), hint)
+    if {"relaxation_time", "damping_ratio"} <= more:
+        hint = "a damping ratio zeta is the relaxation time 2 zeta / w"
+        yield Fault("", "rope.damping_ratio", "no key beside relaxation_time", shown(rope["damping_ratio"]), hint)
+    if at(tree, "start.state") == "quiet" and stretched(tree):
+        wanted = '"equilibrium" or "zero" with a rope that stretches'
+        yield Fault(
+            "", "start.state", wanted, shown("quiet"), "its load would be at rest in no place of the structure"
+        )
+    if rope.get("slack") == "stop" and stretched(tree):
+        hint = "a rope that stretches goes slack and is caught; as a rod it would push"
+        yield Fault("", "rope.slack", 'no key of a rope that stretches, or "rod"', shown(rope["slack"]), hint)

@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from towercrane.cranes.parts.hoisting.elastic import SLACKENS, STORED
 from towercrane.kernels.algebra import Row, dot
+from towercrane.kernels.choices import below, choose
 from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from towercrane.kernels.payload import Load, State
 
 
 class Point(NamedTuple):
@@ -29,9 +33,60 @@ class Point(NamedTuple):
             [v + rate * n + length * p for v, n, p in zip(self.velocity, direction, swing, strict=True)],
         )
 
+    def carry(self, load: Load, state: State, length: Any, rate: Any, guards: Row) -> Carried:
+        """The load of a state that hangs from it on so much rope."""
+        if load.elasticity is None:
+            hung = self.hung(length, rate, state.direction, state.swing)
+            return Carried(hung, state.direction, (load.rope_damping, length, state.direction, state.swing), {}, 0.0)
+        hung = Point([*state.direction], [*state.swing])
+        along, parting = (
+            [own - other for own, other in zip(*pair, strict=True)]
+            for pair in ((hung.place, self.place), (hung.velocity, self.velocity))
+        )
+        reach, stretched = rope_seen(load, along, parting, guards)
+        return Carried(hung, along, stretched, {"rope_stretch": reach - length}, guards[STORED])
+
     def energy(self, mass: Any, gravity: Any) -> Any:
         """Kinetic and potential energy of a mass there [J]."""
         return mass * (0.5 * dot(self.velocity, self.velocity) + gravity * self.place[-1])
+
+
+class Carried(NamedTuple):
+    """A load on its rope.
+
+    Parameters
+    ----------
+    load : Point
+    along : sequence of numbers
+        Vector along the rope, of no certain length.
+    rope : tuple
+        What :func:`towercrane.cranes.parts.base.rope_on_crane` asks of it.
+    shown : dict
+        Outputs of a rope that stretches.
+    stored : number
+        Energy in it [J].
+    """
+
+    load: Point
+    along: Row
+    rope: tuple[Any, Any, Row, Row]
+    shown: dict[str, Any]
+    stored: Any
+
+
+ROPE_STRETCH = About("m", "distance from load to rope's upper end beyond the rope's length; below zero it is slack")
+"""What an elastic rope shows."""
+
+
+def rope_seen(load: Load, along: Row, parting: Row, guards: Row) -> tuple[Any, tuple[Any, Any, Row, Row]]:
+    """Distance that an elastic rope spans, and its damping, length, direction and rate of direction.
+
+    A slack rope does not damp, and its direction does not matter.
+    """
+    taut, reach = below(0.0, guards[SLACKENS]), np.sqrt(dot(along, along))
+    length = choose(taut, reach, 1.0)
+    direction, swing = ([own / length for own in vector] for vector in (along, parting))
+    return reach, (taut * load.rope_damping, length, direction, swing)
 
 
 def turned_back(heading: Any, vector: Row) -> tuple[Any, Any]:

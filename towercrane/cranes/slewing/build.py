@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from towercrane.cranes.slewing.parameters import SlewingParameters
     from towercrane.cranes.slewing.tables import SlewingCase, SlewingCrane
 
-CRANES: dict[str, Callable[[Any], Any]] = {
-    "multi-mass": models.multi_mass,
-    "enhanced": models.enhanced,
+CRANES: dict[str, Callable[[Any, float], Any]] = {
+    "multi-mass": lambda parameters, _: models.multi_mass(parameters),
+    "enhanced": lambda parameters, _: models.enhanced(parameters),
     "basic": models.basic,
 }
-"""What makes the crane of each kind of its parameters."""
+"""What makes the crane of each kind of its parameters and the rope's length at the start."""
 
 
 def parameters_of(crane: SlewingCrane) -> SlewingParameters:
@@ -35,10 +35,10 @@ def parameters_of(crane: SlewingCrane) -> SlewingParameters:
 
 def builder_of(tables: SlewingCase) -> Callable[[Any], LumpedModel]:
     """Model of a slewing case from a parameter set that may differ from the case's own."""
-    make, load, as_rod = CRANES[tables.crane.kind], load_of(tables.payload), tables.rope.slack == "rod"
+    make, load, as_rod = CRANES[tables.crane.kind], load_of(tables.payload, tables.rope), tables.rope.slack == "rod"
 
     def build(parameters: Any) -> LumpedModel:
-        crane, wind = make(parameters), tables.wind
+        crane, wind = make(parameters, tables.rope.length), tables.wind
         return LumpedModel(crane, load, as_rod, 0 if wind is None else len(crane.points) + 1 if wind.differs else 1)
 
     return build
@@ -46,7 +46,7 @@ def builder_of(tables: SlewingCase) -> Callable[[Any], LumpedModel]:
 
 def places_of(tables: SlewingCase) -> Places:
     """Where a wind that differs blows, of a crane that stands undeformed along x: its points, and the load."""
-    crane = CRANES[tables.crane.kind](parameters_of(tables.crane))
+    crane = CRANES[tables.crane.kind](parameters_of(tables.crane), tables.rope.length)
     points = {
         name: (sum(link.ahead.get("", 0.0) for link in point.links), 0.0, point.height.get("", 0.0))
         for name, point in crane.points.items()

@@ -16,6 +16,8 @@ from modal.checks import check_fields
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from towercrane.kernels.elastic_rope import Elasticity
+
     Floats = NDArray[np.float64]
 
 Row = Mapping[str, float]
@@ -167,8 +169,8 @@ class LumpedCrane:
     jib_angle : str
         Coordinate that turns with the jib: sway is measured along and across it.
     linear_outputs : mapping of str to LinearOutput
-    rope_stiffness, rope_damping : float
-        Of an elastic rope [N/m, N s/m]; zero: inextensible.
+    rope : Elasticity or None
+        Of a rope that belongs to the crane and stretches.
     gravity : float
         [m/s^2]
     """
@@ -184,8 +186,7 @@ class LumpedCrane:
     linear_outputs: Mapping[str, LinearOutput]
     steady_force: Row = field(default_factory=dict)
     counter_moments: Row = field(default_factory=dict)
-    rope_stiffness: float = 0.0
-    rope_damping: float = 0.0
+    rope: Elasticity | None = None
     gravity: float = 9.81
 
     @property

@@ -5,7 +5,7 @@ coordinates: in complex notation W = sum exp(i phi) (a + i b) with a and b linea
 linear in them. With e = exp(i phi) an arm r = a + i b gives the columns e dr/dq and i e r, and the bias acceleration
 e (2 i phi' r' - phi'^2 r). Marinovic, Sprecic and Jerman (2012), Eq. 2-13, are of this kind.
 
-The load is not in this file: :func:`towercrane.kernels.payload.hang_load` adds it.
+The load is not in this file: :func:`towercrane.kernels.hanging.hang_load` adds it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from towercrane.cranes.parts.air import air_at, load_force
 from towercrane.cranes.parts.coupling import coupling_torque
 from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.choices import below, choose
-from towercrane.kernels.payload import Hung, Load, Rope, Structure, hang_load, slopes, state_of
+from towercrane.kernels.hanging import hang_load
+from towercrane.kernels.payload import Hung, Load, Rope, Structure, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
 from towercrane.kernels.straight.leaves import CHANGING
 
@@ -80,8 +81,6 @@ class Constants:
     damping: Floats
     driven: int
     drive: Drive
-    rope_stiffness: float
-    rope_damping: float
     gravity: float
     load: Load
     wind: int
@@ -135,6 +134,16 @@ def winds_of(crane: Constants, drives: Row) -> list[Vector]:
     return found if len(found) > 1 else found * (len(crane.bodies) + 1)
 
 
+def place_of(body: Body, q: Any) -> list[Any]:
+    """Where a point is."""
+    x, y = 0.0, 0.0
+    for arm in body.arms:
+        unit = (1.0, 0.0) if arm.turned_by is None else (np.cos(q[arm.turned_by]), np.sin(q[arm.turned_by]))
+        ahead, across = turned(unit, dot(arm.ahead, (*q, 1.0)), dot(arm.across, (*q, 1.0)))
+        x, y = x + ahead, y + across
+    return [x, y, dot(body.height, (*q, 1.0))]
+
+
 def drag_on(body: Body, motion: Motion, wind: Vector) -> Sequence[Any]:
     """Force of the air on a point."""
     cosine, sine = motion.unit
@@ -172,8 +181,8 @@ def structure(
     # What the shaft puts in is stored in the coupling, turns the platform or is lost between them and in its bearing.
     power = power + torque * shaft[1] - drive.damping * slip * slip + friction * rates[driven]
     tip = motions[crane.suspension]
-    jacobian = list(zip(*tip.columns, strict=True))
-    return Structure(mass, force, tip.velocity, tip.bias, jacobian, winds[-1]), power
+    place, jacobian = place_of(crane.bodies[crane.suspension], q), list(zip(*tip.columns, strict=True))
+    return Structure(mass, force, place, tip.velocity, tip.bias, jacobian, winds[-1]), power
 
 
 def held(crane: Structure, i: int, sticks: Any) -> Structure:
@@ -211,9 +220,9 @@ def forces_at_rest(crane: Constants, _t: Any, q: Any, inputs: Any) -> tuple[list
 
 
 def equations(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
-    """Slopes of the state (q, n, q', p, work), or (q, e, n, q', e', p, work) with an elastic rope, and guards."""
+    """Slopes of the state (q, n, q', p, work), and guards."""
     state = state_of(y, len(crane.inertia), AXES)
-    rope = Rope(*polynomial(inputs[ROPE], t), crane.rope_stiffness, crane.rope_damping)
+    rope = Rope(*polynomial(inputs[ROPE], t))
     angle, shaft_rate, _ = polynomial(inputs[SHAFT], t)
     drive, driven = crane.drive, crane.driven
     rate, limit = state.rates[driven], drive.friction_torque
@@ -230,5 +239,5 @@ def equations(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any],
     beyond = abs(state.coordinates[driven] - angle) - drive.corner
     return slopes(state, hung, hung.power + power), [
         hung.tension, -beyond, beyond, sliding,
-        choose(sticks, limit - abs(needed), np.inf), choose(sticks, needed, 0.0),
+        choose(sticks, limit - abs(needed), np.inf), choose(sticks, needed, 0.0), *hung.guards,
     ]  # fmt: skip

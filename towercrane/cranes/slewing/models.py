@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from towercrane.cranes.slewing.description import Drive, LinearOutput, Link, LumpedCrane, Point, Spring
+from towercrane.kernels.elastic_rope import Elasticity
 
 if TYPE_CHECKING:
     from towercrane.cranes.slewing.parameters import BasicParameters, EnhancedParameters, MultiMassParameters
@@ -119,8 +120,11 @@ def multi_mass(p: MultiMassParameters) -> LumpedCrane:
     )
 
 
-def basic(p: BasicParameters) -> LumpedCrane:
-    """Seven degrees of freedom: platform, three shifts of the jib tip, and the load on an elastic rope."""
+def basic(p: BasicParameters, rope_length: float) -> LumpedCrane:
+    """Seven degrees of freedom: platform, three shifts of the jib tip, and the load on an elastic rope.
+
+    Its spring and damper are those of the rope's length at the start [m].
+    """
     top, reach = p.geometry_tower_height + p.geometry_top_height, p.geometry_jib_radius
     x, y, z = "jib_radial", "jib_lateral", JIB_Z
     lateral, vertical = p.stiffness_jib_lateral, p.stiffness_jib_vertical
@@ -147,7 +151,6 @@ def basic(p: BasicParameters) -> LumpedCrane:
                 "N m", "moment of the jib's vertical spring, positive under load", {z: -reach * vertical}
             ),
         },
-        rope_stiffness=p.stiffness_rope,
-        rope_damping=p.damping_rope,
+        rope=Elasticity.of_spring(p.stiffness_rope, p.damping_rope, rope_length),
         gravity=p.gravity,
     )

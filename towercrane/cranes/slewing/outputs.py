@@ -9,7 +9,7 @@ import numpy as np
 
 from towercrane.cranes.parts.base import Reaction, added, base_about, base_outputs, rope_on_crane, together
 from towercrane.cranes.parts.coupling import coupling_energy, coupling_torque
-from towercrane.cranes.parts.points import Point, load_places, load_places_about, turned_back
+from towercrane.cranes.parts.points import ROPE_STRETCH, Point, load_places, load_places_about, turned_back
 from towercrane.cranes.slewing.equations import AXES, ROPE, SHAFT, TENSION, drag_on, motion_of, turned, winds_of
 from towercrane.kernels.algebra import dot
 from towercrane.kernels.payload import state_of
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from towercrane.cranes.parts.points import Carried
     from towercrane.cranes.slewing.description import LumpedCrane
     from towercrane.cranes.slewing.equations import Body, Constants
     from towercrane.simulation.observed import Instant
@@ -72,8 +73,8 @@ def seen_of(crane: LumpedCrane, constants: Constants) -> Seen:
 WINDS = {f"wind_{axis}": About("m/s", f"wind along {axis}, at the load") for axis in "xyz"}
 
 
-def about_of(crane: LumpedCrane, *, wind: bool = False) -> dict[str, About]:
-    """What the outputs of a crane are, and of the wind where one blows."""
+def about_of(crane: LumpedCrane, *, wind: bool = False, elastic: bool = False) -> dict[str, About]:
+    """What the outputs of a crane are, and of wind and rope where one blows and one stretches."""
     return {
         "sway_tangential": About("rad", "sway across the jib, atan2(across, down), positive in the turning sense"),
         "sway_radial": About("rad", "sway along the jib, atan2(along, down), positive outward"),
@@ -83,6 +84,7 @@ def about_of(crane: LumpedCrane, *, wind: bool = False) -> dict[str, About]:
         "drive_torque_elastic": About("N m", "torque of the coupling's spring alone, positive driving"),
         "rope_length": About("m", "length of the unstretched rope"),
         "hoist_rope_force": About("N", "rope tension"),
+        **({"rope_stretch": ROPE_STRETCH} if elastic else {}),
         **{name: About(output.units, output.long_name) for name, output in crane.linear_outputs.items()},
         **{
             name: About("rad" if name in crane.angles else "m", f"coordinate: {name.replace('_', ' ')}")
@@ -103,40 +105,37 @@ def lumped_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
     crane, drive = seen.crane, seen.crane.drive
     state = state_of(instant.state, len(seen.coordinates), AXES)
     (shaft, shaft_rate, _), (length, hauling, _) = instant.drives[SHAFT], instant.drives[ROPE]
-    q, rates, direction = state.coordinates, state.rates, state.direction
+    q, rates = state.coordinates, state.rates
     twist, heading = q[crane.driven] - shaft, q[seen.jib_angle]
     elastic = -coupling_torque(twist, drive.soft, drive.stiff, drive.corner)
     points = [point_of(body, q, rates) for body in crane.bodies]
-    stretch, stretching = (state.stretch[0], state.stretching[0]) if len(state.stretch) else (0.0, 0.0)
-    stretched, suspension = length + stretch, points[crane.suspension]
-    load = suspension.hung(stretched, hauling + stretching, direction, state.swing)
-    norm = np.sqrt(dot(direction, direction))
-    unit = [component / norm for component in direction]
-    outward, sideways = turned_back(heading, unit)
-    place = [at + stretched * n for at, n in zip(suspension.place, unit, strict=True)]
+    carried = points[crane.suspension].carry(crane.load, state, length, hauling, instant.guards)
+    load, along = carried.load, carried.along
+    outward, sideways = turned_back(heading, along)
     # What is in the coupling and the rope, and what the load has.
     energy = coupling_energy(twist, drive.soft, drive.stiff, drive.corner)
-    energy = energy + 0.5 * crane.rope_stiffness * stretch * stretch + load.energy(crane.load.mass, crane.gravity)
+    energy = energy + carried.stored + load.energy(crane.load.mass, crane.gravity)
     return {
-        "sway_tangential": np.arctan2(sideways, -unit[2]),
-        "sway_radial": np.arctan2(outward, -unit[2]),
+        "sway_tangential": np.arctan2(sideways, -along[2]),
+        "sway_radial": np.arctan2(outward, -along[2]),
         "shaft_angle": shaft,
         "shaft_speed": shaft_rate,
         "drive_torque": elastic - drive.damping * (rates[crane.driven] - shaft_rate),
         "drive_torque_elastic": elastic,
         "rope_length": length,
         "hoist_rope_force": instant.guards[TENSION],
+        **carried.shown,
         **{output.name: dot(output.of, q) + dot(output.of_rates, rates) for output in seen.linear},
         **dict(zip(seen.coordinates, q, strict=True)),
         **dict(zip(WINDS, winds_of(crane, instant.drives)[-1], strict=True)),
-        **base_outputs(base_of(seen, instant)),
-        **load_places(place, heading),
+        **base_outputs(base_of(seen, instant, carried)),
+        **load_places(load.place, heading),
         "total_energy": energy + structure_energy(seen, q, rates, points),
         "input_work": instant.state[-1],
     }
 
 
-def base_of(seen: Seen, instant: Instant) -> Reaction:
+def base_of(seen: Seen, instant: Instant, carried: Carried) -> Reaction:
     """What the crane does to its base, the moment about the tower's foot: by the motion of every mass."""
     crane, count = seen.crane, len(seen.coordinates)
     state, moved = (state_of(rows, count, AXES) for rows in (instant.state, instant.slopes))
@@ -152,14 +151,7 @@ def base_of(seen: Seen, instant: Instant) -> Reaction:
         x, y, z = (f - body.mass * (a + g) for f, a, g in zip(air, felt, weight, strict=True))
         at = point_of(body, q, rates).place
         pushed.append(((at[0], at[1], at[2]), (x, y, z)))
-    stretch = state.stretch[0] if len(state.stretch) else 0.0
-    pull, couple = rope_on_crane(
-        instant.guards[TENSION],
-        crane.load.rope_damping,
-        instant.drives[ROPE][0] + stretch,
-        state.direction,
-        state.swing,
-    )
+    pull, couple = rope_on_crane(instant.guards[TENSION], *carried.rope)
     pushed.append((pushed[crane.suspension][0], pull))
     force, moment = together(pushed)
     moment = added(moment, couple, (0.0, 0.0, -dot(crane.inertia, accelerations)))

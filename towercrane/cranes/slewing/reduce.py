@@ -25,12 +25,12 @@ def make_rigid(crane: LumpedCrane, members: Collection[str]) -> LumpedCrane:
     ValueError
         If a name is not a spring's, or the member's stretch is not one coordinate alone or the difference of two.
     """
-    known = [spring.name for spring in crane.springs] + (["rope"] if crane.rope_stiffness else [])
+    known = [spring.name for spring in crane.springs] + (["rope"] if crane.rope else [])
     for name in members:
         if name not in known:
             raise ValueError(f"make_rigid: wanted springs among {', '.join(known)}, got {name!r}")
         if name == "rope":
-            crane = replace(crane, rope_stiffness=0.0, rope_damping=0.0)
+            crane = replace(crane, rope=None)
             continue
         # Each spring is looked up anew: an earlier substitution may have changed its stretch.
         spring = next(s for s in crane.springs if s.name == name)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.parts.corner import Corners
+from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
+from towercrane.cranes.parts.hoisting.on_rope import OnRope
 from towercrane.cranes.parts.wind import wind_channels
 from towercrane.cranes.slewing import equations
 from towercrane.cranes.slewing.equations import Arm, Body, Constants, structure
 from towercrane.cranes.slewing.friction import Transitions
-from towercrane.kernels.payload import SLACK, Load
+from towercrane.kernels.elastic_rope import TAUT
+from towercrane.kernels.payload import SLACK, Load, Structure
+from towercrane.kernels.polynomial import polynomial
 from towercrane.kernels.straight.leaves import place_of
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
@@ -31,7 +35,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class LumpedSystem:
+class LumpedSystem(OnRope):
     """A lumped crane with its load, always in space.
 
     Parameters
@@ -65,19 +69,32 @@ class LumpedSystem:
         return len(self.crane.coordinates)
 
     @property
-    def elastic(self) -> bool:
-        """Whether the rope stretches."""
-        return self.crane.rope_stiffness > 0.0
+    def size(self) -> int:
+        """Number of states."""
+        return 2 * (self.coordinates + equations.AXES) + 1
+
+    @property
+    def freedoms(self) -> int:
+        """Degrees of freedom of crane and load; an inextensible rope takes one."""
+        return self.coordinates + equations.AXES - (self.carried.elasticity is None)
+
+    @cached_property
+    def carried(self) -> Load:
+        """The load, on the crane's own rope if it has one."""
+        rope = self.crane.rope or self.load.elasticity
+        if rope is not None and self.rope_as_rod:
+            rope = replace(rope, mode=TAUT)
+        return replace(self.load, elasticity=rope)
+
+    @property
+    def axes(self) -> int:
+        """Components of the load's place."""
+        return equations.AXES
 
     @property
     def rope(self) -> int:
-        """Where the rope's direction begins in the state: after the coordinates and the stretch, if there is one."""
-        return self.coordinates + self.elastic
-
-    @property
-    def size(self) -> int:
-        """Number of states."""
-        return 2 * (self.rope + 3) + 1
+        """Where the load's part of the state begins, and of its rates."""
+        return self.coordinates
 
     @property
     def channel_units(self) -> tuple[str, ...]:
@@ -86,9 +103,8 @@ class LumpedSystem:
 
     @property
     def state_names(self) -> dict[str, str]:
-        """Coordinates with their units, and the rope's stretch."""
-        names = {name: "rad" if name in self.crane.angles else "m" for name in self.crane.coordinates}
-        return names | ({"rope_stretch": "m"} if self.elastic else {})
+        """Coordinates with their units."""
+        return {name: "rad" if name in self.crane.angles else "m" for name in self.crane.coordinates}
 
     @cached_property
     def constants(self) -> Constants:
@@ -117,35 +133,34 @@ class LumpedSystem:
             damping=damping,
             driven=crane.coordinates.index(crane.drive.on),
             drive=crane.drive,
-            rope_stiffness=crane.rope_stiffness,
-            rope_damping=crane.rope_damping,
             gravity=crane.gravity,
-            load=self.load,
+            load=self.carried,
             wind=self.wind,
         )
 
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        crane, rates, scale = self.crane, (self.size - 1) // 2, np.ones(self.size)
+        crane, rates, scale = self.crane, self.coordinates + equations.AXES, np.ones(self.size)
         reach = sum(abs(link.ahead.get("", 0.0)) for link in crane.points[crane.suspension].links)
         scale[-1] = self.load.work_scale(crane.gravity, reach)
-        return System(
+        system = System(
             equations=equations.equations,
             size=self.size,
             guards=(SLACK_ROPE, "corner", "corner", "slip", "stick", "needed"),
             floors=np.array([-np.inf if self.rope_as_rod else SLACK, *[-np.inf] * 5]),
             scale=scale,
             constants=self.constants,
-            directions=np.array([[self.rope, rates + self.rope, equations.AXES]]),
+            directions=np.array([[self.coordinates, rates + self.coordinates, equations.AXES]]),
             switch=self._switch,
-            fastest=lambda: self.fastest,
+            fastest=partial(self.fastest_on, np.inf),
         )
+        return on_its_rope(system, self.carried, equations.ROPE, self.fastest_on, self.rope_as_rod)
 
     @property
     def _switch(self) -> Transitions | None:
         """What its guards do; nothing where the coupling is a straight line and friction has one value."""
-        drive, rates = self.crane.drive, (self.size - 1) // 2
+        drive, rates = self.crane.drive, self.coordinates + equations.AXES
         corner = Corners(((equations.INSIDE, equations.OUTSIDE),)) if drive.soft != drive.stiff else None
         sticks = drive.friction == "stick-slip"
         if corner is None and not sticks:
@@ -153,26 +168,14 @@ class LumpedSystem:
         friction_state = place_of(self.constants, "friction_state")
         return Transitions(rates + self.constants.driven, friction_state, corner, changes_equations=sticks)
 
-    @cached_property
-    def fastest(self) -> float:
-        """Highest angular frequency of its small motions, the coupling at its stiffest [rad/s].
-
-        A load on an inextensible rope only adds inertia; on an elastic one it vibrates along the rope, whose
-        direction is taken along each of the axes.
-        """
-        from scipy.linalg import eigh
-
+    def fastest_on(self, length: float) -> float:
+        """Highest angular frequency of its small motions with so much rope, the coupling at its stiffest [rad/s]."""
         n, drive, constants = self.coordinates, self.crane.drive, self.constants
         still = [(0.0, 0.0, 0.0)] * (len(constants.bodies) + 1)
         bare, _ = structure(constants, np.zeros(n), np.zeros(n), (0.0, 0.0), still)
-        stiffness, mass = np.zeros((2, n + self.elastic, n + self.elastic))
-        stiffness[:n, :n] = constants.stiffness
+        stiffness = constants.stiffness.copy()
         stiffness[constants.driven, constants.driven] += max(drive.soft, drive.stiff)
-        stiffness[n:, n:] = constants.rope_stiffness
-        mass[:n, :n] = bare.mass_matrix()
-        loads = [np.append(row, 1.0) for row in bare.jacobian] if self.elastic else [np.zeros(n)]
-        carried = [self.load.mass * np.outer(along, along) for along in loads]
-        return float(np.sqrt(max(eigh(stiffness, mass + own, eigvals_only=True)[-1] for own in carried)))
+        return fastest_on(stiffness, bare, self.carried, length)
 
     def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State at rest, the load hanging at rest: "equilibrium", or "zero" with all weights on.
@@ -191,21 +194,23 @@ class LumpedSystem:
         check_start(state)
         n, y = self.coordinates, np.zeros(self.size)
         y[:n] = self.equilibrium(inputs) if state == "equilibrium" else self.undeformed(inputs)
-        y[self.rope + 2] = -1.0
-        if state == "equilibrium":
-            *_, wind = equations.winds_of(self.constants, inputs)
-            pull = np.array(load_force(self.load, self.crane.gravity, wind))
-            y[self.rope : self.rope + 3] = pull / np.linalg.norm(pull)
-            y[n : self.rope] = np.linalg.norm(pull) / (self.crane.rope_stiffness or 1.0)
-        return y
+        return self.hung(y, inputs, state)
 
-    def hang(self, state: Floats, _inputs: Floats, direction: Floats, rate: Floats) -> Floats:
-        """The state with its load along another direction, an elastic rope stretched by the part of the weight
-        along it."""
-        found, moved = np.array(state), self.size // 2 + self.rope
-        found[self.coordinates : self.rope] *= direction[2] / state[self.rope + 2]
-        found[self.rope : self.rope + 3], found[moved : moved + 3] = direction, rate
-        return found
+    def suspended(self, state: Floats, inputs: Floats) -> Structure:
+        """The crane in a state."""
+        q, rates = np.split(state[:-1], [self.rope, self.rope + self.axes, 2 * self.rope + self.axes])[::2]
+        winds = equations.winds_of(self.constants, inputs)
+        return structure(self.constants, q, rates, inputs[equations.SHAFT], winds)[0]
+
+    def below(self, _state: Floats, inputs: Floats) -> tuple[float, float, float]:
+        """Rope below the jib's tip, what the winch has given of it and its rate [m, m, m/s]."""
+        length, rate, _ = polynomial(inputs[equations.ROPE], 0.0)
+        return length, length, rate
+
+    def load_at_rest(self, inputs: Floats) -> Floats:
+        """Force of weight and wind on the load at rest [N]; shape (3,)."""
+        *_, wind = equations.winds_of(self.constants, inputs)
+        return np.array(load_force(self.load, self.crane.gravity, wind))
 
     def jib_heading(self, state: Floats, _inputs: Floats) -> float:
         """Angle of the jib from the fixed x axis [rad]."""

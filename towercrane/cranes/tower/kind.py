@@ -6,6 +6,8 @@ from towercrane.cranes.kind import Drives, Kind, Signals, Track, later
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.checks.jib import check_jibs, jib_length
 from towercrane.cranes.tower.file.checks.luffing import check_luffing, head_height, limits, pivots, refused
+from towercrane.cranes.tower.file.checks.rope import check_elastic
+from towercrane.cranes.tower.file.checks.rope import refused as refused_on_elastic
 from towercrane.cranes.tower.file.checks.scene import check_scene
 from towercrane.cranes.tower.file.checks.ties import check_ties
 from towercrane.cranes.tower.file.checks.ties import refused as refused_on_ties
@@ -32,7 +34,7 @@ TOWER = Kind(
     tables=TowerCase,
     drives=FIXED,
     drives_in=lambda tree: PIVOTING if pivots(tree) else FIXED,
-    checks=(check_tower, check_jibs, check_luffing, check_ties, check_scene),
+    checks=(check_tower, check_jibs, check_luffing, check_ties, check_scene, check_elastic),
     build=later("towercrane.cranes.tower.file.build", "tower_model"),
     poses=later("towercrane.cranes.tower.poses", "tower_poses"),
     computed=later("towercrane.cranes.tower.file.lattices.torsion", "computed"),
@@ -50,6 +52,6 @@ TOWER = Kind(
     notices=later("towercrane.cranes.tower.file.requests", "notices"),
     sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},
     wind_places=later("towercrane.cranes.tower.file.air", "places_of"),
-    refuses=lambda tables: refused(tables) | refused_on_ties(tables),
+    refuses=lambda tables: refused_on_elastic(tables) | refused(tables) | refused_on_ties(tables),
     serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members"}),
 )  # fmt: skip

@@ -77,26 +77,25 @@ class LuffingModel(FlexibleModel):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        fixed = super().system
+        fixed = self.fixed_system
         contacts = names_of(self.constants.play)
         floors = np.full(luffing.GUARDS + len(contacts), -np.inf)
         floors[luffing.TENSION] = fixed.floors[luffing.TENSION]
         floors[luffing.HOLDING], floors[[luffing.STOP, luffing.TILT]] = SLACK, 0.0
         recorded = ("corner", "corner", "slewing torque")
-        return replace(
+        own = replace(
             fixed,
             equations=luffing.motion,
             guards=(SLACK_ROPE, JIB_OVER, JIB_AT_STOP, TOWER_BUCKLED, *recorded, *contacts),
             floors=floors,
             switch=self.corners((luffing.INSIDE, luffing.OUTSIDE), luffing.GUARDS),
         )
+        return self.on_its_rope(own)
 
     @cached_property
-    def fastest(self) -> float:
-        """Highest angular frequency of its small motions [rad/s], the jib at its reference angle or at its stop."""
-        from scipy.linalg import eigh
-
-        own, highest = self.crane.luffing, 0.0
+    def small_motions(self) -> list[tuple[Floats, Structure]]:
+        """Stiffness and structure with the jib at its reference angle and at its stop."""
+        own, found = self.crane.luffing, []
         assert own is not None, "the crane's jib pivots"
         for angle in (own.reference_angle, own.highest_angle):
             inputs = np.zeros((len(self.channels), 3))
@@ -107,9 +106,8 @@ class LuffingModel(FlexibleModel):
             if self.drive is not None:
                 turned = self.parts["slewing"].start
                 slope[turned, turned] = -max(self.drive.soft, self.drive.stiff)
-            mass = self.at_rest(there, inputs).mass_matrix()
-            highest = max(highest, eigh(-0.5 * (slope + slope.T), mass, eigvals_only=True)[-1])
-        return float(np.sqrt(highest))
+            found.append((-0.5 * (slope + slope.T), self.at_rest(there, inputs)))
+        return found
 
     def undeformed(self, inputs: Floats) -> Floats:
         """Coordinates of the undeformed crane as its drives hold it; shape (coordinates,)."""
@@ -148,13 +146,17 @@ class LuffingModel(FlexibleModel):
         hung = [own - paid for own, paid in zip(up, found.rope.paid, strict=True)]
         return found.hanging._replace(jacobian=[*across, hung])
 
+    def suspended(self, state: Floats, inputs: Floats) -> Structure:
+        """The crane without its load in a state, moved by its drives."""
+        return luffing.structure(self.constants, *self.as_driven(state, inputs)).hanging
+
     def rope_at_rest(self, q: Floats, inputs: Floats) -> float:
         """Length of the rope below the jib's head [m]."""
         return float(self._resting(q, inputs).rope.length)
 
     def _resting(self, q: Floats, inputs: Floats) -> luffing.LuffingStructure:
         held = [(value, 0.0, 0.0) for value in inputs[:, 0].tolist()]
-        return luffing.structure(self.constants, State(q.tolist(), (), (), [0.0] * self.coordinates, (), ()), held)
+        return luffing.structure(self.constants, State(q.tolist(), (), [0.0] * self.coordinates, ()), held)
 
     @property
     def outputs(self) -> Callable[[Seen, Instant], Mapping[str, Any]]:

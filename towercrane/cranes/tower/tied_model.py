@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.tower.equations.constants import Constants, constants_of
-from towercrane.cranes.tower.equations.play import contact_stiffness
 from towercrane.cranes.tower.equations.tied.constants import Tied
 from towercrane.cranes.tower.equations.tied.ties import pull_ties, span_of
 from towercrane.cranes.tower.model import FlexibleModel
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
     from towercrane.cranes.tower.modes.tied.head import TiedHead
     from towercrane.cranes.tower.outputs.seen import Seen
+    from towercrane.kernels.payload import Structure
     from towercrane.simulation.observed import About, Instant
     from towercrane.simulation.system import System
 
@@ -132,20 +132,17 @@ class TiedModel(FlexibleModel):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        fixed, ties = super().system, self.counts["tie"]
-        return replace(
-            fixed, guards=(*fixed.guards, *[SLACK_TIE] * ties), floors=np.append(fixed.floors, np.zeros(ties))
+        fixed, ties = self.fixed_system, self.counts["tie"]
+        return self.on_its_rope(
+            replace(
+                fixed, guards=(*fixed.guards, *[SLACK_TIE] * ties), floors=np.append(fixed.floors, np.zeros(ties))
+            )
         )
 
     @cached_property
-    def fastest(self) -> float:
-        """Highest angular frequency of its small motions [rad/s], as it hangs in its ties without load."""
-        from scipy.linalg import eigh
-
-        inputs = np.zeros((len(self.channels), 3))
-        inputs[1, 0] = 1.0
-        there = self.undeformed(inputs)
-        held = self.constants.stiffness + contact_stiffness(self)
+    def small_motions(self) -> list[tuple[Floats, Structure]]:
+        """Stiffness and structure as it hangs in its ties without load."""
+        held = self.stiffness_when_held
         carried = slice(self.coordinates - len(self._at_rest_alone[1]), self.coordinates)
         tied, q = self._at_rest_alone
 
@@ -154,11 +151,7 @@ class TiedModel(FlexibleModel):
 
         slope, _ = jacobian(forces, q, self.system.scale[carried])
         held[carried, carried] -= 0.5 * (slope + slope.T)
-        if self.drive is not None:
-            turned = self.parts["slewing"].start
-            held[turned, turned] += max(self.drive.soft, self.drive.stiff)
-        mass = self.at_rest(there, inputs).mass_matrix()
-        return float(np.sqrt(max(eigh(held, mass, eigvals_only=True)[-1], 0.0)))
+        return [(held, self.at_rest(self.undeformed(inputs), inputs)) for inputs in self.trolley_ends]
 
     @property
     def outputs(self) -> Callable[[Seen, Instant], Mapping[str, Any]]:

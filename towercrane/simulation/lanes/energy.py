@@ -48,10 +48,10 @@ def off_balance(
     starts, ends = queue.starts, answers.end_states
     drives = np.concatenate([_drives(queue, np.zeros(len(runs))), _drives(queue, answers.end_times)])
     drives = drives[:, : len(models[0].channels)]
-    # Begin and end together; energies ask for no slopes, and for guards where rates jump alone.
+    # Begin and end together; energies ask for no slopes, and for guards where rates jump or a rope stretches.
     states = np.concatenate([starts, ends])
     guards = np.zeros((len(states), len(models[0].system.guards)))
-    if models[0].system.crossings is not None:
+    if models[0].system.crossings is not None or models[0].system.rope is not None:
         for row, (run, time) in enumerate(
             zip([*runs, *runs], [*np.zeros(len(runs)), *answers.end_times], strict=True)
         ):

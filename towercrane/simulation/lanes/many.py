@@ -238,7 +238,7 @@ def _queue(
         waiting=np.flatnonzero(answers.outcomes == WAITING),
         starts=starts,
         atol=atol * np.array([system.scale for system in systems]),
-        longest_steps=np.array([pair.longest_step(system.fastest) for system in systems]),
+        longest_steps=np.array([pair.longest_step(run.model.system.fastest_in(run.phases)) for run in runs]),
         numbers=np.ascontiguousarray(code.numbers(np.array([system.numbers for system in systems]).T).T),
         floors=np.array([system.floors for system in systems]),
         seen=np.ascontiguousarray(seen),

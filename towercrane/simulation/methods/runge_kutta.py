@@ -133,6 +133,7 @@ class RungeKutta(Method):
         numbers, table = own.copy(), system.table
         ranges = np.empty((2, len(guards)))
         k, scratch = np.empty((len(self.a), system.size)), np.empty((3, system.size))
+        fastest = system.fastest_in(phases)
         step, growth, turn = 0.0, FREELY, self.longest_turn(run.rtol)
         owner = phase_of(sample_times, phases)
         for phase, inputs in enumerate(phases.inputs):
@@ -141,7 +142,7 @@ class RungeKutta(Method):
             begin, t_end = float(phases.times[phase]), float(phases.times[phase + 1] - phases.times[phase])
             # Where a guard ends the run, nothing goes on from its state.
             retakes = 0.0 if system.switch is None else MOST_RETAKES
-            longest = self.longest_step(system.fastest)
+            longest = self.longest_step(fastest)
             clock = np.array([0.0, step, run.smallest_step, longest, retakes, turn, growth])
             mine = owner == phase
             first = int(np.count_nonzero(owner < phase))
@@ -151,8 +152,11 @@ class RungeKutta(Method):
                 rhs(clock[stepper.TIME], run.state, scratch[0], inputs, numbers, table, guards)
                 return guards
 
+            held = numbers.copy()
             if system.switch is not None:
                 system.switch.begin(run.state, numbers, floors, guards_at)
+                if phase and not np.array_equal(held, numbers):
+                    run.switched.append((begin, run.state.copy()))
             arguments = (
                 rhs, self.stages, self.a, self.c, self.error, self.dense,
                 self.error_order, t_end, clock, counts, run.rtol, run.atol, run.state, system.directions, k, scratch,
@@ -179,8 +183,11 @@ class RungeKutta(Method):
                     if stalled > MOST_STALLED:
                         break
                     crossed = int(counts[stepper.GUARD_INDEX])
+                    held = numbers.copy()
                     if system.switch.cross(crossed, run.state, numbers, floors, guards_at):
                         status, fresh = stepper.PAUSED, True
+                        if not np.array_equal(held, numbers):
+                            run.switched.append((begin + float(clock[stepper.TIME]), run.state.copy()))
             run.counts += counts
             run.time, run.smallest_step = begin + float(clock[stepper.TIME]), float(clock[stepper.SMALLEST])
             step, growth = float(clock[stepper.STEP]), float(clock[stepper.GROWTH])

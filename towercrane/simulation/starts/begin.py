@@ -62,6 +62,8 @@ def begin(model: Model, inputs: Floats, start: Start = HANGING) -> Floats:
     if start.swings:
         state = swung(model, state, inputs, start, frame.spin)
         if start.state == "quiet":
+            if model.system.rope is not None:
+                raise ValueError("state: wanted 'equilibrium' or 'zero' with a rope that stretches, got 'quiet'")
             state = quiet(model, state, frame)
     return np.asarray(state)
 

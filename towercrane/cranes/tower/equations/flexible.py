@@ -10,22 +10,25 @@ import numpy as np
 
 from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.parts.corner import Corners
+from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
+from towercrane.cranes.parts.hoisting.on_rope import OnRope
 from towercrane.cranes.tower.equations import motion
 from towercrane.cranes.tower.equations.actions.collars import corners_of, names_of, pressed_at_rest
 from towercrane.cranes.tower.equations.actions.wind import winds_of
-from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TURN, Constants, constants_of
+from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY, TURN, Constants, constants_of
 from towercrane.cranes.tower.equations.coordinates import Coordinates
 from towercrane.cranes.tower.equations.joints import Joints
 from towercrane.cranes.tower.equations.matrices import geometric_stiffness, scale, softening, stiffness
 from towercrane.cranes.tower.equations.play import contact_stiffness
 from towercrane.cranes.tower.equations.structure import static_force, structure
-from towercrane.kernels.payload import SLACK, Load, State, Structure
+from towercrane.kernels.payload import SLACK, Load, State, Structure, state_of
+from towercrane.kernels.polynomial import polynomial
 from towercrane.kernels.straight.leaves import numbers_of
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB
 from towercrane.simulation.starts.turning import Turning
-from towercrane.simulation.system import NoEquilibrium, System, check_start
+from towercrane.simulation.system import NoEquilibrium, System
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,7 +42,7 @@ ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Equations(Coordinates):
+class Equations(Coordinates, OnRope):
     """Equations of motion of a flexible crane with its load."""
 
     @cached_property
@@ -50,6 +53,11 @@ class Equations(Coordinates):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
+        return self.on_its_rope(self.fixed_system)
+
+    @property
+    def fixed_system(self) -> System:
+        """The same with an inextensible rope."""
         n = self.coordinates
         section = ("section", "section", "section") if self.constants.jointed else ()
         contacts, first = names_of(self.constants.play), motion.GUARDS + len(section)
@@ -77,6 +85,10 @@ class Equations(Coordinates):
         found = (*([coupling] if bends else ()), *corners_of(self.constants.play, first))
         return Corners(found) if found else None
 
+    def on_its_rope(self, system: System) -> System:
+        """A system with what an elastic rope adds, if there is one."""
+        return on_its_rope(system, self.load, ROPE, self.fastest_on, self.rope_as_rod)
+
     @cached_property
     def fastest(self) -> float:
         """Highest angular frequency of its small motions [rad/s]; zero without coordinates.
@@ -85,19 +97,33 @@ class Equations(Coordinates):
         by its inertia along the rope, and so does the trolley further out, but for one per cent where it hardly
         moves.
         """
-        from scipy.linalg import eigh
+        return self.fastest_on(np.inf)
 
-        n = self.coordinates
-        if not n:
-            return 0.0
-        inputs = np.zeros((len(self.channels), 3))
-        inputs[1, 0] = 1.0
-        mass = self.at_rest(np.zeros(n), inputs).mass_matrix()
+    def fastest_on(self, length: float) -> float:
+        """The same with the load on so much elastic rope, at the tower and at the jib's end."""
+        return max(fastest_on(held, hanging, self.load, length) for held, hanging in self.small_motions)
+
+    @cached_property
+    def small_motions(self) -> list[tuple[Floats, Structure]]:
+        """Stiffness and structure where it is to be sought."""
+        held = self.stiffness_when_held
+        return [(held, self.at_rest(np.zeros(self.coordinates), inputs)) for inputs in self.trolley_ends]
+
+    @property
+    def trolley_ends(self) -> list[Floats]:
+        """Inputs with the trolley at the tower; where the rope stretches, also with it at the jib's end."""
+        inputs = np.zeros((2, len(self.channels), 3))
+        inputs[:, ROPE, 0], inputs[1, TROLLEY, 0] = 1.0, self.crane.jib_length
+        return list(inputs[:1] if self.load.elasticity is None else inputs)
+
+    @property
+    def stiffness_when_held(self) -> Floats:
+        """Stiffness with all collars met and the drive at its stiffest."""
         held = self.constants.stiffness + contact_stiffness(self)
         if self.drive is not None:
             turned = self.parts["slewing"].start
             held[turned, turned] += max(self.drive.soft, self.drive.stiff)
-        return float(np.sqrt(max(eigh(held, mass, eigvals_only=True)[-1], 0.0)))
+        return held
 
     def with_load(self, load: Load) -> Self:
         """The same crane with another load: what does not depend on the load is shared, not made again."""
@@ -108,6 +134,8 @@ class Equations(Coordinates):
             # The load's weight takes stiffness, and with it speed, from the tower.
             constants = replace(constants, stiffness=stiffness(other), softening=softening(other))
             fastest = lambda: other.fastest  # noqa: E731
+        if load.elasticity is not None:
+            fastest = other.fastest_on
         # Cached properties that are filled beforehand.
         vars(other)["constants"] = constants
         crossings = None if self.system.crossings is None else Joints(constants)
@@ -138,20 +166,9 @@ class Equations(Coordinates):
         ValueError
             If the state is not one of the two.
         """
-        check_start(state)
-        n, y = self.coordinates, np.zeros(self.size)
-        y[:n] = self.undeformed(inputs)
-        hung = -np.eye(self.axes)[-1]
-        if state == "equilibrium":
-            y[:n] = self.equilibrium(inputs)
-            *_, air = winds_of(self.constants, [[value] for value in inputs[:, 0]])
-            force = np.array(
-                load_force(self.load, self.constants.gravity, [air[k] for k in self.constants.fixed_axes])
-            )
-            # Without weight and wind any direction will do.
-            hung = force / np.linalg.norm(force) if force.any() else hung
-        y[n : n + self.axes] = hung
-        return y
+        y = np.zeros(self.size)
+        y[: self.coordinates] = self.equilibrium(inputs) if state == "equilibrium" else self.undeformed(inputs)
+        return self.hung(y, inputs, state)
 
     def jib_heading(self, state: Floats, inputs: Floats) -> float:
         """Angle from the first axis of the coordinates to the jib's root [rad]."""
@@ -249,8 +266,33 @@ class Equations(Coordinates):
     def at_rest(self, q: Floats, inputs: Floats) -> Structure:
         """The structure at rest at these coordinates, in the wind of the inputs, its drives held."""
         held = [(value, 0.0, 0.0) for value in inputs[:, 0].tolist()]
-        state = State(q.tolist(), (), (), [0.0] * self.coordinates, (), ())
+        state = State(q.tolist(), (), [0.0] * self.coordinates, ())
         return structure(self.constants, state, held).hanging
+
+    @property
+    def rope(self) -> int:
+        """Where the load's part of the state begins."""
+        return self.coordinates
+
+    def load_at_rest(self, inputs: Floats) -> Floats:
+        """Force of weight and wind on the load at rest [N]; shape (axes,)."""
+        *_, air = winds_of(self.constants, [[value] for value in inputs[:, 0]])
+        own = [air[k] for k in self.constants.fixed_axes]
+        return np.array(load_force(self.load, self.constants.gravity, own))
+
+    def below(self, state: Floats, inputs: Floats) -> tuple[float, float, float]:
+        """Rope below what it hangs from, what the winch has given of it and its rate [m, m, m/s]."""
+        wound, rate, _ = polynomial(inputs[ROPE], 0.0)
+        return self.rope_at_rest(state[: self.coordinates], inputs), float(wound), rate
+
+    def suspended(self, state: Floats, inputs: Floats) -> Structure:
+        """The crane without its load in a state, moved by its drives."""
+        return structure(self.constants, *self.as_driven(state, inputs)).hanging
+
+    def as_driven(self, state: Floats, inputs: Floats) -> tuple[State, list[Any]]:
+        """Parts of a state, and values, rates and accelerations of the drives."""
+        drives = [polynomial(row, 0.0) for row in inputs.tolist()]
+        return state_of(state.tolist(), self.coordinates, self.axes), drives
 
     @property
     def basis(self) -> Floats:

@@ -2,7 +2,8 @@
 
 The slope of a shear-flexible jib steps where its shear strain does, at a change of section and at a body. A trolley
 that crosses such a joint is thrown up or down: rates jump, places do not. No force acts along a coordinate or across
-the rope in no time, so the momenta dT/dq' go on as they were, and so does the load's velocity across the rope.
+the rope in no time, so the momenta dT/dq' go on as they were, and so does the load's velocity across the rope, on an
+elastic rope its whole velocity.
 """
 
 from __future__ import annotations
@@ -94,7 +95,8 @@ class Joints:
         crane = self.crane
         inner, outer = self._seen(state, before, time), self._seen(state, after, 0.0)
         velocity = np.array(outer.hanging.velocity) - np.array(inner.hanging.velocity)
-        parts, load = state_of(state, crane.coordinates, crane.axes), crane.load.mass
+        # An elastic rope has no impulse to give in no time.
+        parts, load = state_of(state, crane.coordinates, crane.axes), crane.load.mass * self._carries
         n = np.array(parts.direction) / np.linalg.norm(parts.direction)
         jacobian = np.array(outer.hanging.jacobian, dtype=float).reshape(crane.axes, crane.coordinates)
         dragged = crane.trolley_mass * np.eye(crane.axes) + load * np.outer(n, n)
@@ -105,7 +107,7 @@ class Joints:
         (length, hauling, _), (_, speed, _) = (polynomial(after[row], 0.0) for row in (ROPE, TROLLEY))
         found, place = state.copy(), crane.coordinates + crane.axes
         found[place : place + crane.coordinates] += rates
-        found[place + crane.coordinates : 2 * place] -= (thrown - n * (n @ thrown)) / length
+        found[place + crane.coordinates : 2 * place] -= self._carries * (thrown - n * (n @ thrown)) / length
         way, along = 0.5 * (np.array(inner.path) + np.array(outer.path))[list(crane.fixed_axes)], load * (n @ thrown)
         found[-1] += speed * way @ dragged @ thrown + hauling * along
         if crane.slewing == "prescribed":
@@ -117,6 +119,11 @@ class Joints:
                 )
             found[-1] += polynomial(after[SLEWING], 0.0)[1] * turned
         return found
+
+    @property
+    def _carries(self) -> float:
+        """Whether the rope's upper end takes the load along when it is thrown: 1 or 0."""
+        return float(self.crane.load.elasticity is None)
 
     def _row(self, section: int, width: int) -> Floats:
         crane = self.crane

@@ -9,7 +9,8 @@ from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
 from towercrane.cranes.tower.equations.jib import Section
 from towercrane.cranes.tower.equations.structure import slewing_torque, structure
 from towercrane.kernels.algebra import dot
-from towercrane.kernels.payload import Rope, hang_load, slopes, state_of
+from towercrane.kernels.hanging import hang_load
+from towercrane.kernels.payload import Rope, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
 
 if TYPE_CHECKING:
@@ -51,4 +52,5 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     margins = [hung.tension, found.trolley.x, crane.jib_length - found.trolley.x, crane.tilt_limit - found.tilt]
     section_too = found.trolley.section if crane.jointed else ()
     tensions = found.taut.tensions if found.taut is not None else ()
-    return slope, [*margins, -beyond, beyond, torque, force, *section_too, *sides(found.beyond), *tensions]
+    contacts = sides(found.beyond)
+    return slope, [*margins, -beyond, beyond, torque, force, *section_too, *contacts, *tensions, *hung.guards]

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-MOTION_KINDS = ("radial", "lateral", "torsion", "radial sway", "lateral sway")
-"""What moves in a mode: tower and jib in the jib's vertical plane, tower and jib across it, torsion with slewing, and
-the load along and across the jib."""
+MOTION_KINDS = ("radial", "lateral", "torsion", "radial sway", "lateral sway", "rope")
+"""What moves in a mode: tower and jib in the jib's vertical plane, tower and jib across it, torsion with slewing, the
+load along and across the jib, and the rope that stretches."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,8 @@ class NaturalMode:
     shares : dict of str to float
         Share of each kind in the elastic and potential energy; they add up to 1.
     shape : ndarray, shape (coordinates + 2,)
-        Coordinates, then the load's way from the point it hangs from, along the fixed axes x and y [m].
+        Coordinates, the stretch of a rope that does, then the load's way from the point it hangs from, along the
+        fixed axes x and y [m].
     """
 
     angular_frequency: float
@@ -64,7 +65,8 @@ def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None
     Returns
     -------
     mass, stiffness : ndarray, shape (coordinates + axes - 1, coordinates + axes - 1)
-        The last coordinates are the load's horizontal way from the point it hangs from [m].
+        The last coordinates are the load's horizontal way from the point it hangs from [m]; before them, where the
+        rope stretches, its stretch [m].
     """
     inputs = np.zeros((len(model.channels), 3))
     inputs[:, 0] = np.ravel(np.asarray(drives, dtype=float))
@@ -72,18 +74,25 @@ def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None
     there = np.zeros(n) if about is None else about
     at_rest = model.at_rest(there, inputs)
     columns = np.array(at_rest.jacobian, dtype=float).reshape(model.axes, n)
-    mass = np.zeros((n + sways, n + sways))
-    mass[:n, :n] = at_rest.mass_matrix() + load * columns.T @ columns
-    mass[n:, :n] = load * columns[:sways]
-    mass[:n, n:] = mass[n:, :n].T
-    mass[n:, n:] = load * np.eye(sways)
-    stiffness = np.zeros_like(mass)
+    length, elasticity = model.rope_at_rest(there, inputs), model.load.elasticity
+    # What each coordinate moves the load: along its axes, then down the rope, then to its sides.
+    own = np.zeros((model.axes, sways if elasticity is None else model.axes))
+    own[:sways, -sways:] = np.eye(sways)
+    if elasticity is not None:
+        own[-1, 0] = -1.0
+    moved, whole = np.hstack([columns, own]), n + own.shape[1]
+    mass, stiffness = load * moved.T @ moved, np.zeros((whole, whole))
+    mass[:n, :n] += at_rest.mass_matrix()
+    if elasticity is not None:
+        wound = float(inputs[1, 0])
+        stiffness[n, n] = elasticity.spring(wound)
+        length += load * model.crane.gravity / stiffness[n, n]
     if about is None:
         stiffness[:n, :n] = model.constants.stiffness
     elif n:
         slope, _ = jacobian(lambda q: -model.static_forces(q, inputs), about, model.system.scale[:n])
         stiffness[:n, :n] = 0.5 * (slope + slope.T) + model.contact(about, inputs)[1]
-    stiffness[n:, n:] = load * model.crane.gravity / model.rope_at_rest(there, inputs) * np.eye(sways)
+    stiffness[-sways:, -sways:] = load * model.crane.gravity / length * np.eye(sways)
     return mass, stiffness
 
 
@@ -210,8 +219,9 @@ def _standing(model: Equations, place: float, rope_length: float, slewing_angle:
 def _head_frame(model: Equations, heading: float) -> Floats:
     """Orthogonal matrix that turns what is given along x and y into along and across the jib."""
     n, parts = model.coordinates, model.parts
-    frame = np.eye(n + 2)
-    pairs = [(n, n + 1)]
+    rope = n + (model.load.elasticity is not None)
+    frame = np.eye(rope + 2)
+    pairs = [(rope, rope + 1)]
     if model.counts["tower_y"]:
         pairs += zip(
             range(*parts["tower_x"].indices(n)),
@@ -226,11 +236,13 @@ def _head_frame(model: Equations, heading: float) -> Floats:
 
 def _rows(model: Equations) -> dict[str, list[int]]:
     n = model.coordinates
+    rope = n + (model.load.elasticity is not None)
     at = {kind: list(range(*rows.indices(n))) for kind, rows in model.parts.items()}
     groups = (
         *([row for kind in kinds for row in at.get(kind, [])] for kinds in (UPRIGHT, SIDEWAYS)),
         at["torsion"] + at["slewing"],
-        [n],
-        [n + 1],
+        [rope],
+        [rope + 1],
+        list(range(n, rope)),
     )
     return dict(zip(MOTION_KINDS, groups, strict=True))

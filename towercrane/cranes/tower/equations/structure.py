@@ -22,8 +22,9 @@ from towercrane.cranes.tower.equations.actions.collars import held_back, meet
 from towercrane.cranes.tower.equations.actions.drive import Driven, drive
 from towercrane.cranes.tower.equations.actions.ground import ground_of, shake
 from towercrane.cranes.tower.equations.actions.wind import press_wind, winds_of
-from towercrane.cranes.tower.equations.body import body_of, carried
-from towercrane.cranes.tower.equations.head import head_of
+from towercrane.cranes.tower.equations.body import Carried, body_of, carried
+from towercrane.cranes.tower.equations.constants import SLIDE_X, SLIDE_Y
+from towercrane.cranes.tower.equations.head import Head, head_of
 from towercrane.cranes.tower.equations.jib import bend, path_of, trolley_of
 from towercrane.cranes.tower.equations.projection import (
     Projected,
@@ -165,10 +166,11 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
         power = power + driven.power
 
     axes = crane.fixed_axes
-    velocity, bias = head.to_fixed(end.velocity), head.to_fixed(end.bias)
+    velocity, bias, place = head.to_fixed(end.velocity), head.to_fixed(end.bias), place_of(crane, head, end, state)
     hanging = Structure(
         mass=mass_matrix(crane, projected, shapes),
         force=forces,
+        place=[place[k] for k in axes],
         velocity=[velocity[k] for k in axes],
         bias=[bias[k] for k in axes],
         jacobian=[[own.end[k] for own in projected] for k in axes],
@@ -179,9 +181,16 @@ def structure(crane: Constants, state: State, drives: Drives, section: Section |
     return CraneStructure(hanging, trolley, tilt, power, path, share, projected, driven, taut, beyond)
 
 
+def place_of(crane: Constants, head: Head, end: Carried, state: State) -> Vector:
+    """Where a point of the head is, from the undeformed tower top along the axes of the coordinates [m]."""
+    q = state.coordinates[: crane.movers]
+    x, y, z = head.to_fixed(end.place)
+    return x + dot(crane.motions[SLIDE_X][: crane.movers], q), y + dot(crane.motions[SLIDE_Y][: crane.movers], q), z
+
+
 def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
     """Forces on the coordinates y at rest, with the load that hangs at rest in the wind; inputs at their values."""
-    state = State(y, (), (), [0.0] * crane.coordinates, (), ())
+    state = State(y, (), [0.0] * crane.coordinates, ())
     hanging = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]]).hanging
     pull = load_force(crane.load, crane.gravity, hanging.wind)
     columns = zip(*hanging.jacobian, strict=True)

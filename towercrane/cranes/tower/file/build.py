@@ -149,7 +149,7 @@ def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[
         )  # fmt: skip
     return {
         "crane": built or crane_of(tables),
-        "load": load_of(tables.payload),
+        "load": load_of(tables.payload, tables.rope),
         "self_weight": tables.start.state != "zero-no-self-weight",
         "rope_as_rod": tables.rope.slack == "rod",
         "damping": ModalDamping(

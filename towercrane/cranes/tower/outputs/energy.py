@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.parts.coupling import coupling_energy
+from towercrane.cranes.parts.hoisting.elastic import STORED
 from towercrane.cranes.tower.equations.actions.collars import meet
 from towercrane.cranes.tower.equations.constants import SLEWING
 from towercrane.kernels.algebra import dot, form
@@ -51,9 +52,11 @@ def own_energy(at: Kinematics) -> Any:
 
 
 def elastic_energy(at: Kinematics) -> Any:
-    """Energy of modes, of the drive's coupling and of collars with play [J]."""
+    """Energy of modes, of a rope that stretches, of the drive's coupling and of collars with play [J]."""
     crane, q = at.seen.crane, at.state.coordinates
     energy = 0.5 * form(q, crane.stiffness, q)
+    if crane.load.elasticity is not None:
+        energy = energy + at.instant.guards[STORED]
     if (drive := crane.drive) is not None:
         twist = at.slewing[0] - at.instant.drives[SLEWING][0]
         energy = energy + coupling_energy(twist, drive.soft, drive.stiff, drive.corner)

@@ -146,13 +146,25 @@ class Kinematics:
 
     @cached_property
     def rope(self) -> Vector:
-        """Direction of the rope."""
-        return in_space(self.state.direction)
+        """Direction of the rope; of one that stretches, the vector along it."""
+        return self._from_upper_end(self.state.direction, 0)
+
+    @cached_property
+    def rope_reach(self) -> Any:
+        """Length of that vector."""
+        return np.sqrt(dot(self.rope, self.rope))
 
     @cached_property
     def swing(self) -> Vector:
-        """Its rate [1/s]."""
-        return in_space(self.state.swing)
+        """Its rate."""
+        return self._from_upper_end(self.state.swing, 1)
+
+    def _from_upper_end(self, own: Row, order: int) -> Vector:
+        x, y, z = in_space(own)
+        if self.seen.crane.load.elasticity is None:
+            return x, y, z
+        u, v, w = self.trolley_in_space[order]
+        return x - u, y - v, z - w
 
     @cached_property
     def below(self) -> Pair:
@@ -163,6 +175,8 @@ class Kinematics:
     @cached_property
     def load_in_space(self) -> tuple[Vector, Vector]:
         """Position of the load from the undeformed tower top, and its velocity."""
+        if self.seen.crane.load.elasticity is not None:
+            return in_space(self.state.direction), in_space(self.state.swing)
         (place, velocity), (length, hauling) = self.trolley_in_space, self.below
         x, y, z = (own + length * n for own, n in zip(place, self.rope, strict=True))
         u, v, w = (own + hauling * n + length * p for own, n, p in zip(velocity, self.rope, self.swing, strict=True))

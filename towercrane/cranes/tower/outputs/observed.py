@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.parts.base import BASE, length
+from towercrane.cranes.parts.points import ROPE_STRETCH
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
 from towercrane.cranes.tower.equations.coordinates import ANGLES, BOWS
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
@@ -131,6 +132,7 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
     ),
     "rope_length": (lambda at: at.instant.drives[ROPE][0], About("m", "rope length")),
     "hoist_rope_force": (lambda at: at.instant.guards[TENSION], About("N", "rope tension, the force of the hoist")),
+    "rope_stretch": (lambda at: at.rope_reach - at.below[0], ROPE_STRETCH),
     "slewing_angle": (lambda at: at.slewing[0], About("rad", "angle of the head on the tower's top")),
     "slewing_speed": (lambda at: at.slewing[1], About("rad/s", "rate of that angle")),
     "slewing_torque": (
@@ -266,8 +268,13 @@ def about(
         "wind": bool(crane.wind),
         "ground": bool(crane.ground),
         "counter": model.crane.counter_bends,
+        "rope_stretch": crane.load.elasticity is not None,
     }
-    found = {name: shown for name, (_, shown) in read.items() if there.get(name.partition("_")[0], True)}
+    found = {
+        name: shown
+        for name, (_, shown) in read.items()
+        if there.get(name.partition("_")[0], True) and there.get(name, True)
+    }
     if crane.wind < 2:
         found = {name: shown for name, shown in found.items() if not name.startswith("wind_speed")}
     springs = [(1.0, own.rotation_stiffness, own.torsional_stiffness) for own in model.crane.collars]

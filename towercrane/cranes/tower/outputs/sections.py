@@ -12,6 +12,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from towercrane.cranes.parts.base import rope_on_crane
+from towercrane.cranes.parts.points import rope_seen
 from towercrane.cranes.tower.equations.actions.wind import pressures
 from towercrane.cranes.tower.equations.body import Body, body_of
 from towercrane.cranes.tower.equations.jib import Sums
@@ -118,8 +119,11 @@ class Sections:
     @cached_property
     def hung(self) -> tuple[Vector, Vector]:
         """Force of the rope on what it hangs from, and couple of its damper, which turns the jib."""
-        at, damping = self.at, self.at.seen.crane.load.rope_damping
-        force, couple = rope_on_crane(at.instant.guards[TENSION], damping, at.below[0], at.rope, at.swing)
+        at, load = self.at, self.at.seen.crane.load
+        rope: Any = load.rope_damping, at.below[0], at.rope, at.swing
+        if load.elasticity is not None:
+            _, rope = rope_seen(load, at.rope, at.swing, at.instant.guards)
+        force, couple = rope_on_crane(at.instant.guards[TENSION], *rope)
         return self.head.to_head(force), self.head.to_head(couple)
 
     def loaded(self, body: Body) -> Body:

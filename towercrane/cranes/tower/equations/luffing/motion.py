@@ -25,9 +25,10 @@ from towercrane.cranes.tower.equations.projection import (
     project_row,
     share_of,
 )
-from towercrane.cranes.tower.equations.structure import resist, slewing_torque
+from towercrane.cranes.tower.equations.structure import place_of, resist, slewing_torque
 from towercrane.kernels.algebra import dot
-from towercrane.kernels.payload import Rope, State, Structure, hang_load, slopes, state_of
+from towercrane.kernels.hanging import hang_load
+from towercrane.kernels.payload import Rope, State, Structure, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ def structure(crane: Constants, state: State, drives: Drives) -> LuffingStructur
     paid = [0.0] * movers + [-moved / own.falls for moved in hauled.moved]
     rope = Rope(
         length - (hauled.length - own.reference_way) / own.falls, rate, acceleration - hauled.bias / own.falls,
-        paid=paid,
+        paid, length,
     )  # fmt: skip
 
     # The bent jib's head is nearer to its foot, and lower: its weight there has the chord's inclination alone.
@@ -112,10 +113,11 @@ def structure(crane: Constants, state: State, drives: Drives) -> LuffingStructur
     axes, end = crane.fixed_axes, hinged.end
     mass = mass_matrix(crane, projected, [0.0] * len(hinged.rows))
     mass[-1][movers:] = hinged.pitching
-    velocity, bias = head.to_fixed(end.velocity), head.to_fixed(end.bias)
+    velocity, bias, place = head.to_fixed(end.velocity), head.to_fixed(end.bias), place_of(crane, head, end, state)
     hanging = Structure(
         mass=mass,
         force=forces,
+        place=[place[k] for k in axes],
         velocity=[velocity[k] for k in axes],
         bias=[bias[k] for k in axes],
         jacobian=[[own.end[k] for own in projected] for k in axes],
@@ -141,12 +143,12 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     slope = slopes(state, hung, hung.power + power)
     stop = luffing_of(crane).highest_angle - state.coordinates[-1]
     margins = [hung.tension, found.held.tension, stop, crane.tilt_limit - found.tilt]
-    return slope, [*margins, -beyond, beyond, torque, *sides(found.beyond)]
+    return slope, [*margins, -beyond, beyond, torque, *sides(found.beyond), *hung.guards]
 
 
 def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
     """Forces on the coordinates y at rest, with the load that hangs at rest; inputs at their values."""
-    state = State(y, (), (), [0.0] * crane.coordinates, (), ())
+    state = State(y, (), [0.0] * crane.coordinates, ())
     found = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]])
     pull, columns = (
         load_force(crane.load, crane.gravity, found.hanging.wind),

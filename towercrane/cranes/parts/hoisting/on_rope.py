@@ -1,0 +1,105 @@
+"""A load on its rope at the start of a run, whatever crane it hangs from and whether the rope stretches."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from towercrane.simulation.system import check_start
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.kernels.payload import Load, Structure
+
+    Floats = NDArray[np.float64]
+
+
+class OnRope(ABC):
+    """A model with its load on a rope.
+
+    It has ``load``, ``axes`` of the load's space, ``size`` of its state, and ``rope``: where the load's part of the
+    state begins, so many places before that of its rate.
+    """
+
+    load: Any
+    axes: Any
+    rope: Any
+    system: Any
+
+    @abstractmethod
+    def suspended(self, state: Floats, inputs: Floats) -> Structure:
+        """The crane without its load in a state, its drives as their polynomials are at time zero."""
+
+    @abstractmethod
+    def below(self, state: Floats, inputs: Floats) -> tuple[float, float, float]:
+        """Rope below what it hangs from, what the winch has given of it and the rate of that [m, m, m/s]."""
+
+    @abstractmethod
+    def load_at_rest(self, inputs: Floats) -> Floats:
+        """Force of weight and wind on the load at rest [N]; shape (axes,)."""
+
+    @property
+    def carried(self) -> Load:
+        """The load on the rope that it hangs on."""
+        found: Load = self.load
+        return found
+
+    def hung(self, state: Floats, inputs: Floats, start: str) -> Floats:
+        """A state with its load hanging at rest; unless the start is "zero", as it would hang in the wind.
+
+        Raises
+        ------
+        ValueError
+            If the start is none.
+        """
+        check_start(start)
+        direction, tension = -np.eye(self.axes)[-1], 0.0
+        if start == "equilibrium" and (force := self.load_at_rest(inputs)).any():
+            # Without weight and wind any direction will do.
+            tension = float(np.linalg.norm(force))
+            direction = force / tension
+        strain = tension / self.carried.elasticity.stiffness if self.carried.elasticity is not None else 0.0
+        return self._placed(state, inputs, direction, np.zeros(self.axes), strain)
+
+    def rope_direction(self, state: Floats, inputs: Floats) -> Floats:
+        """Unit vector from where the rope hangs to the load; shape (3,)."""
+        along = self._along(state, inputs)
+        along = along / np.linalg.norm(along)
+        return np.array([along[0], along[1] if self.axes == 3 else 0.0, along[-1]])
+
+    def hang(self, state: Floats, inputs: Floats, direction: Floats, rate: Floats) -> Floats:
+        """The state with its load along another direction, an elastic rope stretched by the part of the force on the
+        load along it; both vectors of shape (3,)."""
+        kept = [0, 1, 2] if self.axes == 3 else [0, 2]
+        own, strain, elasticity = direction[kept], 0.0, self.carried.elasticity
+        if elasticity is not None:
+            length, wound, _ = self.below(state, inputs)
+            before, force = self._along(state, inputs), self.load_at_rest(inputs)
+            reach = float(np.linalg.norm(before))
+            strain = (reach - length) / (wound + elasticity.extra_length)
+            if pulled := float(force @ before):
+                strain *= max(float(force @ own) * reach / pulled, 0.0)
+        return self._placed(state, inputs, own, rate[kept], strain)
+
+    def _along(self, state: Floats, inputs: Floats) -> Floats:
+        own = np.asarray(state[self.rope : self.rope + self.axes])
+        if self.carried.elasticity is None:
+            return own
+        return np.asarray(own - np.array(self.suspended(state, inputs).place, dtype=float))
+
+    def _placed(self, state: Floats, inputs: Floats, direction: Floats, rate: Floats, strain: float) -> Floats:
+        found, elasticity = np.array(state), self.carried.elasticity
+        if elasticity is not None:
+            length, wound, hauled = self.below(state, inputs)
+            crane, reach = self.suspended(state, inputs), length + strain * (wound + elasticity.extra_length)
+            rate = np.array(crane.velocity, dtype=float) + (1.0 + strain) * hauled * direction + reach * rate
+            direction = np.array(crane.place, dtype=float) + reach * direction
+        ropes = (
+            self.system.directions if elasticity is None else [(self.rope, len(state) // 2 + self.rope, self.axes)]
+        )
+        for first, moved, count in ropes:
+            found[first : first + count], found[moved : moved + count] = direction, rate
+        return found
