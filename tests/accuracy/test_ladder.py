@@ -121,6 +121,13 @@ def test_a_run_without_a_target_is_verified_by_the_next_rung():
     assert not {"jib_tie_3_tension", "jib_root_moment", "luffing_angle"} & report["outputs"].keys()
 
 
+def test_a_force_is_no_target_without_its_output():
+    with pytest.raises(CaseError) as refused:
+        load_case("hammerhead/travel", ["accuracy.target=1 kN"])
+    assert "names the forces" in refused.value.faults[0].hint
+    assert len(targets_of(load_case("hammerhead/travel", ["accuracy.target=1e-2"]))) == 4
+
+
 @pytest.mark.parametrize(
     ("name", "asked", "said"),
     [

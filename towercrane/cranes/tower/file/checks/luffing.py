@@ -129,7 +129,8 @@ def _check_modes(tree: dict[str, Any], low: float, high: float) -> Iterator[Faul
     asked = (leaves(at(tree, key) or [], key) for key in ("modes.luffing_angles", "map.luffing_angles"))
     for key, written in chain.from_iterable(asked):
         angle = si(written, "rad")
-        if angle is not None and not low <= angle <= high:
+        # More than a quarter of a turn is told as not plausible.
+        if angle is not None and angle <= 0.5 * pi and not low <= angle <= high:
             yield Fault("", key, f"angles from {degrees(low):g} to {degrees(high):g} deg", shown(written))
 
 

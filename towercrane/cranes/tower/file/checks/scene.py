@@ -40,6 +40,7 @@ def check_scene(tree: dict[str, Any]) -> Iterator[Fault]:
     if heading is None:
         yield from _check_members(tree)
         yield from _check_bending(tree, "lateral")
+    if heading is None or any(at(tree, key) is not None for key in ("crane.jib.luffing", "crane.tower_head")):
         yield from _check_force(tree)
     if at(tree, "model.counter_jib_vertical_modes"):
         yield from _check_bending(tree, "vertical")
@@ -64,7 +65,7 @@ def _check_outputs(tree: dict[str, Any], still: Collection[str]) -> Iterator[Fau
 
 
 def _check_force(tree: dict[str, Any]) -> Iterator[Fault]:
-    """A force that no output is named for: in space a target without names is one of the motions."""
+    """A force that no output is named for where a target without names is one of the motions."""
     target = at(tree, "accuracy.target")
     if isinstance(target, str) and not at(tree, "accuracy.outputs") and si(target, "N") is not None:
         hint = "accuracy.outputs names the forces that the target is for"
