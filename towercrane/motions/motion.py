@@ -108,7 +108,8 @@ class Motion:
             value = np.zeros_like(t)
             for column in pieces.T[::-1]:
                 value = value * local + column[index]
-            later = (self.end + self.end_rate * (t - self.duration), self.end_rate, 0.0)[min(order, 2)]
+            beyond = self.end_rate * np.maximum(t - self.duration, 0.0)
+            later = (self.end + beyond, self.end_rate, 0.0)[min(order, 2)]
             earlier = self.coefficients[0, 0] if order == 0 else 0.0
             found.append(np.where(rests, np.where(t < 0.0, earlier, later), value))
         return found
@@ -120,7 +121,8 @@ class Motion:
         """
         values = [float(self.coefficients[0, 0]), self.end] if derivative == 0 else [0.0]
         if self.end_rate:
-            values.append(float(self(max(until, self.duration), derivative)))
+            later = max(until - self.duration, 0.0)
+            values.append((self.end + float(self.end_rate) * later, float(self.end_rate), 0.0)[min(derivative, 2)])
         pieces, spans = np.polynomial.polynomial.polyder(self.coefficients, derivative, axis=1), self._spans
         turns = _roots(np.asarray(np.polynomial.polynomial.polyder(pieces, axis=1), dtype=np.float64))
         for at in (np.zeros(len(spans)), spans, *np.clip(turns, 0.0, spans[:, None]).T):
@@ -225,9 +227,12 @@ def _roots(polynomials: Floats) -> Floats:
     found = np.zeros((len(polynomials), max(polynomials.shape[1] - 1, 0)))
     high = np.any(polynomials[:, 3:] != 0.0, axis=1)
     if polynomials.shape[1] > 1:
-        c, b = polynomials[:, 0], polynomials[:, 1]
-        a = polynomials[:, 2] if polynomials.shape[1] > 2 else np.zeros_like(b)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        # Scaled to near one, exactly: squares of large numbers would overflow.
+        _, exponents = np.frexp(np.max(abs(polynomials), axis=1))
+        c, b, *rest = np.ldexp(polynomials, -exponents[:, None]).T
+        a = rest[0] if rest else np.zeros_like(b)
+        # What overflows is a root beyond all numbers.
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             # The stable form: no difference of near numbers, and a line's root where a is zero.
             q = -0.5 * (b + np.copysign(np.sqrt(b * b - 4.0 * a * c), b))
             for column, root in enumerate((c / q, q / a)[: found.shape[1]]):

@@ -57,7 +57,7 @@ def _check_outputs(tree: dict[str, Any], still: Collection[str]) -> Iterator[Fau
     asked = [("outputs", name) for name in outputs] if isinstance(outputs, list) else []
     asked += [("target", name) for name in target] if isinstance(target, dict) else []
     for key, name in asked:
-        if name in ALL and (name in none or name in still):
+        if isinstance(name, str) and name in ALL and (name in none or name in still):
             what = f"one of {', '.join(output for output in ALL if output not in {*none, *still})}"
             hint = "nothing turns the head, blows or shakes across the jib: the scene stays in the jib's plane"
             hint = "runs of such a crane have no such output" if name in none else hint
