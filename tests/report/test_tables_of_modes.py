@@ -20,6 +20,7 @@ def test_modes_in_space(capsys):
             "name": "Some crane", "at": {"trolley_position_m": 12.5, "rope_length_m": 7.5}, "payload_mass_kg": 640.0,
             "modes": [mode, {**mode, "kind": "torsion", "relative_difference": None}], "pendulum_hz": 0.1820261,
             "missing_from_the_model": [{"frequency_hz": 0.0987654, "kind": "lateral"}], "assumed": ASSUMED,
+            "left_out": ["what it knows of play"],
             "sweeps": {"slewing_angle": [turned], "rope_length": [buckled]},
         }
     )  # fmt: skip
@@ -32,6 +33,7 @@ def test_modes_in_space(capsys):
     assert ["4.5", "tower buckled"] in rows
     assert lines[0] == "Some crane: small motions, trolley 12.5 m, rope 7.5 m, load 640 kg"
     assert any("swings at 0.182026 Hz" in line for line in lines)
+    assert "what it knows of play" in lines
 
 
 def test_a_linear_model(capsys):

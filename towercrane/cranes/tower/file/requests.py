@@ -81,7 +81,7 @@ def of_play(tables: TowerCase, pressed: Collection[int] | None = ()) -> list[str
     if free:
         said.append(f"{named(free)} is open: natural frequencies are of motions within it, which no collar feels")
     if leaned and pressed is None:
-        said.append(f"{named(leaned)} is open or not as the tower stands at rest: natural frequencies are of that")
+        said.append(f"{named(leaned)} may be used up at rest: natural frequencies are of the tower as it leans")
     elif leaned:
         said.append(f"{named(leaned)} is used up at rest: natural frequencies are of motions that stay in contact")
     return said
