@@ -126,9 +126,11 @@ def _jumps(run: Run, cut: Phases) -> Floats:
         axis=2,
     )  # fmt: skip
     after = np.concatenate([cut.inputs[1:], cut.after[None]])[:, :, :3]
-    # What acts by its value alone may bend.
-    by_value = np.isin(run.model.channels, getattr(run.model, "value_channels", ()))
-    ends[:, : len(by_value)][:, by_value, 1:] = after[:, : len(by_value)][:, by_value, 1:]
+    # What acts by its value alone may bend; rows beyond those of the drives are no polynomials.
+    drives = len(run.model.channels)
+    by_value = np.flatnonzero(np.isin(run.model.channels, getattr(run.model, "value_channels", ())))
+    ends[:, by_value, 1:] = after[:, by_value, 1:]
+    ends[:, drives:] = cut.inputs[:, drives:, :3]
     same = np.isclose(ends, after, rtol=1e-9, atol=1e-12).all(axis=(1, 2))
     return np.asarray(cut.times[1:][~same])
 

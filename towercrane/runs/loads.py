@@ -100,7 +100,9 @@ def static(run: Run, values: Sequence[float]) -> dict[str, float]:
     """Outputs of the crane at rest under its load, its drives at these values and a wind at its mean; none if it
     falls."""
     model = run.model
-    inputs = np.zeros((len(values), 3))
+    # As wide as those of the run: for others the equations would be written anew.
+    width = max(3, *(run.motions[channel].coefficients.shape[1] for channel in model.channels))
+    inputs = np.zeros((len(values), width))
     inputs[:, 0] = values
     inputs = start_inputs(model, run.motions, inputs)
     try:
