@@ -106,14 +106,14 @@ def test_bad_input_is_one_message(saved, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("count = -1", ["operations.1.count", "a number from 0", "-1"]),
-        ('count = "often"', ["operations.1.count", '"often"']),
+        ("count = -1", ["operations.0.count", "a number from 0", "-1"]),
+        ('count = "often"', ["operations.0.count", '"often"']),
         ("cuont = 1", ['the unknown key "cuont"', 'did you mean "count"?']),
         ('case = "qtz5613/condition-3"', ['either run = "results/..." or case = "..."', "both"]),
         ('set = ["payload.mass=1 t"]', ["changes of a finished run"]),
         ("[classes]\nS0 = 2\nS1 = 1", ["classes", "limits that ascend"]),
         ("[classes]\nS0 = -2", ["classes.S0", "a number above 0"]),
-        ("count = nan", ["operations.1.count", "a number from 0"]),
+        ("count = nan", ["operations.0.count", "a number from 0"]),
     ],
 )
 def test_faults_of_duty_files_name_the_key(line, words, tmp_path):

@@ -6,16 +6,18 @@ from functools import cache, cached_property
 import numpy as np
 import pytest
 from oracles.jets import Jet
-from oracles.space_points import CraneCloud
+from oracles.space_points import CraneCloud, on
 from samples import sectioned_crane as sectioned
 from samples import space_crane as space
 
+from modal.beams.beam import Beam
 from towercrane.cranes.parts.ground import CHANNELS as GROUND
 from towercrane.cranes.parts.wind import WindAreas, WindNodes, wind_channels
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.constants import SLIDE_X, SLIDE_Y
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
 from towercrane.cranes.tower.modes.damping import ModalDamping
+from towercrane.cranes.tower.outputs.cut_sums import Section, cuts_of
 from towercrane.kernels.payload import Load
 from towercrane.motions.motion import Motion
 
@@ -167,10 +169,11 @@ class Instant:
     def expected(self):
         return self.cloud.accelerations(*self.drawn(), self.drives, self.columns, self.wind, self.extra)
 
-    def observed(self):
+    def observed(self, model=None):
+        model = model or self.model
         span = np.array([0.0, 1.0])
         motions = {c: Motion(span, row[None]) for c, row in zip(self.model.channels, self.inputs, strict=True)}
-        return self.model.observe(motions, np.zeros(1), self.state[None], self.slope[None], self.guards[None])
+        return model.observe(motions, np.zeros(1), self.state[None], self.slope[None], self.guards[None])
 
 
 @cache
@@ -255,3 +258,112 @@ def test_sections_carry_what_moves_beyond_them(name):
         )
         tip = [seen[f"counter_jib_tip_deflection{way}"].values[0] for way in ("_sideways", "")]
         assert np.max(abs(np.array(tip) - [-y, z])) < 1e-13
+
+
+def cloud_beyond(instant, name, of, place):
+    """The crane's points with those of tower or jib beyond a section alone."""
+    model, crane = instant.model, SCENES[name].get("crane", space.CRANE)
+    cloud = CraneCloud(model, crane, SCENES[name].get("areas"))
+    cloud.ground = instant.cloud.ground
+    if of == "tower":
+        cloud.height, cloud.tower_weights = on(model.crane.tower_height - place, place)
+        cloud.bends, cloud.leans = model.crane.tower(cloud.height), model.crane.tower(cloud.height, 1)
+        cloud.twists = model.crane.torsion(cloud.height)
+    else:
+        member, bases = cloud.members["jib"], (model.crane.lateral, model.crane.vertical)
+        if isinstance(crane.jib, Beam):
+            member.at, member.length = on(crane.jib.length - place, place)
+            member.mass, (member.pitch, member.yaw) = 123.8 * member.length, np.zeros((2, len(member.at)))
+        else:
+            kept = member.at >= place
+            for own in ("at", "length", "mass", "pitch", "yaw"):
+                setattr(member, own, getattr(member, own)[kept])
+        member.shapes, member.turns = ([own(member.at) for own in bases], [own.rotation(member.at) for own in bases])
+    cloud.left_over(*instant.drawn(), instant.found, instant.drives, [], instant.wind)
+    return cloud
+
+
+@pytest.mark.parametrize("name", ["windy", "of segments, windy", "shaken", "in many winds", "of segments, planar"])
+def test_a_named_section_bears_all_that_is_beyond_it(name):
+    options = SCENES[name]
+    crane = options.get("crane", space.CRANE)
+    asked = [Section("low", "tower", 7.3), Section("in", "jib", 5.0), Section("out", "jib", 20.0)]
+    for instant in instants(name):
+        cuts = cuts_of(instant.model.crane, crane, asked, options.get("areas"), options.get("nodes"))
+        seen = instant.observed(dataclasses.replace(instant.model, cuts=cuts))
+        part, part_c = instant.model.parts, instant.model.parts["torsion"]
+        for section in asked:
+            cloud = cloud_beyond(instant, name, section.of, section.place)
+            points, felt = cloud.now, cloud.felt
+            if section.of == "tower":
+                beyond, bent = list(points), instant.model.crane.tower([section.place])[:, 0]
+                place = np.array([0.0, 0.0, section.place])
+                for axis, kind in enumerate(("tower_x", "tower_y")):
+                    place[axis] = bent[: part[kind].stop - part[kind].start] @ instant.q[part[kind]]
+                place[2] -= instant.model.crane.tower_height
+            else:
+                beyond = ["jib", *(f"jib, rotor {k}" for k in range(3))]
+                if instant.inputs[instant.model.channels.index("trolley"), 0] >= section.place:
+                    beyond += ["trolley", "load"]
+                top = np.zeros(3)
+                top[:2] = instant.model.constants.motions[[SLIDE_X, SLIDE_Y]] @ instant.q
+                left, up = (
+                    float(basis([section.place])[:, 0] @ instant.q[part[kind]])
+                    for basis, kind in (
+                        (instant.model.crane.lateral, "jib_lateral"), (instant.model.crane.vertical, "jib_vertical"),
+                    )
+                )  # fmt: skip
+                axes = np.array([[own.c[0] for own in row] for row in cloud.axes]).reshape(3, 3)
+                place = top + axes @ [section.place, left, up]
+            force, moment, size = np.zeros(3), np.zeros(3), np.zeros(2)
+            for own in beyond:
+                arm = points[own].derivative(0) - place
+                if own == "tower":
+                    arm[:, 2] = cloud.height - section.place
+                force -= felt[own].sum(axis=0)
+                moment -= np.cross(arm, felt[own]).sum(axis=0)
+                size += abs(felt[own]).sum(), abs(np.cross(arm, felt[own])).sum()
+            before = f"section_{section.name}_"
+            if section.of == "tower":
+                inertia = instant.model.crane.torsion.shaft.inertia_per_length * cloud.tower_weights
+                moment[2] -= inertia @ (instant.found[:-2][part_c] @ cloud.twists)
+                expected = {"force_x": force[0], "force_y": force[1], "force_z": force[2]}
+                expected |= {"moment_x": moment[0], "moment_y": moment[1], "torque": moment[2]}
+                expected |= {"shear": np.hypot(*force[:2]), "moment": np.hypot(*moment[:2])}
+            else:
+                force, moment = axes.T @ force, axes.T @ moment
+                expected = dict(zip(("axial_force", "shear_sideways", "shear"), force, strict=True))
+                expected |= {"torque": moment[0], "moment": moment[1], "moment_sideways": -moment[2]}
+            for kind, value in expected.items():
+                bound = 1e-11 * (size[1] if kind.startswith(("moment", "torque")) else size[0])
+                assert abs(seen[before + kind].values[0] - value) < bound, (section, kind)
+
+
+def test_sections_at_foot_and_root_bear_what_base_and_root_do():
+    (instant, *_), options = instants("windy"), SCENES["windy"]
+    ends = [Section("foot", "tower", 0.0), Section("root", "jib", 0.0), Section("top", "tower", 23.8)]
+    cuts = cuts_of(instant.model.crane, space.CRANE, ends, options["areas"], None)
+    seen = instant.observed(dataclasses.replace(instant.model, cuts=cuts))
+    for own, other in (
+        ("section_foot_moment", "overturning_moment"), ("section_foot_shear", "base_shear"),
+        ("section_foot_torque", "base_torque"), ("section_root_moment", "jib_root_moment"),
+        ("section_root_moment_sideways", "jib_root_moment_sideways"),
+    ):  # fmt: skip
+        assert seen[own].values[0] == pytest.approx(seen[other].values[0], rel=1e-11), own
+    with pytest.raises(ValueError, match=r"section tip: wanted a place from 0 to 55.6 m, got 56"):
+        cuts_of(instant.model.crane, space.CRANE, [Section("tip", "jib", 56.0)], None, None)
+
+
+def test_a_trolley_on_a_section_is_beyond_it():
+    """At both sides of the section its shear jumps by what the trolley does, its moment does not."""
+    (instant, *_), crane = instants("one of each"), space.CRANE
+    x = instant.inputs[instant.model.channels.index("trolley"), 0]
+    found = []
+    for place in (x - 1e-9, x, x + 1e-9):
+        cuts = cuts_of(instant.model.crane, crane, [Section("at", "jib", place)], None, None)
+        seen = instant.observed(dataclasses.replace(instant.model, cuts=cuts))
+        found.append([seen[f"section_at_{kind}"].values[0] for kind in ("shear", "moment")])
+    (before, moment), (there, _), (after, without) = found
+    assert there == pytest.approx(before, rel=1e-8)
+    assert before < after - 1e4
+    assert without == pytest.approx(moment, rel=1e-6)

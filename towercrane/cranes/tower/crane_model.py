@@ -10,12 +10,16 @@ import numpy as np
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.modal_crane import flexible_crane
+from towercrane.cranes.tower.outputs.cut_sums import cuts_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from towercrane.cranes.parts.wind import WindAreas, WindNodes
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
+    from towercrane.cranes.tower.outputs.cut_sums import Section
     from towercrane.kernels.payload import Load
 
 
@@ -68,6 +72,7 @@ def tower_crane_model(
     self_weight: bool = True,
     rope_as_rod: bool = False,
     cap: float = np.inf,
+    sections: Sequence[Section] = (),
 ) -> FlexibleModel:
     """Equations of motion of a tower crane.
 
@@ -92,6 +97,8 @@ def tower_crane_model(
         Where a wind of its own blows; without, one wind blows for all.
     ground, floors, damping, weight_softening, self_weight, rope_as_rod, cap
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
+    sections : sequence of Section
+        Where force and moment are wanted.
     """
     if planar:
         modes, drive, drive_inertia = replace(modes, torsion=0, lateral=0, counter_lateral=0), None, 0.0
@@ -124,4 +131,5 @@ def tower_crane_model(
         floors=floors,
         axes=2 if planar else 3,
         cap=cap,
+        cuts=cuts_of(chosen, crane, sections, areas, nodes),
     )

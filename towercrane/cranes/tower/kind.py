@@ -9,6 +9,7 @@ from towercrane.cranes.tower.file.checks.luffing import check_luffing, head_heig
 from towercrane.cranes.tower.file.checks.rope import check_elastic
 from towercrane.cranes.tower.file.checks.rope import refused as refused_on_elastic
 from towercrane.cranes.tower.file.checks.scene import check_scene
+from towercrane.cranes.tower.file.checks.sections import check_sections
 from towercrane.cranes.tower.file.checks.ties import check_ties
 from towercrane.cranes.tower.file.checks.ties import refused as refused_on_ties
 from towercrane.cranes.tower.file.checks.tower import check_tower, tower_height
@@ -34,7 +35,7 @@ TOWER = Kind(
     tables=TowerCase,
     drives=FIXED,
     drives_in=lambda tree: PIVOTING if pivots(tree) else FIXED,
-    checks=(check_tower, check_jibs, check_luffing, check_ties, check_scene, check_elastic),
+    checks=(check_tower, check_jibs, check_luffing, check_ties, check_sections, check_scene, check_elastic),
     build=later("towercrane.cranes.tower.file.build", "tower_model"),
     poses=later("towercrane.cranes.tower.poses", "tower_poses"),
     computed=later("towercrane.cranes.tower.file.lattices.torsion", "computed"),

@@ -166,4 +166,4 @@ class LuffingModel(FlexibleModel):
     @cached_property
     def about(self) -> Mapping[str, About]:
         """What the outputs are."""
-        return about(self, READ)
+        return about(self, self.cuts, READ)

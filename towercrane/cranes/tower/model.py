@@ -10,6 +10,7 @@ import numpy as np
 
 from towercrane.cranes.tower.equations.coordinates import ANGLES
 from towercrane.cranes.tower.equations.flexible import Equations
+from towercrane.cranes.tower.outputs.cut_sums import NONE, Cuts
 from towercrane.cranes.tower.outputs.observed import about, outputs
 from towercrane.cranes.tower.outputs.seen import Seen, seen_of
 from towercrane.simulation.observed import observe
@@ -30,7 +31,9 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, eq=False)
 class FlexibleModel(Equations):
     """A flexible crane with its load as a simulation asks for it; its parameters are those of
-    :class:`towercrane.cranes.tower.equations.coordinates.Coordinates`."""
+    :class:`towercrane.cranes.tower.equations.coordinates.Coordinates`, and named sections whose loads it shows."""
+
+    cuts: Cuts = NONE
 
     @property
     def outputs(self) -> Callable[[Seen, Instant], Mapping[str, Any]]:
@@ -40,12 +43,12 @@ class FlexibleModel(Equations):
     @cached_property
     def seen(self) -> Seen:
         """Constants of the outputs."""
-        return seen_of(self)
+        return seen_of(self, self.cuts)
 
     @cached_property
     def about(self) -> Mapping[str, About]:
         """What the outputs are."""
-        return about(self)
+        return about(self, self.cuts)
 
     def with_load(self, load: Load) -> Self:
         """The same crane with another load, see :class:`towercrane.cranes.tower.equations.flexible.Equations`."""

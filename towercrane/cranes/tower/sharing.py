@@ -14,7 +14,9 @@ def made_of(model: FlexibleModel) -> str:
     # Written out, floats to the last digit: equal text is equal data.
     coordinates = model.crane.written, model.counts, model.axes, model.heading, model.slewing, model.drive_inertia
     losses = model.damping, model.cap, model.wind, model.ground, model.floors
-    return repr((*coordinates, *losses, model.weight_softening, model.self_weight, model.rope_as_rod))
+    return repr(
+        (*coordinates, *losses, model.weight_softening, model.self_weight, model.rope_as_rod, model.cuts.asked)
+    )
 
 
 def plain(tables: TowerCase) -> bool:

@@ -163,7 +163,8 @@ class TiedModel(FlexibleModel):
         """What the outputs are."""
         bars = _head_of(self.crane).bars
         known = shown.tensions(len(bars.jib), len(bars.counter_jib)).keys()
-        return about(self, {name: read for name, read in shown.READ.items() if not shown.tie(name) or name in known})
+        here = {name: read for name, read in shown.READ.items() if not shown.tie(name) or name in known}
+        return about(self, self.cuts, here)
 
     def equilibrium(self, inputs: Floats) -> Floats:
         """Coordinates at rest under all weights and the wind; shape (coordinates,).

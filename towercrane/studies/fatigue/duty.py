@@ -116,7 +116,7 @@ def read_duty(path: Path) -> Duty:
     if not operations:
         fault("operations", "tables [[operations]], one or more", "none")
     tasks = []
-    for place, own in enumerate(operations, start=1):
+    for place, own in enumerate(operations):
         prefix = f"operations.{place}."
         if not isinstance(own, dict):
             fault(prefix[:-1], "a table [[operations]]", own)

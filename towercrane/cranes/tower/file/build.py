@@ -19,6 +19,7 @@ from towercrane.cranes.tower.file.members import (
 from towercrane.cranes.tower.file.plane import heading_of
 from towercrane.cranes.tower.modes.collars import TowerCollar
 from towercrane.cranes.tower.modes.parameters import as_chain
+from towercrane.cranes.tower.outputs.cut_sums import Section
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.file.case_tables import TowerCase
@@ -116,6 +117,12 @@ def described_model(tables: TowerCase, **changes: Any) -> dict[str, Any]:
     return {**described_scene(tables), "modes": counts, **chosen}
 
 
+def sections_of(tables: TowerCase) -> tuple[Section, ...]:
+    """Sections of tower and jib whose loads a case asks for."""
+    places = (own.height if own.of == "tower" else own.position for own in tables.sections)
+    return tuple(Section(own.name, own.of, place or 0.0) for own, place in zip(tables.sections, places, strict=True))
+
+
 def asked_modes(tables: TowerCase) -> dict[str, int]:
     """Number of modes of each kind that a case takes; of a counter-jib one of each kind that its file gives."""
     from towercrane.cranes.tower.crane_model import MODE_KINDS
@@ -166,4 +173,5 @@ def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[
         "floors": 0 if tables.earthquake is None else len(tables.earthquake.floors),
         "areas": WindAreas(**dict(crane.wind_areas)) if tables.wind is not None else None,
         "nodes": None if tables.wind is None else tables.wind.nodes,
+        "sections": sections_of(tables),
     }

@@ -22,6 +22,7 @@ from towercrane.schema.fields import (
     ModeCountIfAny,
     Position,
     Ratio,
+    ReachIfAny,
     Table,
     ToleranceIfAny,
 )
@@ -126,6 +127,15 @@ class MapRequest(Table):
     payload_masses: tuple[Mass, ...] = ()
 
 
+class NamedSection(Table):
+    """A section of tower or jib whose force and moment are wanted: a height of the one, a position on the other."""
+
+    name: str
+    of: Literal["tower", "jib"]
+    height: ReachIfAny = None
+    position: ReachIfAny = None
+
+
 class TowerCase(CaseTable):
     """Case of a tower crane."""
 
@@ -138,6 +148,7 @@ class TowerCase(CaseTable):
     modes: ModesRequest = Field(default_factory=ModesRequest)
     map: MapRequest = Field(default_factory=MapRequest)
     accuracy: Accuracy = Field(default_factory=Accuracy)
+    sections: tuple[NamedSection, ...] = ()
 
     @model_validator(mode="before")
     @classmethod

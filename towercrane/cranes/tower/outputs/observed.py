@@ -7,24 +7,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.parts.base import BASE, length
+from towercrane.cranes.parts.base import BASE, Reaction, length
 from towercrane.cranes.parts.points import ROPE_STRETCH
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
 from towercrane.cranes.tower.equations.coordinates import ANGLES, BOWS
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
-from towercrane.cranes.tower.modes.collars import MOST_COLLARS
+from towercrane.cranes.tower.outputs.cuts import cut_loads, cut_outputs, read_cut
 from towercrane.cranes.tower.outputs.energy import total_energy
 from towercrane.cranes.tower.outputs.kinematics import Kinematics
 from towercrane.cranes.tower.outputs.sections import Sections
-from towercrane.cranes.tower.outputs.support import Support
+from towercrane.cranes.tower.outputs.support import Support, collar_outputs
 from towercrane.cranes.tower.targets import absent
 from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from towercrane.cranes.parts.base import Reaction
     from towercrane.cranes.tower.equations.flexible import Equations
+    from towercrane.cranes.tower.outputs.cut_sums import Cuts
     from towercrane.cranes.tower.outputs.seen import Seen
     from towercrane.simulation.observed import Instant
 
@@ -46,6 +46,11 @@ class Sight(Kinematics):
         """Horizontal wind at a place that sees a wind of its own."""
         east, north, _ = self.winds[node]
         return np.sqrt(east * east + north * north)
+
+    @cached_property
+    def cuts(self) -> dict[str, Reaction]:
+        """What named sections bear."""
+        return cut_loads(self.seen.cuts, self.support, self.sections)
 
     def shaken(self, axis: int) -> Any:
         """Acceleration of the ground along a fixed axis."""
@@ -88,26 +93,6 @@ class Sight(Kinematics):
         if crane.axes == 2 and kind in ("tower_x", "tower_y"):
             return [self.from_plane(q[i], 0.0)[kind == "tower_y"] for i in crane.part("tower_x")]
         return [q[i] for i in crane.part(kind)]
-
-
-def collar_outputs() -> dict[str, tuple[Callable[[Sight], Any], About]]:
-    """Those of collars, the lowest the first."""
-    parts = {
-        "force_x": ("force", 0, "N", "force of the tower on collar {} along x"),
-        "force_y": ("force", 1, "N", "force of the tower on collar {} along y"),
-        "moment_x": ("moment", 0, "N m", "moment of the tower on collar {} about x"),
-        "moment_y": ("moment", 1, "N m", "moment of the tower on collar {} about y"),
-        "torque": ("moment", 2, "N m", "moment of the tower on collar {} about the vertical"),
-    }
-
-    def read(number: int, load: str, axis: int) -> Callable[[Sight], Any]:
-        return lambda at: getattr(at.support.collar(number), load)[axis]
-
-    return {
-        f"collar_{k + 1}_{name}": (read(k, load, axis), About(units, said.format(k + 1)))
-        for k in range(MOST_COLLARS)
-        for name, (load, axis, units, said) in parts.items()
-    }
 
 
 BOW_NAMES = {
@@ -246,8 +231,13 @@ class Outputs(dict[str, Any]):
         self.at, self.read = at, read
 
     def __missing__(self, name: str) -> Any:
-        kind = name.removesuffix("_coordinate")
-        self[name] = found = self.read[name][0](self.at) if name in self.read else self.at.amplitudes(kind)
+        if name in self.read:
+            found = self.read[name][0](self.at)
+        elif name.endswith("_coordinate"):
+            found = self.at.amplitudes(name.removesuffix("_coordinate"))
+        else:
+            found = read_cut(name, self.at.seen.cuts, self.at.cuts)
+        self[name] = found
         return found
 
 
@@ -257,7 +247,7 @@ def outputs(seen: Seen, instant: Instant) -> Outputs:
 
 
 def about(
-    model: Equations, read: Mapping[str, tuple[Callable[[Any], Any], About]] = OUTPUTS
+    model: Equations, cuts: Cuts, read: Mapping[str, tuple[Callable[[Any], Any], About]] = OUTPUTS
 ) -> dict[str, About]:  # fmt: skip
     """What the outputs are; where all stays in the jib's plane, without those that tell nothing there."""
     crane, counts = model.constants, dict(model.counts)
@@ -290,4 +280,6 @@ def about(
             name = f"amplitude of the mass-normalised modes: {kind.replace('_', ' ')}"
             found[f"{kind}_coordinate"] = About("kg^0.5 m", name, (f"{kind}_mode",), count)
     missing = absent(model.heading) if model.axes == 2 else ()
-    return {name: shown for name, shown in found.items() if name not in missing}
+    return {name: shown for name, shown in found.items() if name not in missing} | cut_outputs(
+        cuts, model.axes, model.heading
+    )

@@ -20,6 +20,8 @@ from towercrane.cranes.tower.equations.motion import TENSION
 from towercrane.kernels.algebra import Row, Vector, dot, form
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from towercrane.cranes.tower.equations.head import Head
     from towercrane.cranes.tower.modes.mass_sums import MassSums
     from towercrane.cranes.tower.outputs.kinematics import Kinematics
@@ -106,14 +108,19 @@ class Sections:
     def blown(self, body: Body, *members: Literal["jib", "counter"]) -> Body:
         """A body with the wind on these members."""
         exposure = self.at.seen.exposure
-        if exposure is None:
+        parts = exposure.head if exposure is not None else ()
+        for member in members:
+            body = self.pressed(body, [getattr(part, member) for part in parts])
+        return body
+
+    def pressed(self, body: Body, exposed: Sequence[MassSums]) -> Body:
+        """A body with the wind on what each place of all that turns sees, nothing where there is no wind."""
+        if not exposed:
             return body
         pressing = pressures(self.at.seen.crane, self.at.head, self.at.winds)
-        for part, press in zip(exposure.head, pressing, strict=True):
-            for member in members:
-                sums: MassSums = getattr(part, member)
-                _, rise = self.at.deflection(sums.first, self.at.state.coordinates)
-                body = body.pushed((0.0, sums.mass * press, 0.0), (-rise * press, 0.0, sums.moment * press))
+        for sums, press in zip(exposed, pressing, strict=True):
+            _, rise = self.at.deflection(sums.first, self.at.state.coordinates)
+            body = body.pushed((0.0, sums.mass * press, 0.0), (-rise * press, 0.0, sums.moment * press))
         return body
 
     @cached_property

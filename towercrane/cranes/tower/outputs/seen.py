@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.tower.outputs.cut_sums import TowerCut
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.flexible import Equations
     from towercrane.cranes.tower.modes.exposures import Exposure
     from towercrane.cranes.tower.modes.mass_sums import MassSums
+    from towercrane.cranes.tower.outputs.cut_sums import Cuts
 
     Floats = NDArray[np.float64]
 
@@ -36,12 +39,12 @@ class Seen:
         Their shapes at the tip of the jib, and at that of the counter-jib.
     counter_roll : float
         Moment of inertia about the jib's axis of what else turns than jib and counter-jib [kg m^2].
-    tower_height, tower_mass, tower_moment : float
-        [m]; mass of the tower and its own bodies, and its first moment about the foot [kg, kg m].
-    zeroth, first : ndarray, shape (tower modes,)
-        Sums over the tower's mass of its shapes, and of what tips it.
-    torsion : ndarray, shape (torsion modes,)
-        Sums over the tower's inertia of its shapes of torsion.
+    tower_height : float
+        [m]
+    foot : TowerCut
+        All of the tower: what is above its undeformed foot.
+    cuts : Cuts
+        Named sections of tower and jib.
     collar_heights : ndarray, shape (c,)
         Of what ties the tower to a building, the lowest first [m].
     collar_springs : ndarray, shape (c, 3)
@@ -61,11 +64,8 @@ class Seen:
     counter_tip: Floats
     counter_roll: float
     tower_height: float
-    tower_mass: float
-    tower_moment: float
-    zeroth: Floats
-    first: Floats
-    torsion: Floats
+    foot: TowerCut
+    cuts: Cuts
     collar_heights: Floats
     collar_springs: Floats
     collar_bends: Floats
@@ -73,7 +73,7 @@ class Seen:
     collar_twists: Floats
 
 
-def seen_of(model: Equations) -> Seen:
+def seen_of(model: Equations, cuts: Cuts) -> Seen:
     """Constants of a crane's outputs in its chosen coordinates."""
     crane = model.crane
     zeroth, first = crane.tower_moments
@@ -89,11 +89,20 @@ def seen_of(model: Equations) -> Seen:
         counter_tip=crane.counter_tip_shapes,
         counter_roll=crane.written.roll_inertia if crane.written is not None else 0.0,
         tower_height=crane.tower_height,
-        tower_mass=crane.tower_mass,
-        tower_moment=crane.tower_moment,
-        zeroth=zeroth,
-        first=first + crane.tower.rotary_moments(),
-        torsion=crane.torsion.mass_moment(),
+        foot=TowerCut(
+            name="",
+            height=0.0,
+            bends=np.zeros(crane.tower.count),
+            mass=crane.tower_mass,
+            moment=crane.tower_moment,
+            zeroth=zeroth,
+            first=first + crane.tower.rotary_moments(),
+            products=crane.tower_matrices[0],
+            torsion=crane.torsion.mass_moment(),
+            collars=0,
+            exposed=crane.exposure.tower if crane.exposure is not None else (),
+        ),
+        cuts=cuts,
         collar_heights=heights,
         collar_springs=np.array(springs).reshape(-1, 3),
         collar_bends=crane.tower(heights).T,

@@ -14,9 +14,14 @@ import numpy as np
 from towercrane.cranes.parts.base import Reaction, added
 from towercrane.cranes.tower.equations.actions.collars import meet
 from towercrane.cranes.tower.equations.actions.ground import floors_of
+from towercrane.cranes.tower.modes.collars import MOST_COLLARS
 from towercrane.kernels.algebra import Vector, cross, dot, form
+from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from towercrane.cranes.tower.outputs.cut_sums import TowerCut
     from towercrane.cranes.tower.outputs.kinematics import Kinematics
     from towercrane.cranes.tower.outputs.sections import Sections
 
@@ -72,18 +77,32 @@ class Support:
     @cached_property
     def base(self) -> Reaction:
         """What the crane does to the ground, the moment about the place of its undeformed foot."""
-        force, upright, leaning = self._loads
+        force, upright, leaning = self._foot
         return self._fixed(force, added(upright, leaning))
 
     @cached_property
     def upright(self) -> Reaction:
         """The same of a tower that bears its loads where it stands undeformed."""
-        force, upright, _ = self._loads
+        force, upright, _ = self._foot
         return self._fixed(force, upright)
 
     @cached_property
-    def _loads(self) -> tuple[Vector, Vector, Vector]:
-        """Force on the ground, its moment, what the tower's deflection adds to it, along the coordinates' axes."""
+    def _foot(self) -> tuple[Vector, Vector, Vector]:
+        return self.loads(self.at.seen.foot)
+
+    def section(self, cut: TowerCut) -> Reaction:
+        """What is above a section of the tower does to it, the moment about where the deflected tower has it."""
+        force, upright, leaning = self.loads(cut)
+        crane, q = self.at.seen.crane, self.at.state.coordinates
+        x, y = (dot(cut.bends, [q[i] for i in crane.part(kind)]) for kind in ("tower_x", "tower_y"))
+        moment = less(added(upright, leaning), cross((x, y, cut.height), force))
+        return self._fixed(force, moment)
+
+    def loads(self, cut: TowerCut) -> tuple[Vector, Vector, Vector]:
+        """Force on a section by what is above, its moment about the foot, what the tower's deflection adds to it.
+
+        They are along the axes of the coordinates.
+        """
         at, seen, crane, top = self.at, self.at.seen, self.at.seen.crane, self.sections.tower_top
         head, qdd = self.sections.head, self.sections.accelerations
         force, moment = head.to_fixed(top.force), head.to_fixed(top.moment)
@@ -92,33 +111,33 @@ class Support:
         count, bent = len(crane.part("tower_x")), crane.part("torsion").start
         (q_x, q_y), (a_x, a_y) = ((values[:count], values[count:bent]) for values in (at.state.coordinates, qdd))
         shaken_x, shaken_y, shaken_z = at.ground.acceleration
-        own, falls = crane.own_mass[:count, :count], crane.self_gravity + shaken_z
+        falls = crane.self_gravity + shaken_z
 
         # Along an axis that the tower does not bend to there are no coordinates. Its mass moves sideways alone.
-        s_x, s_y = dot(q_x, seen.zeroth), dot(q_y, seen.zeroth)
+        s_x, s_y = dot(q_x, cut.zeroth), dot(q_y, cut.zeroth)
         inertia = (
-            -dot(a_x, seen.zeroth) - seen.tower_mass * shaken_x,
-            -dot(a_y, seen.zeroth) - seen.tower_mass * shaken_y,
-            -seen.tower_mass * falls,
+            -dot(a_x, cut.zeroth) - cut.mass * shaken_x,
+            -dot(a_y, cut.zeroth) - cut.mass * shaken_y,
+            -cut.mass * falls,
         )
         tipping = (
-            dot(a_y, seen.first) + seen.tower_moment * shaken_y,
-            -dot(a_x, seen.first) - seen.tower_moment * shaken_x,
-            -dot(qdd[bent : bent + len(seen.torsion)], seen.torsion),
+            dot(a_y, cut.first) + cut.moment * shaken_y,
+            -dot(a_x, cut.first) - cut.moment * shaken_x,
+            -dot(qdd[bent : bent + len(cut.torsion)], cut.torsion),
         )
         turn = s_y * shaken_x - s_x * shaken_y
         if len(q_y):
-            turn = turn - form(q_x, own, a_y) + form(q_y, own, a_x)
+            turn = turn - form(q_x, cut.products, a_y) + form(q_y, cut.products, a_x)
         leaning = added(cross((u_x, u_y, 0.0), force), (-falls * s_y, falls * s_x, turn))
         force, moment = added(force, inertia), added(moment, tipping)
-        for part in () if seen.exposure is None else seen.exposure.tower:
+        for part in cut.exposed:
             wind = at.winds[part.node]
             speed = np.sqrt(dot(wind, wind))
             press = tuple(speed * own for own in wind)
             force = added(force, tuple(part.area * own for own in press))
             moment = added(moment, cross((0.0, 0.0, part.moment), press))
             leaning = added(leaning, cross((dot(q_x, part.swept), dot(q_y, part.swept), 0.0), press))
-        for (x, y, z), held, couple in self.tied:
+        for (x, y, z), held, couple in self.tied[cut.collars :]:
             # The collars take their part.
             force, moment = less(force, held), less(less(moment, couple), cross((0.0, 0.0, z), held))
             leaning = less(leaning, cross((x, y, 0.0), held))
@@ -128,6 +147,26 @@ class Support:
         """Along the fixed axes, of what is along the axes of the coordinates."""
         along, about = (self.at.from_plane(*vector[:2]) for vector in (force, moment))
         return Reaction((*along, force[2]), (*about, moment[2]))
+
+
+def collar_outputs() -> dict[str, tuple[Callable[[Any], Any], About]]:
+    """Those of collars, the lowest the first."""
+    parts = {
+        "force_x": ("force", 0, "N", "force of the tower on collar {} along x"),
+        "force_y": ("force", 1, "N", "force of the tower on collar {} along y"),
+        "moment_x": ("moment", 0, "N m", "moment of the tower on collar {} about x"),
+        "moment_y": ("moment", 1, "N m", "moment of the tower on collar {} about y"),
+        "torque": ("moment", 2, "N m", "moment of the tower on collar {} about the vertical"),
+    }
+
+    def read(number: int, load: str, axis: int) -> Callable[[Any], Any]:
+        return lambda at: getattr(at.support.collar(number), load)[axis]
+
+    return {
+        f"collar_{k + 1}_{name}": (read(k, load, axis), About(units, said.format(k + 1)))
+        for k in range(MOST_COLLARS)
+        for name, (load, axis, units, said) in parts.items()
+    }
 
 
 def less(one: Vector, other: Vector) -> Vector:

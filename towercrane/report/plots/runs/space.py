@@ -127,6 +127,9 @@ PICTURES: Pictures = {
 }
 """Title and panels of each picture of a run in space, but for those of what only some runs have."""
 
+MOST_SECTIONS = 6
+"""Named sections in one picture; the files hold all."""
+
 SOME: Pictures = {
     "wind.png": ("Wind", WIND),
     "ground.png": ("Earthquake", (GROUND,)),
@@ -138,7 +141,28 @@ SOME: Pictures = {
 
 def pictures_of(result: xr.Dataset) -> Pictures:
     """Pictures of a run by the names of their files."""
-    shown = {name: {line for panel in panels for line in panel.lines} for name, (_, panels) in SOME.items()}
+    some = SOME | {"sections.png": ("Moments in sections", _sections(result))}
+    shown = {name: {line for panel in panels for line in panel.lines} for name, (_, panels) in some.items()}
     return PICTURES | {
-        name: picture for name, picture in SOME.items() if not shown[name].isdisjoint(result.data_vars)
+        name: picture for name, picture in some.items() if not shown[name].isdisjoint(result.data_vars)
     }
+
+
+def _sections(result: xr.Dataset) -> tuple[Panel, ...]:
+    """A panel for each section that the case names."""
+    names = [str(name).removesuffix("_moment") for name in result.data_vars if str(name).endswith("_moment")]
+    return tuple(
+        Panel(
+            f"{name.removeprefix('section_').replace('_', ' ')} [kN m]",
+            1e-3,
+            {
+                f"{name}_moment": "moment",
+                f"{name}_moment_sideways": "sideways",
+                f"{name}_moment_x": "about x",
+                f"{name}_moment_y": "about y",
+                f"{name}_torque": "torque",
+            },
+        )
+        for name in names
+        if name.startswith("section_")
+    )[:MOST_SECTIONS]

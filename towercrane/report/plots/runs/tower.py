@@ -10,7 +10,16 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-BOTH = ("torque.png", "counter-jib.png", "base.png", "wind.png", "ground.png", "collars.png", "ties.png")
+BOTH = (
+    "torque.png",
+    "counter-jib.png",
+    "base.png",
+    "wind.png",
+    "ground.png",
+    "collars.png",
+    "ties.png",
+    "sections.png",
+)
 """Pictures of space that a run in the plane has too, as far as it has their outputs."""
 
 
