@@ -29,17 +29,19 @@ class Drawn:
         state = size * random.normal(size=model.system.size)
         half = (len(state) - 1) // 2
         direction, swing = np.array([0.3, -0.2, -1.0]) + 0.2 * random.normal(size=3), random.normal(size=3)
-        direction /= np.linalg.norm(direction)
-        swing -= direction * (swing @ direction)
+        self.elastic = model.system.constants.load.elasticity is not None
+        if not self.elastic:
+            # On an elastic rope it is the load's own place, far below.
+            direction /= np.linalg.norm(direction)
+            swing -= direction * (swing @ direction)
         state[half - 3 : half], state[2 * half - 3 : 2 * half] = direction, swing
         self.state = state
         self.slopes, self.guards = model.system.slope(0.0, state, self.inputs)
         now, moved = state_of(state, count, 3), state_of(self.slopes, count, 3)
-        self.q, self.stretch, self.rope = (
+        self.q, self.rope = (
             [Jet(*own) for own in zip(here, rates, 0.5 * np.asarray(seconds), strict=True)]
             for here, rates, seconds in (
                 (now.coordinates, now.rates, moved.rates),
-                (now.stretch, now.stretching, moved.stretching),
                 (now.direction, now.swing, moved.swing),
             )
         )
@@ -79,8 +81,10 @@ def agree(seen, points, more=(0.0, 0.0, 0.0), names="xyz"):
     assert_allclose(seen["overturning_moment"], np.hypot(*moment[:2]), rtol=0, atol=1e-12 * moments)
 
 
-def hung(load, place, length, rope):
-    return [at + length * n for at, n in zip(place, rope, strict=True)], load.mass, load.drag
+def hung(at, place, length):
+    load = at.model.load
+    beside = at.rope if at.elastic else [own + length * n for own, n in zip(place, at.rope, strict=True)]
+    return beside, load.mass, load.drag
 
 
 def turned(angle, ahead, left):
@@ -104,8 +108,7 @@ def test_a_slewing_crane_does_to_its_base_what_all_its_masses_resist(kind):
             arms = [turned(values[a.turns_with], form(a.ahead), form(a.across)) for a in point.links]
             places[name] = [total(arm[k] for arm in arms) for k in range(2)] + [form(point.height)]
             points.append((places[name], point.mass, point.drag))
-        length = at.drives[1] + total(at.stretch)
-        points.append(hung(model.load, places[crane.suspension], length, at.rope))
+        points.append(hung(at, places[crane.suspension], at.drives[1]))
         spun = sum(inertia * 2.0 * float(values[name].c[2]) for name, inertia in crane.inertias.items())
         more = np.array([0.0, 0.0, -spun])
         if kind == "enhanced":
@@ -149,7 +152,7 @@ def test_a_jib_crane_does_to_its_base_what_booms_and_load_resist():
                 places = [p + part * b for p, b in zip(foot, boom, strict=True)]
                 points.append((places, 0.5 * mass * WEIGHTS, 0.0))
                 foot = [p + b for p, b in zip(foot, boom, strict=True)]
-            points.append(hung(LOAD, foot, at.drives[3], at.rope))
+            points.append(hung(at, foot, at.drives[3]))
             agree(at.observed(), points, [0.0, 0.0, -crane.post_inertia * 2.0 * float(slew.c[2])])
 
 
@@ -165,7 +168,7 @@ def test_an_overhead_crane_does_to_its_runway_what_bridge_trolley_and_load_resis
         hangs = [bridge, trolley, (wave * trolley).sin() * at.q[0]]
         points = [
             (girder, 0.5 * crane.girder_mass * WEIGHTS, 0.0), (hangs, crane.trolley_mass, 0.0),
-            ([bridge, Jet(0.0), Jet(0.0)], crane.bridge_end_carriage_mass, 0.0), hung(LOAD, hangs, length, at.rope),
+            ([bridge, Jet(0.0), Jet(0.0)], crane.bridge_end_carriage_mass, 0.0), hung(at, hangs, length),
         ]  # fmt: skip
         seen = at.observed()
         assert "overturning_moment" not in seen
