@@ -12,6 +12,7 @@ from towercrane.accuracy.ladder import RUNG, SAFETY, laddered_choice
 from towercrane.accuracy.promise import AS_ASKED, KEPT, OUT_OF_REACH, finer, settle, targets_of, verification
 from towercrane.accuracy.scene import Scene
 from towercrane.accuracy.setting import Setting
+from towercrane.cases.models import model_of, poses_of
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.targets import ALL, ANY_MOTION
 from towercrane.kernels.payload import Load
@@ -75,6 +76,24 @@ def test_what_is_expected_is_what_the_next_rung_finds_and_what_is_stated_stays()
     found = np.array([gap(run, richer, name) for name in scene.outputs])
     assert np.allclose(choice.estimate.truncation, SAFETY * found, rtol=1e-3, atol=1e-9)
     assert "a run with more, 3 of bending of the tower, 4 of bending of the jib up and down" in choice.left_out[0]
+
+
+def test_a_ladder_that_does_not_help_ends_on_its_lowest_rung():
+    """A tower that is stated to be rigid is what is wrong, however many modes the jib has."""
+    scene = luffed(np.random.default_rng(5))
+    choice, _ = laddered_choice(scene, every(1e-4, scene), {"tower_modes": 0})
+    assert (choice.kept, choice.tried, choice.setting.jib_vertical_modes) == (False, 4, 1)
+
+
+def test_a_crane_is_drawn_in_the_modes_that_were_picked_of_its_counter_jib_too():
+    case = load_case("hammerhead/travel", ["run.duration=0.5 s"])
+    picked = {"tower_modes": 1, "jib_vertical_modes": 1, "counter_jib_vertical_modes": 1}
+    run = record_case(case, model=model_of(case, **picked))
+    run.attrs["accuracy"] = json.dumps({"setting": Setting(planar=True).with_counts(picked).provenance()})
+    times = np.array([0.0, 0.3])
+    drawn, known = (poses_of(case, run, times, model) for model in (None, run.model))
+    assert drawn.members.keys() == known.members.keys()
+    assert all(np.array_equal(line, known.members[name]) for name, line in drawn.members.items())
 
 
 def test_rungs_are_richer_in_every_kind_that_the_crane_has():

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -54,6 +54,9 @@ SAFETY = 2.0
 STALLED = 0.9
 """Two rungs' differences that shrink less than this count as if they shrank so."""
 
+HELPS = 0.8
+"""Where the expected errors over the allowed ones fall by less than this, the next rung is of no help."""
+
 
 def laddered_choice(
     scene: Scene,
@@ -61,7 +64,7 @@ def laddered_choice(
     stated: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> tuple[Choice, Run]:
-    """The lowest rung that is expected to keep all targets, or else the highest, and its run.
+    """The lowest rung that is expected to keep all targets, or else the last that helped, and its run.
 
     Parameters
     ----------
@@ -87,32 +90,51 @@ def laddered_choice(
     kinds = [kind for kind in moving(scene.planar) if kind in scene.described]
     free = [kind for kind in kinds if kind not in stated]
     plain = Setting(planar=scene.planar, rtol=LOOSEST, atol=ABSOLUTE * LOOSEST).with_counts(lowest(scene, kinds))
-    setting, known, tried, before = replace(plain, **stated), None, 1, None
+    more = {kind: RUNG[kind] for kind in kinds}
+    rungs: list[_Rung] = []
+    setting, known, tried = replace(plain, **stated), None, 0
     while True:
         result = known or run_of(scene, setting, progress)
         peaks = peaks_of(scene, result)
         allowed = limits(scene.outputs, targets, peaks)
-        higher = replace(setting, **tolerances(scene, allowed / peaks)).with_more(
-            {kind: RUNG[kind] for kind in kinds}
-        )
-        richer, tried = run_of(scene, higher, progress), tried + 1
+        higher = replace(setting, **tolerances(scene, allowed / peaks)).with_more(more)
+        richer = run_of(scene, higher, progress)
+        tried += 1 + (known is None)
         found = np.array([gap(result, richer, name) for name in scene.outputs])
-        estimate = Estimate(_factors(found, before) * found, stepping(scene, setting))
-        kept = bool(ratios(estimate.errors(peaks), allowed).max() <= 1.0)
+        estimate = Estimate(_factors(found, rungs[-1].found if rungs else None) * found, stepping(scene, setting))
+        excess = float(ratios(estimate.errors(peaks), allowed).max())
         early = [run.attrs["outcome"] for run in (result, richer) if run.attrs["outcome"] != FINISHED]
-        if kept or early or all(higher.counts[kind] > MOST[kind] for kind in free):
+        if rungs and not early and excess > max(HELPS * rungs[-1].excess, 1.0):
             break
-        before = found
+        rungs.append(_Rung(setting, higher, result, estimate, found, excess, early))
+        if excess <= 1.0 or early or all(higher.counts[kind] > MOST[kind] for kind in free):
+            break
         setting = replace(higher, **stated)
         # What the case states is not what the richer one had.
-        known, tried = (richer, tried) if setting == higher else (None, tried + 1)
+        known = richer if setting == higher else None
+    best = rungs[-1]
+    peaks = peaks_of(scene, best.result)
+    allowed = limits(scene.outputs, targets, peaks)
     doubts = (
-        *(f"a model on the ladder ends early: {outcome}" for outcome in early[-1:]),
+        *(f"a model on the ladder ends early: {outcome}" for outcome in best.early[-1:]),
         *doubts_of(scene, allowed / peaks),
     )
-    left_out = tuple(_left_out(scene, setting, higher, np.where(np.isfinite(allowed), found / peaks, 0.0)))
-    spent = time.process_time() - began - result.attrs["solver_cpu_seconds"]
-    return Choice(setting, estimate, peaks, kept, doubts, tried, spent, left_out), result
+    left_out = tuple(_left_out(scene, best, np.where(np.isfinite(allowed), best.found / peaks, 0.0)))
+    spent = time.process_time() - began - best.result.attrs["solver_cpu_seconds"]
+    choice = Choice(best.setting, best.estimate, peaks, best.excess <= 1.0, doubts, tried, spent, left_out)
+    return choice, best.result
+
+
+class _Rung(NamedTuple):
+    """A setting beside the next: its run, expected errors, differences and how far the first are over the allowed."""
+
+    setting: Setting
+    higher: Setting
+    result: Run
+    estimate: Estimate
+    found: Floats
+    excess: float
+    early: list[str]
 
 
 def lowest(scene: Scene, kinds: list[str]) -> dict[str, int]:
@@ -129,10 +151,10 @@ def _factors(found: Floats, before: Floats | None) -> Floats:
     return np.maximum(SAFETY, 1.0 / (1.0 - np.minimum(shrunk, STALLED)))
 
 
-def _left_out(scene: Scene, setting: Setting, higher: Setting, shares: Floats) -> list[str]:
+def _left_out(scene: Scene, rung: _Rung, shares: Floats) -> list[str]:
     """What the setting has not, and what a run with more of it changed, in sentences."""
-    had = setting.counts
-    more = [f"{count} of {MODE_KINDS[kind]}" for kind, count in higher.counts.items() if count > had[kind]]
+    had = rung.setting.counts
+    more = [f"{count} of {MODE_KINDS[kind]}" for kind, count in rung.higher.counts.items() if count > had[kind]]
     worst = int(shares.argmax())
     changed = f"{list(scene.outputs)[worst].replace('_', ' ')} by {shares[worst]:.2g} of its peak"
     found = [f"further modes: a run with more, {', '.join(more)}, changed {changed}"]

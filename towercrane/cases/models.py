@@ -108,6 +108,6 @@ def poses_of(case: Case, result: xr.Dataset, times: NDArray[np.float64], model: 
     """
     kind = KINDS[case.kind]
     if model is None:
-        kinds = kind.modes(case.checked) if kind.modes else {}
-        model = model_of(case, **{key: count for key, count in picked_in(result).items() if key in kinds})
+        picked = picked_in(result).items()
+        model = model_of(case, **{key: count for key, count in picked if key.endswith("_modes")})
     return kind.poses(model, case.checked, result, times)
