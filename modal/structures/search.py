@@ -30,6 +30,9 @@ CROWDED = 300.0
 """Waves in a segment [rad] from which on critical loads are looked for from far below: cut for the full load it
 would fall into very many pieces, and as a rule it has buckled long before."""
 
+SLICES = 32
+"""Of a segment in which its waves are bounded."""
+
 CLOSEST = 0.999
 """Part of the frequency at which masses vibrate on their own flexibility, up to which modes are looked for: there
 they crowd, or end."""
@@ -76,9 +79,14 @@ def _pressed(structure: Members) -> float:
     strongest = 1.0
     for member in structure.members:
         s = member.segment
-        pressed = max(member.compression, member.compression + member.gravity * s.mass_per_length * s.length, 0.0)
-        softest = s.bending_stiffness * min(1.0, s.end_ratio**s.bending_power)
-        strongest = max(strongest, s.length * sqrt(pressed / softest))
+        # Slice by slice: a thin end need not be where the weight is.
+        breadths = np.linspace(1.0, s.end_ratio, SLICES + 1)
+        masses = s.mass_per_length * s.length / SLICES * breadths**s.mass_power
+        beyond = np.append(np.cumsum(np.maximum(masses[1:], masses[:-1])[::-1])[::-1], 0.0)
+        pressed = member.compression + np.maximum(member.gravity * beyond, 0.0)
+        stiffness = s.bending_stiffness * breadths**s.bending_power
+        slices = np.maximum(pressed[:-1], 0.0) / np.minimum(stiffness[1:], stiffness[:-1])
+        strongest = max(strongest, s.length * sqrt(np.max(slices)))
     return strongest
 
 
