@@ -128,7 +128,7 @@ def test_a_tower_finds_its_rest_among_collars_however_they_stand():
     """Corners of the forces lie within the steps of differences, and Newton's steps pass several."""
     model = space.model(2, 1, 0, 0, load=Load(HUNG), crane=loose(1e-5, 5e-3), ground=True, floors=2)
     rng, pressed, n = np.random.default_rng(9), [], model.coordinates
-    for _ in range(60):
+    for _ in range(30):
         inputs = np.zeros((10, 3))
         inputs[:3, 0] = rng.uniform(0.0, 40.0), ROPE, rng.uniform(0.0, 6.0)
         inputs[6:, 0] = 10.0 ** rng.uniform(-6, -2) * rng.normal(size=4)
@@ -165,13 +165,11 @@ def test_collars_that_always_hold_bend_with_the_tower():
     """A static shape beside springs: the stiffness of both as that of the chain that has them all."""
     held = replace(TOWER, collars={1: Collar(4e7, 3e8)})
     shapes = gap_shapes(held, 1, BARE.end_body, HEIGHTS[1:])
-    both = gap_shapes(replace(held, collars={1: Collar(4e7, 3e8), 2: Collar(2e7)}), 8, BARE.end_body, [80.0])
     pushed = shapes.stiffness_matrix() + 2e7 * np.outer(shapes(55.0), shapes(55.0))
     own = float(shapes(55.0) @ np.linalg.solve(pushed, shapes(55.0)))
     exact = mast({1: (4e7, 3e8), 2: (2e7, 0.0)})
     row = exact.nodes[2, 0] @ exact.shapes
     assert own == pytest.approx(float(row / exact.omega**2 @ row), rel=1e-9)
-    assert both.count == 9
 
 
 def test_frequencies_on_closed_collars_are_near_those_of_the_tower_on_its_springs_as_printed():
