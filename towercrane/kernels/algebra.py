@@ -76,3 +76,14 @@ def _less(value: Any, a: Sequence[Any], b: Sequence[Any]) -> Any:
     for one, other in zip(a, b, strict=False):
         value = value - one * other
     return value
+
+
+def vibrations(stiffness: NDArray[np.float64], mass: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Values v, ascending, with stiffness x = v mass x, and in the columns such x with x mass x = 1.
+
+    Both symmetric, the mass positive definite. SciPy has the same, and takes a fifth of a run's start to load.
+    """
+    factor = np.linalg.cholesky(mass)
+    halved = np.linalg.solve(factor, stiffness)
+    values, vectors = np.linalg.eigh(np.linalg.solve(factor, halved.T))
+    return values, np.linalg.solve(factor.T, vectors)

@@ -7,10 +7,10 @@ solver with its dense output, and looked at closely; a parabola through the thre
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import comb
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.special import comb
 
 from towercrane.motions.motion import SAME_INSTANT, Phases, phases, shifted
 from towercrane.simulation.integrate import evaluate, integrate
@@ -120,7 +120,7 @@ def _jumps(run: Run, cut: Phases) -> Floats:
     spans = np.diff(cut.times)[:, None, None]
     ends = np.stack(
         [
-            np.sum(cut.inputs * comb(powers, k) * spans ** np.maximum(powers - k, 0), axis=2)
+            np.sum(cut.inputs * [comb(power, k) for power in powers] * spans ** np.maximum(powers - k, 0), axis=2)
             for k in range(3)
         ],
         axis=2,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.kernels.algebra import vibrations
 from towercrane.kernels.elastic_rope import SLACK_MODE, TAUT
 from towercrane.kernels.straight.leaves import place_of
 from towercrane.simulation.outcomes import ROPE_CAUGHT, ROPE_SLACK
@@ -139,11 +140,9 @@ def fastest_on(stiffness: Floats, hanging: Structure, load: Load, length: float)
     length : float
         [m]
     """
-    from scipy.linalg import eigh
-
     n, mass = len(stiffness), hanging.mass_matrix()
     if load.elasticity is None:
-        return float(np.sqrt(max(eigh(stiffness, mass, eigvals_only=True)[-1], 0.0))) if n else 0.0
+        return float(np.sqrt(max(vibrations(stiffness, mass)[0][-1], 0.0))) if n else 0.0
     spring, highest = load.elasticity.spring(length), 0.0
     whole = np.zeros((n + 1, n + 1))
     whole[:n, :n], whole[n, n] = mass, load.mass
@@ -152,5 +151,5 @@ def fastest_on(stiffness: Floats, hanging: Structure, load: Load, length: float)
         held = spring * np.outer(along, along)
         relaxing = load.elasticity.relaxation_time * spring * (along @ np.linalg.solve(whole, along))
         held[:n, :n] += stiffness
-        highest = max(highest, np.sqrt(max(eigh(held, whole, eigvals_only=True)[-1], 0.0)), relaxing)
+        highest = max(highest, np.sqrt(max(vibrations(held, whole)[0][-1], 0.0)), relaxing)
     return float(highest)

@@ -9,6 +9,7 @@ import numpy as np
 
 from towercrane.cranes.tower.equations.actions.collars import meet
 from towercrane.cranes.tower.equations.coordinates import SIDEWAYS, UPRIGHT
+from towercrane.kernels.algebra import vibrations
 from towercrane.simulation.differences import jacobian
 
 if TYPE_CHECKING:
@@ -104,12 +105,10 @@ def reciprocal_modes(model: Equations, mass: Floats, stiffness: Floats) -> tuple
     NoEquilibrium
         If the stiffness is not positive definite.
     """
-    from scipy.linalg import eigh
-
     if np.linalg.eigvalsh(stiffness).min() <= 0.0:
         raise model.gives_way()
     # The reciprocal problem keeps the low modes exact to rounding, however stiff the highest is.
-    reciprocal, vectors = eigh(mass, stiffness)
+    reciprocal, vectors = vibrations(mass, stiffness)
     return 1.0 / np.sqrt(reciprocal[::-1]), vectors[:, ::-1]
 
 
