@@ -1,7 +1,5 @@
 """Runs that go on from the saved end of another."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -9,7 +7,8 @@ from samples import jointed_jib
 from samples.qtz5613 import CRANE, in_plane
 
 from towercrane import Load, load_case
-from towercrane.cases.models import model_of, motions_of, start_of
+from towercrane.cases.models import model_of, motions_of
+from towercrane.cases.result_case import start_of
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import phases, rest
 from towercrane.motions.profiles import trapezoid
@@ -124,7 +123,7 @@ def test_modes_of_another_sign_and_ends_that_are_none_are_refused(ended, monkeyp
         attrs = {k: v for k, v in result.attrs.items() if k != attribute}
         if value is not None:
             attrs[attribute] = value
-        monkeypatch.setattr(files, "load", lambda _, attrs=attrs: SimpleNamespace(attrs=attrs))
+        monkeypatch.setattr(files, "load", lambda _, attrs=attrs: result.drop_attrs().assign_attrs(attrs))
         with pytest.raises(CaseError, match=said):
             start_of(case, before.model, before.motions)
 
@@ -161,3 +160,34 @@ def test_linear_models_are_of_no_state_in_which_a_run_would_end():
     with pytest.raises(NoEquilibrium) as caught:
         linearise(model, motions, state=begin(model, inputs, Start(along=2.0)), outputs=[])
     assert caught.value.outcome == SLACK_ROPE
+
+
+def test_a_run_in_the_plane_goes_on_in_space_and_one_in_space_stays_there(ended, tmp_path):
+    path, _ = ended
+    turns = "motion.slewing={shape='speed-trapezoid', speed='0.5 rpm', ramp='2 s', hold='1 s'}"
+    few = ["model.jib_lateral_modes=1", "model.torsion_modes=1"]
+    case = going_on(path, [*few, turns, "run.duration=3 s"])
+    run = record_case(case)
+    assert run.model.axes == 3
+    flat = record_case(going_on(path, ["run.duration=3 s"]))
+    for name in (
+        "sway_radial",
+        "tower_tip_displacement",
+        "jib_tip_deflection",
+        "payload_position",
+        "hoist_rope_force",
+    ):
+        assert_allclose(run[name].values[0], flat[name].values[0], rtol=1e-11, atol=1e-11, err_msg=name)
+    assert abs(run["sway_tangential"].values).max() > 1e-3
+    save(run, tmp_path / "result.nc")
+    angle = float(run["slewing_angle"].values[-1])
+    stands = f"motion.slewing={{shape='rest', start={angle!r}}}"
+    moving = going_on(tmp_path / "result.nc", [*few, stands, "run.duration=1 s"])
+    with pytest.raises(CaseError, match=r"slewing at .* rad/s, not 0 rad/s"):
+        record_case(moving)
+    calm = f"motion.slewing={{shape='speed-trapezoid', start={angle!r}, start_speed='0.5 rpm', speed='0.2 rpm', "
+    again = record_case(
+        going_on(tmp_path / "result.nc", [*few, calm + "ramp='1 s', hold='1 s'}", "run.duration=1 s"])
+    )
+    assert again.model.axes == 3
+    assert_allclose(again["sway_tangential"].values[0], run["sway_tangential"].values[-1], rtol=1e-12)

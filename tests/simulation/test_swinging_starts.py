@@ -7,7 +7,8 @@ from samples.every_kind import KINDS
 
 from towercrane import load_case
 from towercrane.accuracy.scene import scene_of
-from towercrane.cases.models import model_of, start_of
+from towercrane.cases.models import model_of
+from towercrane.cases.result_case import start_of
 from towercrane.motions.motion import Motion, phases, rest
 from towercrane.schema.faults import CaseError
 from towercrane.simulation.simulate import record

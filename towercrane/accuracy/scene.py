@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from towercrane.accuracy.setting import Setting
-from towercrane.cases.models import motions_of, start_of
+from towercrane.cases.models import motions_of
+from towercrane.cases.result_case import start_of
 from towercrane.cranes.tower.crane_model import described, moving, tower_crane_model
 from towercrane.cranes.tower.file.build import asked_modes, described_scene
 from towercrane.cranes.tower.file.case_tables import TowerCase

@@ -150,6 +150,9 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
     crane_unread = not isinstance(text.tree.get("crane", {}), dict)
     if isinstance(tree.get("crane"), dict):
         tree["crane"]["kind"] = kind
+    if isinstance(start := tree.get("start"), dict) and isinstance(start.get("from"), str):
+        beside = found.parent / start["from"]
+        start["from"] = str(beside) if beside.is_file() else start["from"]
     checked = None
     try:
         checked = KINDS[kind].tables.model_validate(tree)

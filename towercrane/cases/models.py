@@ -6,11 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.registry import KINDS
 from towercrane.results.measures import picked_in
-from towercrane.simulation.starts.start import Start
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import numpy as np
     import xarray as xr
     from numpy.typing import NDArray
@@ -63,27 +60,6 @@ def motions_of(case: Case, model: Model | None = None) -> dict[str, Motion]:
         key = f"motion.{'hoist' if modelled[0] == 'rope' else modelled[0]}"
         wanted, hint = "frequencies that the model has, or a list of them", "towercrane modes shows what it has"
         raise CaseError([Fault(str(case.path), f"{key}.frequencies", wanted, str(failure), hint)]) from failure
-
-
-def start_of(case: Case, model: Model | None = None, motions: Mapping[str, Motion] | None = None) -> Start:
-    """How a case's run starts; from the end of another run only with the case's own model and motions.
-
-    Raises
-    ------
-    CaseError
-        If it cannot go on from there.
-    """
-    asked, found = case.start, []
-    if asked.from_:
-        from towercrane.cases.result_case import saved_start
-
-        return saved_start(case, model, motions)
-    for name in KINDS[case.kind].sways:
-        found += [getattr(asked, name), getattr(asked, f"{name}_rate")]
-    along, along_rate, across, across_rate = found
-    # Without its own weight a crane is another model.
-    state = "zero" if asked.state.startswith("zero") else asked.state
-    return Start(state, along, across, along_rate, across_rate)
 
 
 def poses_of(case: Case, result: xr.Dataset, times: NDArray[np.float64], model: Model | None = None) -> Poses:

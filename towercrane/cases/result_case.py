@@ -1,4 +1,4 @@
-"""The case that a result was computed from, and the state that a run goes on from."""
+"""How a case's run starts, perhaps from a saved end, and the case that a result was computed from."""
 
 from __future__ import annotations
 
@@ -6,30 +6,60 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from towercrane.cases.case import Case, computed_values
 from towercrane.cases.kinds import kind_of
+from towercrane.cases.models import model_of
 from towercrane.cranes.registry import KINDS
+from towercrane.cranes.tower.equations.constants import SLEWING
+from towercrane.cranes.tower.file.case_tables import TowerCase
+from towercrane.cranes.tower.file.plane import heading_of
 from towercrane.schema.faults import CaseError, Fault
 from towercrane.schema.provenance import split_provenance
 from towercrane.schema.text import leaves
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
-from towercrane.simulation.starts.end import leaps, other_side, other_states
+from towercrane.simulation.starts.end import leaps, lifted, other_side, other_states
 from towercrane.simulation.starts.start import Start
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import xarray as xr
+    from numpy.typing import NDArray
 
     from towercrane.motions.motion import Motion
     from towercrane.simulation.system import Model
+
+    Floats = NDArray[np.float64]
 
 GO_ON = FINISHED, INTERRUPTED
 """Outcomes of runs from whose end one can go on."""
 
 
-def saved_start(case: Case, model: Model | None, motions: Mapping[str, Motion] | None) -> Start:
+def start_of(case: Case, model: Model | None = None, motions: Mapping[str, Motion] | None = None) -> Start:
+    """How a case's run starts; from the end of another run only with the case's own model and motions.
+
+    Raises
+    ------
+    CaseError
+        If it cannot go on from there.
+    """
+    asked, found = case.start, []
+    if asked.from_:
+        return _saved_start(case, model, motions)
+    for name in KINDS[case.kind].sways:
+        found += [getattr(asked, name), getattr(asked, f"{name}_rate")]
+    along, along_rate, across, across_rate = found
+    # Without its own weight a crane is another model.
+    state = "zero" if asked.state.startswith("zero") else asked.state
+    return Start(state, along, across, along_rate, across_rate)
+
+
+def _saved_start(case: Case, model: Model | None, motions: Mapping[str, Motion] | None) -> Start:
     """Start from the end of the run whose result the case names.
+
+    The end of a run in the vertical plane of its jib is one in space too.
 
     Parameters
     ----------
@@ -44,46 +74,62 @@ def saved_start(case: Case, model: Model | None, motions: Mapping[str, Motion] |
         If the file is no such result, the crane or its modes are others, or a motion does not begin where that run
         ended.
     """
-    from towercrane.results.files import load
-
-    named = case.start.from_
 
     def refuse(wanted: str, got: str, hint: str = "") -> CaseError:
         return CaseError([Fault(str(case.path), "start.from", wanted, got, hint)])
 
+    named = case.start.from_
     if model is None or motions is None:
         raise refuse("a run of the case's own model", "another model of its crane", "its states are others")
     try:
-        result = load(_found(case, named))
-        end, state, before = json.loads(result.attrs["end"]), result.attrs["end_state"].tolist(), case_of(result)
-    except (OSError, ValueError, KeyError, AttributeError) as failure:
-        older = isinstance(failure, KeyError | AttributeError)
+        before, end, state = _ended(named)
+    except (OSError, ValueError) as failure:
         said = getattr(failure, "strerror", None) or str(failure)
-        got = "one that does not hold its end, as older versions wrote it" if older else said
-        raise refuse(f"a result.nc of `towercrane run`, {named}", got) from failure
-    if result.attrs["outcome"] not in GO_ON:
-        raise refuse("a run that finished or was interrupted", f'one that ended as "{result.attrs["outcome"]}"')
+        raise refuse(f"a result.nc of `towercrane run`, {named}", said) from failure
+    if end["outcome"] not in GO_ON:
+        raise refuse("a run that finished or was interrupted", f'one that ended as "{end["outcome"]}"')
     if changed := _changed(before.crane, case.crane):
         raise refuse("a run of this crane", changed)
-    if other := other_states(end, model):
+    rises = end["axes"] < int(getattr(model, "axes", 3))
+    if other := other_states(end, model_of(case, planar=True) if rises else model):
         raise refuse("a run in these modes", f"one with {other}")
-    if len(state) != model.system.size or not all(abs(value) < float("inf") for value in state):
+    if rises:
+        heading = heading_of(before.tables(TowerCase)) or 0.0
+        state = lifted(state, end, model, heading)
+        end["drives"][model.channels[SLEWING]] = [heading, 0.0]
+    if len(state) != model.system.size or not np.all(np.isfinite(state)):
         raise refuse(f"{model.system.size} finite states", f"{len(state)}", "another kind of rope?")
     if off := [f"{name} at {was}, not {now}" for name, was, now in leaps(end, model, motions)]:
-        raise refuse(
-            f"motions that begin as {named} ends", ", ".join(off), "a motion's start, start_speed, rope.length"
-        )
+        hint = "a motion's start, start_speed, rope.length"
+        raise refuse(f"motions that begin as {named} ends", ", ".join(off), hint)
     if other_side(end, model, motions):
-        raise refuse(
-            "a trolley that is on one section of its jib", "one that stands where two meet", "move it a little"
-        )
-    return Start(saved=tuple(state), time=float(end["time"]))
+        hint = "move it a little"
+        raise refuse("a trolley that is on one section of its jib", "one that stands where two meet", hint)
+    return Start(saved=tuple(state.tolist()), time=float(end["time"]))
 
 
-def _found(case: Case, named: str) -> Path:
-    """A file named by a case, from the case's folder, or else from where the program runs."""
-    beside = case.path.parent / named
-    return beside if beside.exists() else Path(named)
+def _ended(named: str) -> tuple[Case, dict[str, Any], Floats]:
+    """Case, end and state of a saved run.
+
+    Raises
+    ------
+    OSError, ValueError
+        If there is none.
+    """
+    from towercrane.results.files import load
+
+    result = load(named)
+    try:
+        end = dict(json.loads(result.attrs["end"]))
+        state = np.array(result.attrs["end_state"], dtype=float)
+        numbers = [end["time"], end["axes"], *(number for pair in end["drives"].values() for number in pair)]
+        end |= {"basis": np.array(end["basis"], dtype=float).tolist(), "outcome": str(result.attrs["outcome"])}
+        whole = all(isinstance(number, int | float) for number in numbers) and {"between", "coordinates"} <= set(end)
+    except (KeyError, TypeError, AttributeError, ValueError):
+        whole = False
+    if not whole:
+        raise ValueError("one that does not hold its end, as older versions wrote it")
+    return case_of(result), end, state
 
 
 def _changed(before: Any, now: Any) -> str:
@@ -117,6 +163,9 @@ def case_of(result: xr.Dataset) -> Case:
     kind, _ = kind_of(tree)
     tree.pop("kind", None)
     tree["crane"]["kind"] = kind
+    if "sway_tangential" not in result and isinstance(tree.get("start"), dict):
+        # What a run in the plane went on from says no more of it.
+        tree["start"].pop("from", None)
     try:
         checked = KINDS[kind].tables.model_validate(tree)
     except ValidationError as error:

@@ -107,6 +107,17 @@ def _bytes(name: str, found: Any, size: int) -> int:
     return prod(int(length) for length in found.shape or ()) * int(each)
 
 
+def saved_axes(path: Path) -> int:
+    """Axes of the space in which the load of a run moved; 3 where a file does not tell."""
+    import h5py
+
+    try:
+        with h5py.File(path, "r") as file:
+            return int(json.loads(file.attrs["end"])["axes"])
+    except (OSError, KeyError, TypeError, ValueError):
+        return 3
+
+
 def check_run(result: xr.Dataset) -> None:
     """Refuse a data set that is no run of this program.
 

@@ -7,7 +7,8 @@ import warnings
 from typing import TYPE_CHECKING
 
 from towercrane.cases.assumptions import as_attribute, rests_on
-from towercrane.cases.models import model_of, motions_of, start_of, targets_of
+from towercrane.cases.models import model_of, motions_of, targets_of
+from towercrane.cases.result_case import start_of
 from towercrane.cases.table_notices import table_notices
 from towercrane.cases.wind_file import rises_until
 from towercrane.cranes.registry import KINDS

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cases.case import load_case
-from towercrane.cases.models import model_of, motions_of, start_of, targets_of
+from towercrane.cases.models import model_of, motions_of, targets_of
+from towercrane.cases.result_case import start_of
 from towercrane.cases.wind_file import rises_until
 from towercrane.cranes.registry import KINDS
 from towercrane.kernels.straight.leaves import known_of

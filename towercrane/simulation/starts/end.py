@@ -11,8 +11,12 @@ from towercrane.motions.motion import phases
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from numpy.typing import NDArray
+
     from towercrane.motions.motion import Motion
     from towercrane.simulation.system import Model
+
+    Floats = NDArray[np.float64]
 
 SAME = 1e-6
 """Relative difference below which numbers of two runs are equal: files may state a millionth less."""
@@ -24,9 +28,9 @@ def end_of(model: Model, motions: Mapping[str, Motion], time: float) -> dict[str
     Returns
     -------
     dict
-        ``coordinates`` by name, ``basis`` (numbers that tell modes from those of another crane or of other signs),
-        ``drives``: value and rate of each [m or rad, and per s], by channel; ``between``: what crossings have told
-        its last phase, as on which side of a joint the trolley is.
+        ``axes`` of the load's space, ``coordinates`` by name, ``basis`` (numbers that tell modes from those of
+        another crane or of other signs), ``drives``: value and rate of each [m or rad, and per s], by channel;
+        ``between``: what crossings have told its last phase, as on which side of a joint the trolley is.
     """
     by_value = getattr(model, "value_channels", ())
     drives = [channel for channel in model.channels if channel not in by_value]
@@ -66,6 +70,19 @@ def leaps(end: Mapping[str, Any], model: Model, motions: Mapping[str, Motion]) -
                 yield channel, f"{was:.9g} {per}", f"{now:.9g} {per}"
 
 
+def lifted(state: Floats, end: Mapping[str, Any], model: Model, heading: float) -> Floats:
+    """State in space of one in the vertical plane at a heading [rad]: nothing moves across the plane."""
+    asked: Any = model
+    names, found, turning = list(asked.state_names), np.zeros(model.system.size), asked.turning
+    before, half = len(state) // 2, len(found) // 2
+    for first, own in ((0, 0), (before, half)):
+        for k, name in enumerate(end["coordinates"]):
+            found[own + names.index(name)] = state[first + k]
+        found[own + len(names) : own + len(names) + 3] = state[first + before - 2], 0.0, state[first + before - 1]
+    found[-1] = state[-1]
+    return np.asarray(turning.turned(found, heading))
+
+
 def _between(model: Model, motions: Mapping[str, Motion], duration: float, phase: int) -> list[Any]:
     """What crossings add to the inputs of a phase of motions that go on for so long [s]."""
     crossings = model.system.crossings
@@ -77,6 +94,7 @@ def _between(model: Model, motions: Mapping[str, Motion], duration: float, phase
 
 def _described(model: Model) -> dict[str, Any]:
     return {
+        "axes": int(getattr(model, "axes", 3)),
         "coordinates": list(getattr(model, "state_names", ())),
         "basis": np.asarray(getattr(model, "basis", ())).tolist(),
     }

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from math import inf, pi, sin
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
+from towercrane.results.result_file import saved_axes
 from towercrane.schema.motions import JointMotion, Points, Rest, Sequence, SmoothRamps, SpeedTrapezoid, reader
 from towercrane.schema.ranges import at, si_at
 
@@ -36,6 +38,8 @@ def heading_of(tables: TowerCase) -> float | None:
     its turn or its gusts leave the plane, as turbulence across the wind does, and so does each axis of an earthquake
     that acts.
     """
+    if tables.start.from_ and saved_axes(Path(tables.start.from_)) > 2:
+        return None
     turn, wind = tables.motion.slewing or tables.motion.shaft, tables.wind
     if tables.start.sway_tangential or tables.start.sway_tangential_rate:
         return None
