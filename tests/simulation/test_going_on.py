@@ -9,6 +9,7 @@ from samples.qtz5613 import CRANE, in_plane
 from towercrane import Load, load_case
 from towercrane.cases.models import model_of, motions_of
 from towercrane.cases.result_case import start_of
+from towercrane.kernels.elastic_rope import Elasticity
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import phases, rest
 from towercrane.motions.profiles import trapezoid
@@ -18,7 +19,7 @@ from towercrane.runs.run import record_case
 from towercrane.runs.variants import Variants
 from towercrane.schema.faults import CaseError
 from towercrane.simulation.integrate import integrate
-from towercrane.simulation.outcomes import SLACK_ROPE
+from towercrane.simulation.outcomes import ROPE_SLACK, SLACK_ROPE
 from towercrane.simulation.simulate import record
 from towercrane.simulation.starts.begin import begin
 from towercrane.simulation.starts.end import end_of, other_side
@@ -153,13 +154,27 @@ def test_a_trolley_between_two_sections_goes_on_where_it_came_from_alone():
         assert other_side(end, model, {**out, "trolley": onward}) is other
 
 
-def test_linear_models_are_of_no_state_in_which_a_run_would_end():
-    model = in_plane(CRANE, Load(800.0), 1, 1)
+@pytest.mark.parametrize(("rope", "outcome"), [(None, SLACK_ROPE), (Elasticity(14e6, 32.5), ROPE_SLACK)])
+def test_linear_models_are_of_no_state_in_which_a_rope_is_slack(rope, outcome):
+    model = in_plane(CRANE, Load(800.0, elasticity=rope), 1, 1)
     motions = {"trolley": rest(20.0), "rope": rest(12.0)}
     inputs = phases(tuple(motions.values()), 1.0).inputs[0]
     with pytest.raises(NoEquilibrium) as caught:
         linearise(model, motions, state=begin(model, inputs, Start(along=2.0)), outputs=[])
-    assert caught.value.outcome == SLACK_ROPE
+    assert caught.value.outcome == outcome
+
+
+def test_a_load_that_flies_goes_on_flying():
+    model = in_plane(CRANE, Load(800.0, elasticity=Elasticity(14e6, 32.5, 3e-3)), 1, 1)
+    motions = {"trolley": rest(20.0), "rope": rest(12.0)}
+    tight = {"rtol": 1e-10, "atol": 1e-12, "output_step": 0.1}
+    before = record(model, motions, 0.4, start=Start(along=2.0, along_rate=0.2), **tight)
+    assert before["hoist_rope_force"].values[-1] == 0.0
+    after = record(model, motions, 3.0, start=Start(saved=tuple(before.attrs["end_state"].tolist())), **tight)
+    whole = record(model, motions, 3.4, start=Start(along=2.0, along_rate=0.2), **tight)
+    assert whole["hoist_rope_force"].values.max() > 8e3
+    gap = after["payload_position"].values - whole["payload_position"].values[4:]
+    assert np.max(abs(gap)) < 1e-8
 
 
 def test_a_run_in_the_plane_goes_on_in_space_and_one_in_space_stays_there(ended, tmp_path):

@@ -1,9 +1,11 @@
 """Loads that swing as a run begins: both sways and their rates are what the outputs then show."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from samples.every_kind import KINDS
+from samples.every_kind import KINDS, lumped
 
 from towercrane import load_case
 from towercrane.accuracy.scene import scene_of
@@ -12,7 +14,7 @@ from towercrane.cases.result_case import start_of
 from towercrane.motions.motion import Motion, phases, rest
 from towercrane.schema.faults import CaseError
 from towercrane.simulation.simulate import record
-from towercrane.simulation.starts.begin import begin
+from towercrane.simulation.starts.begin import begin, rope_direction
 from towercrane.simulation.starts.start import Start
 
 SWAYS = {
@@ -55,13 +57,33 @@ def test_a_quiet_structure_is_not_accelerated_by_the_load_that_swings(kind):
     inputs = phases(tuple(rest(float(scene.motions[c](0.0))) for c in scene.model.channels), 1.0).inputs[0]
     swing = {"along": 0.3, "along_rate": 0.4, "across": None if kind == "radial" else -0.2}
     loud, state = (begin(scene.model, inputs, Start(name, **swing)) for name in ("equilibrium", "quiet"))
-    half, (first, _, count) = len(state) // 2, scene.model.system.directions[0]
-    structure = [i for i in range(half) if not first <= i < first + count]
-    slopes = [scene.model.system.slope(0.0, own, inputs)[0][half : 2 * half][structure] for own in (loud, state)]
+    half, axes = len(state) // 2, 2 if kind == "radial" else 3
+    structure = slice(half, 2 * half - axes)
+    slopes = [scene.model.system.slope(0.0, own, inputs)[0][structure] for own in (loud, state)]
     assert np.max(abs(slopes[0])) > 0.1
     assert np.max(abs(slopes[1])) < 1e-9
-    assert np.all(state[half : 2 * half][structure] == 0.0)
-    assert np.array_equal(state[first : first + count], loud[first : first + count])
+    assert np.all(state[structure] == 0.0)
+    seen = [rope_direction(scene.model, own, inputs) for own in (loud, state)]
+    assert_allclose(seen[1], seen[0], atol=1e-14)
+
+
+def test_an_elastic_rope_of_a_quiet_crane_pulls_as_one_that_does_not_stretch():
+    elastic = lumped("basic").model
+    stiff = replace(elastic, crane=replace(elastic.crane, rope=None))
+    start = Start("quiet", along=0.3, across=-0.2, along_rate=0.4)
+    inputs = phases((rest(0.4), rest(2.0)), 1.0).inputs[0]
+    state = begin(elastic, inputs, start)
+    load = slice(elastic.rope, elastic.rope + 3)
+    reach = float(np.linalg.norm(state[load] - np.array(elastic.suspended(state, inputs).place)))
+    assert 2.0002 < reach < 2.002
+    as_long = phases((rest(0.4), rest(reach)), 1.0).inputs[0]
+    other = begin(stiff, as_long, start)
+    assert_allclose(state[: elastic.rope], other[: stiff.rope], rtol=1e-9, atol=1e-13)
+    pulls = [
+        float(model.system.slope(0.0, own, given)[1][0])
+        for model, own, given in ((elastic, state, inputs), (stiff, other, as_long))
+    ]
+    assert_allclose(pulls[0], pulls[1], rtol=1e-9)
 
 
 def test_a_case_names_the_sways_as_its_kind_does():

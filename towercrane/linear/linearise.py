@@ -10,6 +10,7 @@ from towercrane.linear.chart import Chart, per_second
 from towercrane.linear.statespace import RATE, OperatingPoint, Signal, StateSpace
 from towercrane.motions.motion import Motion
 from towercrane.simulation.differences import jacobian
+from towercrane.simulation.outcomes import ROPE_SLACK
 from towercrane.simulation.starts.begin import begin, rope_direction
 from towercrane.simulation.system import NoEquilibrium, start_inputs
 
@@ -172,12 +173,13 @@ def _kinked(model: Model, name: str, quantities: Mapping[str, Quantity]) -> bool
 
 
 def _check_state(model: Model, state: Floats, drives: Floats) -> None:
-    """Refuse a state in which a run would end at once: a rope that is slack, a trolley off its jib."""
-    guards = model.system.slope(0.0, state, _polynomials(drives))[1]
+    """Refuse a state in which a run would end at once, as with a trolley off its jib, or the load flies free."""
+    guards, names = model.system.slope(0.0, state, _polynomials(drives))[1], model.system.guards
+    why = "no small motions are about such a state"
     if len(fallen := np.flatnonzero(guards < model.system.floors)):
-        raise NoEquilibrium(
-            model.system.guards[fallen[0]], "small motions about such a state are of no crane that goes on"
-        )
+        raise NoEquilibrium(names[fallen[0]], why)
+    if ROPE_SLACK in names and not getattr(model, "rope_as_rod", False) and guards[names.index(ROPE_SLACK)] <= 0.0:
+        raise NoEquilibrium(ROPE_SLACK, why)
 
 
 def _steady(model: Model, drives: Floats, size: int) -> Floats:

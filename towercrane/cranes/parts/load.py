@@ -71,11 +71,6 @@ def check_rope(tree: dict[str, Any]) -> Iterator[Fault]:
     if {"relaxation_time", "damping_ratio"} <= more:
         hint = "a damping ratio zeta is the relaxation time 2 zeta / w"
         yield Fault("", "rope.damping_ratio", "no key beside relaxation_time", shown(rope["damping_ratio"]), hint)
-    if at(tree, "start.state") == "quiet" and stretched(tree):
-        wanted = '"equilibrium" or "zero" with a rope that stretches'
-        yield Fault(
-            "", "start.state", wanted, shown("quiet"), "its load would be at rest in no place of the structure"
-        )
     if rope.get("slack") == "stop" and stretched(tree):
         hint = "a rope that stretches goes slack and is caught; as a rod it would push"
         yield Fault("", "rope.slack", 'no key of a rope that stretches, or "rod"', shown(rope["slack"]), hint)

@@ -59,11 +59,13 @@ def begin(model: Model, inputs: Floats, start: Start = HANGING) -> Floats:
     if frame.spin and start.state != "zero":
         state = steady_rotation(model, state, frame)
     state = frame.carried(state)
+    if frame.spin and model.system.rope is not None:
+        # The load of an elastic rope moves with what its winch lets out, too.
+        rope = rope_direction(model, state, inputs)
+        state = asked.hang(state, inputs, rope, frame.spin * np.array([-rope[1], rope[0], 0.0]))
     if start.swings:
         state = swung(model, state, inputs, start, frame.spin)
         if start.state == "quiet":
-            if model.system.rope is not None:
-                raise ValueError("state: wanted 'equilibrium' or 'zero' with a rope that stretches, got 'quiet'")
             state = quiet(model, state, frame)
     return np.asarray(state)
 

@@ -8,6 +8,7 @@ places, and the slopes of rates less W G of them vanish. That is so for every cr
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +19,8 @@ from towercrane.simulation.outcomes import UNSTABLE
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from towercrane.simulation.starts.turning import Turning
@@ -79,19 +82,21 @@ class Frame:
             found[half : 2 * half] = self.per_time(state)[:half]
         return found
 
-    def slope(self, model: Model, state: Floats) -> Floats:
-        """Slope of a state as seen in these axes."""
+    @cached_property
+    def turned_inputs(self) -> Floats:
+        """Polynomials of the channels, the head turning."""
         inputs = np.array(self.inputs)
         if self.turning is not None:
             inputs[self.turning.channel, 1] = self.spin
-        return np.asarray(model.system.slope(0.0, state, inputs)[0] - self.per_time(state))
+        return inputs
+
+    def slope(self, model: Model, state: Floats) -> Floats:
+        """Slope of a state as seen in these axes."""
+        return np.asarray(model.system.slope(0.0, state, self.turned_inputs)[0] - self.per_time(state))
 
     def guards(self, model: Model, state: Floats) -> Floats:
         """Guards in a state."""
-        inputs = np.array(self.inputs)
-        if self.turning is not None:
-            inputs[self.turning.channel, 1] = self.spin
-        return np.asarray(model.system.slope(0.0, state, inputs)[1])
+        return np.asarray(model.system.slope(0.0, state, self.turned_inputs)[1])
 
 
 def steady_rotation(model: Model, state: Floats, frame: Frame) -> Floats:
@@ -130,31 +135,70 @@ def steady_rotation(model: Model, state: Floats, frame: Frame) -> Floats:
 def quiet(model: Model, state: Floats, frame: Frame) -> Floats:
     """State in which the load swings as it does, and the structure is at rest and is not accelerated.
 
+    An elastic rope has the tension with which it does not go on stretching.
+
     Raises
     ------
     NoEquilibrium
         If there is none.
     """
+    why = "no structure is quiet under this swing: "
+    if model.system.rope is not None:
+        return _quiet_on_elastic_rope(model, state, frame, why)
     places = len(state) // 2
     swinging = [first + k for first, _, count in model.system.directions for k in range(count)]
     free = [place for place in range(places) if place not in swinging]
-    return _at_rest(model, state, frame, np.eye(places)[:, free], "no structure is quiet under this swing: ")
+    return _at_rest(model, state, frame, np.eye(places)[:, free], why)
+
+
+def _quiet_on_elastic_rope(model: Model, state: Floats, frame: Frame, why: str) -> Floats:
+    """The same of a load whose place is among the states: coordinates and the rope's reach are sought."""
+    asked: Any = model
+    n, half = asked.rope, len(state) // 2
+    load, moving = slice(n, n + asked.axes), slice(half + n, half + n + asked.axes)
+    own = asked.suspended(state, frame.turned_inputs)
+    along, parting = state[load] - np.array(own.place), state[moving] - np.array(own.velocity)
+    reach = float(np.linalg.norm(along))
+    direction = along / reach
+    turn = (parting - direction * (direction @ parting)) / reach
+
+    def moved(change: Floats) -> Floats:
+        found = np.array(state)
+        found[:n] += change[:-1]
+        found[half : half + n] = frame.per_time(found)[:n]
+        crane, far = asked.suspended(found, frame.turned_inputs), reach + change[-1]
+        found[load] = np.array(crane.place) + far * direction
+        found[moving] = np.array(crane.velocity) + far * turn
+        return found
+
+    def residual(changes: Floats) -> Floats:
+        left = []
+        for change in changes.T:
+            there = moved(change)
+            crane = asked.suspended(there, frame.turned_inputs)
+            slope = model.system.slope(0.0, there, frame.turned_inputs)[0]
+            rates = slope[half : half + n]
+            thrown = np.array(crane.bias) + np.reshape(crane.jacobian, (asked.axes, n)) @ rates
+            parted = direction @ (slope[moving] - thrown) + (reach + change[-1]) * turn @ turn
+            left.append(np.append(rates - frame.per_time(there)[half : half + n], parted))
+        return np.array(left).T
+
+    scale = np.append(_scale(model, half)[:n], 1.0)
+    found = moved(_newton(residual, np.append(abs(state[:n]), reach), scale, why))
+    # What the winch lets out, or another drive moves, goes on.
+    found[moving] += state[moving] - moved(np.zeros(n + 1))[moving]
+    return found
 
 
 def _at_rest(model: Model, state: Floats, frame: Frame, basis: Floats, why: str) -> Floats:
-    """State near one whose places, along a basis, rest in the frame, with the rates of all other places kept.
-
-    Newton's method; rates of what is solved for are those that rest in the frame means.
-    """
+    """State near one whose places, along a basis, rest in the frame, with the rates of all other places kept."""
     half = len(state) // 2
     mine = np.any(basis != 0.0, axis=1)
-    scale = np.max(
-        abs(basis) * np.where(np.isfinite(model.system.scale), model.system.scale, 1.0)[:half, None], axis=0
-    )
 
     def moved(change: Floats) -> Floats:
         found = np.array(state)
         found[:half] += basis @ change
+        found = _restored(model, found)
         found[half : 2 * half] = np.where(mine, frame.per_time(found)[:half], state[half : 2 * half])
         return found
 
@@ -162,28 +206,52 @@ def _at_rest(model: Model, state: Floats, frame: Frame, basis: Floats, why: str)
         slopes = np.array([frame.slope(model, moved(change)) for change in changes.T])
         return np.asarray(basis.T @ slopes[:, half : 2 * half].T)
 
-    if not basis.shape[1]:
-        return state
-    before, count = np.inf, basis.shape[1]
-    none, steps = np.zeros((count, 1)), np.diag(STEP * scale)
-    for _ in range(MOST_STEPS):
-        found = residual(np.hstack([steps, -steps, none]))
+    scale = np.max(abs(basis) * _scale(model, half)[:, None], axis=0)
+    return moved(_newton(residual, abs(basis.T @ state[:half]), scale, why))
+
+
+def _newton(residual: Callable[[Floats], Floats], reference: Floats, scale: Floats, why: str) -> Floats:
+    """Change from nothing at which what is left vanishes.
+
+    Parameters
+    ----------
+    residual : callable
+        Of changes in columns, shape (n, p) to shape (n, p).
+    reference, scale : ndarray, shape (n,)
+        Size of what changes, and a large change of it.
+
+    Raises
+    ------
+    NoEquilibrium
+        If there is none near.
+    """
+    count, before = len(scale), np.inf
+    change, steps = np.zeros(count), np.diag(STEP * scale)
+    for _ in range(MOST_STEPS if count else 0):
+        found = residual(change[:, None] + np.hstack([steps, -steps, np.zeros((count, 1))]))
         matrix, left = (found[:, :count] - found[:, count:-1]) / (2.0 * STEP * scale), found[:, -1]
         try:
-            change = np.asarray(np.linalg.solve(matrix, -left), dtype=np.float64)
+            step = np.linalg.solve(matrix, -left)
         except np.linalg.LinAlgError:
             break
-        state = _restored(model, moved(change))
-        size = float(np.max(abs(change) / scale))
+        change = change + step
+        size = float(np.max(abs(step) / scale))
         if not size < FAR:
             break
         if size < 1e-13 or 0.5 * before < size < SETTLED:
-            left, terms = residual(none)[:, 0], abs(matrix) @ (abs(basis.T @ state[:half]) + scale)
-            if np.all(abs(left) <= BALANCED * terms):
-                return state
+            if np.all(abs(residual(change[:, None])[:, 0]) <= BALANCED * (abs(matrix) @ (reference + scale))):
+                return change
             break
         before = size
+    if not count:
+        return change
     raise NoEquilibrium(UNSTABLE, f"{why}the search did not settle")
+
+
+def _scale(model: Model, half: int) -> Floats:
+    """Size of each place."""
+    scale = model.system.scale[:half]
+    return np.where(np.isfinite(scale), scale, 1.0)
 
 
 def _small_motions(model: Model, state: Floats, frame: Frame) -> Floats:
