@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.parameters import TowerCrane
+    from towercrane.cranes.tower.outputs.cut_sums import Section
     from towercrane.kernels.payload import Load
     from towercrane.motions.motion import Motion
     from towercrane.simulation.run import Run
@@ -58,7 +59,7 @@ class Scene:
     damping : ModalDamping
     self_weight, rope_as_rod : bool
         As in :class:`towercrane.cranes.tower.model.FlexibleModel`.
-    drive, drive_inertia, areas, nodes, ground, floors
+    drive, drive_inertia, areas, nodes, ground, floors, sections
         As of :func:`towercrane.cranes.tower.crane_model.tower_crane_model`.
     """
 
@@ -79,6 +80,7 @@ class Scene:
     nodes: WindNodes | None = None
     ground: bool = False
     floors: int = 0
+    sections: tuple[Section, ...] = ()
 
     @property
     def outputs(self) -> dict[str, str]:
@@ -128,6 +130,7 @@ class Scene:
             nodes=self.nodes,
             ground=self.ground,
             floors=self.floors,
+            sections=self.sections,
             damping=self.damping,
             weight_softening=setting.weight_softening,
             self_weight=self.self_weight,
