@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -13,6 +13,7 @@ from towercrane.cranes.parts.wind import drag
 from towercrane.cranes.tower.modes.exposures import TowerExposure
 from towercrane.cranes.tower.modes.mass_sums import MassSums
 from towercrane.cranes.tower.modes.parameters import as_chain
+from towercrane.cranes.tower.modes.tied.head import sums_of_points
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.parts.wind import WindAreas, WindNodes
     from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
     from towercrane.cranes.tower.modes.parameters import TowerCrane
+    from towercrane.cranes.tower.modes.tied.head import FieldSums, TiedHead
 
     Floats = NDArray[np.float64]
 
@@ -75,6 +77,28 @@ class TowerCut:
 
 
 @dataclass(frozen=True, eq=False)
+class TieCut:
+    """A tie whose lower end is beyond a section of the jib.
+
+    Parameters
+    ----------
+    number : int
+        Among the ties, from 0.
+    place : ndarray, shape (3,)
+        Of its lower end on the straight jib, in the head's axes [m].
+    moves : ndarray, shape (n, 3)
+        What each coordinate of what is on the head moves that end.
+    share : FieldSums
+        Sums over its mass, weighted from none at the upper end to all at the lower one, which bears so much of it.
+    """
+
+    number: int
+    place: Floats
+    moves: Floats
+    share: FieldSums
+
+
+@dataclass(frozen=True, eq=False)
 class JibCut:
     """What is beyond a section of the jib, without trolley and load.
 
@@ -88,6 +112,8 @@ class JibCut:
     beyond : MassSums
     exposed : tuple of MassSums
         The same of the drag per squared speed, for each place of what turns whose wind is known.
+    ties : tuple of TieCut
+        Those that hold what is beyond.
     """
 
     name: str
@@ -95,6 +121,7 @@ class JibCut:
     shapes: Floats
     beyond: MassSums
     exposed: tuple[MassSums, ...]
+    ties: tuple[TieCut, ...]
 
 
 class Cuts(NamedTuple):
@@ -130,14 +157,14 @@ def cuts_of(
     Raises
     ------
     ValueError
-        If a section is off its member, or of a jib that is not clamped at its root.
+        If a section is off its member, or of a jib that pivots.
     """
     for own in asked:
         length = crane.tower_height if own.of == "tower" else crane.jib_length
         if not 0.0 <= own.place <= length:
             raise ValueError(f"section {own.name}: wanted a place from 0 to {length:g} m, got {own.place:g}")
-        if own.of == "jib" and (crane.luffing is not None or crane.tied is not None):
-            raise ValueError(f"section {own.name}: wanted one of the tower, or of a jib that is clamped at its root")
+        if own.of == "jib" and crane.luffing is not None:
+            raise ValueError(f"section {own.name}: wanted one of the tower, or of a jib that does not pivot")
     return Cuts(
         tuple(asked),
         tuple(tower_cut(crane, written, own.name, own.place, areas, nodes) for own in asked if own.of == "tower"),
@@ -226,10 +253,8 @@ def _jib_cut(
         own[k] = float(inertia.sum())
         turned[mine] = basis.rotation(at) @ inertia
     pitch, yaw = own
-    sums = MassSums(
-        beyond.mass, beyond.moment, pitch + yaw, beyond.pitch + pitch, beyond.yaw + yaw,
-        beyond.first, beyond.second, beyond.products, turned, beyond.turned_products,
-    )  # fmt: skip
+    own_pitch, own_yaw = beyond.pitch + pitch, beyond.yaw + yaw
+    sums = replace(beyond, roll=pitch + yaw, pitch=own_pitch, yaw=own_yaw, turned=turned)
     exposed: tuple[MassSums, ...] = ()
     if areas is not None:
         swept, hats = drag(areas.jib) * dx, [np.ones_like(x)]
@@ -237,7 +262,21 @@ def _jib_cut(
             known = nodes.along_jib(written.jib.length, written.counter_jib_length)
             hats = [np.interp(x, known, own) for own in np.eye(len(known))]
         exposed = tuple(_sums(crane, x, swept * hat) for hat in hats)
-    return JibCut(asked.name, asked.place, crane.jib_shapes([asked.place])[:, 0], sums, exposed)
+    ties = () if crane.tied is None else _ties_beyond(crane.tied, asked.place)
+    return JibCut(asked.name, asked.place, crane.jib_shapes([asked.place])[:, 0], sums, exposed, ties)
+
+
+def _ties_beyond(tied: TiedHead, place: float) -> tuple[TieCut, ...]:
+    """Ties that hold the jib beyond a place."""
+    part, weights = gauss()
+    found = []
+    for k, (side, tie) in enumerate(zip(tied.bars.sides, tied.bars.ties, strict=True)):
+        if side < 0.0 or tie.position < place:
+            continue
+        places, fields = tied.points(k, part)
+        share = sums_of_points(places, fields, tied.masses[k] * weights * part)
+        found.append(TieCut(k, np.array([tie.position, 0.0, tie.height]), tied.ends()[1][k], share))
+    return tuple(found)
 
 
 def _sums(crane: FlexibleCrane, x: Floats, m: Floats) -> MassSums:

@@ -89,7 +89,7 @@ def _all(cuts: Cuts) -> Iterator[tuple[str, str, tuple[Callable[[Reaction], Any]
 
 def jib_loads(sections: Sections, cut: JibCut) -> Reaction:
     """Force and moment of what is beyond a section of the jib, in the head's axes, the moment about its place."""
-    alone = sections.pressed(sections.turning(cut.beyond), cut.exposed)
+    alone = sections.cut_off(cut)
     carrying = sections.loaded(alone)
     # A trolley right on the section is beyond it.
     short = below(sections.at.trolley.x, cut.position)

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.tower.equations.head import Head
     from towercrane.cranes.tower.modes.mass_sums import MassSums
+    from towercrane.cranes.tower.outputs.cut_sums import JibCut
     from towercrane.cranes.tower.outputs.kinematics import Kinematics
 
 NONE = 0.0, 0.0, 0.0
@@ -122,6 +123,10 @@ class Sections:
             _, rise = self.at.deflection(sums.first, self.at.state.coordinates)
             body = body.pushed((0.0, sums.mass * press, 0.0), (-rise * press, 0.0, sums.moment * press))
         return body
+
+    def cut_off(self, cut: JibCut) -> Body:
+        """What is beyond a section of the jib, without trolley and load."""
+        return self.pressed(self.turning(cut.beyond), cut.exposed)
 
     @cached_property
     def hung(self) -> tuple[Vector, Vector]:

@@ -12,7 +12,7 @@ from towercrane.cranes.tower.modes.tied.bars import MOST_TIES
 from towercrane.cranes.tower.outputs import energy
 from towercrane.cranes.tower.outputs.observed import OUTPUTS, Outputs, Sight
 from towercrane.cranes.tower.outputs.sections import Sections
-from towercrane.kernels.algebra import Row, dot, form
+from towercrane.kernels.algebra import Row, cross, dot, form
 from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.tower.equations.body import Body
     from towercrane.cranes.tower.equations.tied.constants import Tied
+    from towercrane.cranes.tower.outputs.cut_sums import JibCut
     from towercrane.cranes.tower.outputs.seen import Seen
     from towercrane.simulation.observed import Instant
 
@@ -82,6 +83,23 @@ class TiedSections(Sections):
         )
         body = self.loaded(moved.body.pushed((x, y, z), (rolling, pitching, turning)))
         return self.blown(body, "jib", "counter")
+
+    def cut_off(self, cut: JibCut) -> Body:
+        """What is beyond a section of the jib, without trolley and load: what its ties do there is part of it."""
+        at, body = self.at, super().cut_off(cut)
+        q, rates = (at.on_head(own) for own in (at.state.coordinates, at.state.rates))
+        moving, felt = at.on_head(self.accelerations), self.felt(at.seen.crane.self_gravity)
+        for tie in cut.ties:
+            # Its lower end bears its share of the tie's inertia and weight.
+            moved = move_fields(tie.share, self.head, felt, q, rates)
+            pull, along = at.taut.tensions[tie.number], at.taut.spans[tie.number].direction
+            x, y, z = (
+                moved.body.force[k] - dot([row[0][k] for row in moved.rows], moving) - pull * along[k]
+                for k in range(3)
+            )
+            u, v, w = (tie.place[k] + dot(tie.moves[:, k], q) for k in range(3))
+            body = body.pushed((x, y, z), cross((u, v, w), (x, y, z)))
+        return body
 
     @cached_property
     def compression(self) -> Any:

@@ -53,7 +53,5 @@ def check_sections(tree: dict[str, Any]) -> Iterator[Fault]:
         length, asked = length_of(tree), si(own.get(wanted), "m")
         if length is not None and asked is not None and asked > length:
             yield Fault("", f"{key}.{wanted}", f"a {wanted} up to {length:g} m, the end of the {of}", f"{asked:g} m")
-        tied = at(tree, "crane.tower_head") is not None
-        if of == "jib" and (tied or at(tree, "crane.jib.luffing") is not None):
-            how = "hangs on ties" if tied else "pivots"
-            yield Fault("", f"{key}.of", '"tower", or a jib that is clamped at its root', f"a jib that {how}")
+        if of == "jib" and at(tree, "crane.jib.luffing") is not None:
+            yield Fault("", f"{key}.of", '"tower", or a jib that does not pivot', "a jib that pivots")

@@ -177,15 +177,22 @@ class TiedHead:
         places = np.stack([none, none, height * part], axis=1)
         found = sums_on_axis(slewing, lateral, self.count)
         found = found + sums_of_points(places, fields, self.bars.head.mass_per_length * height * weights)
-        for k, (upper, lower) in enumerate(zip(*self.ends(), strict=True)):
-            fields = upper[:, None] * (1.0 - part)[:, None] + lower[:, None] * part[:, None]
-            for group, direction in ((5, self.sagging[k]), (6, (0.0, 1.0, 0.0))):
-                if self.counts[group]:
-                    fields[self.part(group).start + k] = np.outer(np.sin(np.pi * part), direction)
-            x, z = self.bars.spans[k]
-            places = np.stack([part * x, none, height + part * z], axis=1)
-            found = found + sums_of_points(places, fields, self.masses[k] * weights)
+        for k, mass in enumerate(self.masses):
+            found = found + sums_of_points(*self.points(k, part), mass * weights)
         return found
+
+    def points(self, k: int, part: Floats) -> tuple[Floats, Floats]:
+        """Places on the k-th straight tie, by parts of it from its upper end, and what each coordinate moves them.
+
+        Shapes (p, 3) and (n, p, 3).
+        """
+        upper, lower = (ends[k] for ends in self.ends())
+        fields = upper[:, None] * (1.0 - part)[:, None] + lower[:, None] * part[:, None]
+        for group, direction in ((5, self.sagging[k]), (6, (0.0, 1.0, 0.0))):
+            if self.counts[group]:
+                fields[self.part(group).start + k] = np.outer(np.sin(np.pi * part), direction)
+        x, z = self.bars.spans[k]
+        return np.stack([part * x, 0.0 * part, self.bars.head.height + part * z], axis=1), fields
 
     def lines(self, moved: Floats) -> dict[str, tuple[Floats, Floats]]:
         """Cat-head and ties in the head's axes, moved and straight, shapes (f, p, 3) and (1, p, 3).
