@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from samples import hammerhead, luffing_crane
+from samples import luffing_crane
 
 from towercrane import load_case
 from towercrane.accuracy.ladder import RUNG, SAFETY, laddered_choice
@@ -36,24 +36,14 @@ def luffed(rng):
     return Scene(crane, Load(rng.uniform(1000.0, 5000.0)), motions, **PLANE)
 
 
-def travelled(rng):
-    """A drawn travel of a trolley along a jib on ties."""
-    move = trapezoid(*rng.uniform(10.0, 50.0, 2), rng.uniform(0.5, 1.5), rng.uniform(0.2, 0.6))
-    load, motions = Load(rng.uniform(1000.0, 4000.0)), {"trolley": move, "rope": rest(20.0)}
-    return Scene(hammerhead.CRANE, load, motions, **(PLANE | {"duration": 3.0}))
-
-
 def every(target, scene):
     return {name: Tolerance(target, relative=True) for name in scene.outputs if name in ANY_MOTION}
 
 
-@pytest.mark.parametrize(
-    ("draw", "target", "given"),
-    [(luffed, 5e-3, {}), (luffed, 3e-2, {}), (travelled, 0.1, {"tower_modes": 2, "jib_vertical_modes": 2})],
-)
-def test_a_promise_of_a_drawn_scene_holds_against_a_model_that_is_two_rungs_richer(draw, target, given):
-    scene = draw(np.random.default_rng(int(1e3 * target)))
-    choice, run = laddered_choice(scene, every(target, scene), given)
+@pytest.mark.parametrize("target", [5e-3, 3e-2])
+def test_a_promise_of_a_drawn_scene_holds_against_a_model_that_is_two_rungs_richer(target):
+    scene = luffed(np.random.default_rng(int(1e3 * target)))
+    choice, run = laddered_choice(scene, every(target, scene))
     assert (choice.kept, choice.doubts, run.attrs["outcome"]) == (True, (), "finished")
     richer = scene.run(finer(choice.setting, scene, foretold=False, rungs=2))
     wanted = every(target, scene)
@@ -125,18 +115,27 @@ def test_a_case_promises_and_a_verification_two_rungs_up_decides():
 
 
 def test_a_run_without_a_target_is_verified_by_the_next_rung():
-    case = load_case("hammerhead/travel", ["run.duration=2 s", "model.tower_modes=1", "model.jib_vertical_modes=1"])
-    run = record_case(case)
-    report = verification(case, run)
+    case = load_case("luffing/manoeuvre", LUFFING)
+    report = verification(case, record_case(case))
     assert (report["outcome"], report["doubts"]) == ("finished", [])
+    assert [report["finer"][kind] for kind in ("tower_modes", "jib_vertical_modes")] == [3, 4]
+    assert all(found["estimated"] is None and found["actual"] > 0.0 for found in report["outputs"].values())
+
+
+def test_a_trolley_on_a_jib_on_ties_keeps_its_promise():
+    """Small motions of the counter-jib that its ties do not bend are among what the richer models have."""
+    few = ["tower_modes=1", "jib_vertical_modes=1", "counter_jib_vertical_modes=0"]
+    outputs = ["payload_position", "tower_tip_displacement", "jib_tie_1_tension"]
+    changes = ["run.duration=2 s", "accuracy.target=0.3", f"accuracy.outputs={outputs}"]
+    case = load_case("hammerhead/travel", [*changes, *(f"model.{count}" for count in few)])
+    run = record_case(case)
+    assert json.loads(run.attrs["accuracy"])["outcome"] == KEPT
+    report = verification(case, run)
     kinds = "tower_modes", "jib_vertical_modes", "counter_jib_vertical_modes"
-    assert [report["finer"][kind] for kind in kinds] == [2, 3, 1]
-    for name, found in report["outputs"].items():
-        assert found["estimated"] is None
-        assert found["actual"] > 0.0, name
-    tension = report["outputs"]["jib_tie_1_tension"]
-    assert 1e-5 < tension["actual"] / tension["peak"] < 0.03
-    assert "jib_tie_2_tension" in report["outputs"]
+    assert [report["finer"][kind] for kind in kinds] == [3, 5, 2]
+    for name in outputs:
+        found = report["outputs"][name]
+        assert 0.2 * found["estimated"] < found["actual"] < found["estimated"], name
     assert not {"jib_tie_3_tension", "jib_root_moment", "luffing_angle"} & report["outputs"].keys()
 
 
