@@ -49,6 +49,8 @@ def test_every_kind_ships_and_loads():
     assert set(tower_cranes.values()) == {"tower"}
     turned = {
         "manoeuvre",
+        "turbulence",
+        "weathervane",
         "slewing",
         "gentle",
         "soft-drive",

@@ -10,8 +10,8 @@ from towercrane.cranes.parts.turbulence.field import Places, field_motions, turb
 from towercrane.cranes.parts.turbulence.profile import Profile
 from towercrane.cranes.parts.turbulence.spectra import SPECTRA, class_deviation, eurocode_intensity, turbulence_scale
 from towercrane.cranes.parts.turbulence.synthesis import Turbulence
+from towercrane.cranes.parts.turbulence.tables import Wind
 from towercrane.cranes.parts.wind import CHANNELS, WindAreas, WindNodes, steady
-from towercrane.cranes.parts.wind_tables import Wind
 from towercrane.cranes.tower.modes.modal_crane import flexible_crane
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 

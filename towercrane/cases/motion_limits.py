@@ -198,6 +198,9 @@ def _motion(
     written = at(tree, way.key)
     if written is None and start is not None and (start > 0.0 or way.turns):
         written = {"shape": "rest"}
+    if isinstance(written, dict) and written.get("shape") == "free":
+        # It begins at rest; where it goes nobody prescribes.
+        written = {"shape": "rest", **({"start": written["start"]} if "start" in written else {})}
     try:
         described = adapter.validate_python(written)
     except ValidationError:

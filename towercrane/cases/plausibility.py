@@ -173,6 +173,7 @@ RANGES = (
             Range(f"motion.{joint}*.jerk", "rad/s^3", 1e-8, 1e3, ("deg/s^3",)),
         )
     ),
+    Range("motion.slewing.brake_torque", "N m", 1, 1e8, ("kN m", "MN m")),
     Range("motion.*.ramp", "s", 1e-3, 1e5, ("ms", "min")),
     Range("motion.*.hold", "s", 1e-3, 1e5, ("ms", "min")),
     Range("motion.*.frequencies*", "Hz", 1e-3, 20, ("mHz",)),
@@ -260,7 +261,7 @@ def _check_method(tree: dict[str, Any]) -> Iterator[Fault]:
         wanted = "one of " + ", ".join(map(shown, METHODS))
         yield Fault("", "solver.method", wanted, shown(name), did_you_mean(name, METHODS))
         return
-    if law == "stick-slip" and not method.follows_switches:
+    if (law == "stick-slip" or at(tree, "motion.slewing.shape") == "free") and not method.follows_switches:
         able = " or ".join(shown(own.name) for own in METHODS.values() if own.follows_switches)
         hint = 'friction that sticks and slips switches equations; "tanh" friction needs no switching'
         yield Fault("", "solver.method", f"{able} with stick-slip friction", shown(name), hint)

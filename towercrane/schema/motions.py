@@ -21,6 +21,7 @@ from towercrane.schema.fields import (
     Speed,
     Table,
     Time,
+    TorqueOrNone,
     Turning,
     Wait,
 )
@@ -258,6 +259,13 @@ class JointSequence(Turned, Sequence):
     steps: Annotated[tuple[TurnStep, ...], Field(min_length=1)]
 
 
+class FreeTurn(Turned):
+    """Turn that nothing prescribes, against a brake's torque."""
+
+    shape: Literal["free"]
+    brake_torque: TorqueOrNone
+
+
 AnyMotion = Rest | Trapezoid | SCurve | SpeedTrapezoid | SmoothRamps | Shaped | MinimumJerk | Sequence | Points
 HoistMotion = Annotated[AnyMotion, Field(discriminator="shape")]
 TrolleyMotion = Annotated[
@@ -282,6 +290,20 @@ JointMotion = Annotated[
     | JointMinimumJerk
     | JointSequence
     | TurnPoints,
+    Field(discriminator="shape"),
+]
+
+SlewingMotion = Annotated[
+    JointRest
+    | JointTrapezoid
+    | JointSCurve
+    | JointSpeedTrapezoid
+    | JointSmoothRamps
+    | JointShaped
+    | JointMinimumJerk
+    | JointSequence
+    | TurnPoints
+    | FreeTurn,
     Field(discriminator="shape"),
 ]
 

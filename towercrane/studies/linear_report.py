@@ -29,6 +29,7 @@ def linear_model(case: Case, at: float) -> StateSpace:
     from towercrane.linear.linearise import linearise
 
     model = model_of(case)
+    model = getattr(model, "held", model)
     known = (*getattr(model, "state_names", ()), *model.channels)
     # Outward is along the jib, wherever that points.
     turning = next((angle for angle in TURNING if angle in known), None)

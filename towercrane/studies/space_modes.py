@@ -13,7 +13,7 @@ from towercrane.cranes.tower.crane_model import MODE_KINDS, described
 from towercrane.cranes.tower.equations.small_motions import leans_on, natural_modes
 from towercrane.cranes.tower.file.build import asked_modes, crane_of, tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
-from towercrane.cranes.tower.file.requests import of_play
+from towercrane.cranes.tower.file.requests import of_free_head, of_play
 from towercrane.simulation.system import NoEquilibrium
 from towercrane.studies.branches import CLEAR
 from towercrane.studies.mode_pairs import BELONGING
@@ -125,7 +125,9 @@ def space_frequencies(case: Case) -> dict[str, Any]:
     }
     try:
         modes = natural_modes(model, *vars(start).values())
-        report["left_out"] = of_play(tables, leans_on(model, *vars(start).values()))
+        report["left_out"] = [
+            *of_play(tables, leans_on(model, *vars(start).values())), *of_free_head(tables, model)
+        ]  # fmt: skip
         report |= beside_a_richer(model, modes, richer_model(tables), start, count)
     except NoEquilibrium as failure:
         report |= {"outcome": failure.outcome, "message": str(failure)}

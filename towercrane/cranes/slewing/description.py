@@ -120,6 +120,11 @@ class Drive:
     friction_torque: float = 0.0
     friction_rate: float = 0.01
 
+    @property
+    def free(self) -> bool:
+        """Whether its coupling holds nothing, so that its friction alone is left."""
+        return not (self.soft or self.stiff or self.damping)
+
     def __post_init__(self) -> None:
         check_fields(self, positive=("corner",), not_negative=("soft", "stiff", "damping", "friction_torque"))
         if self.friction not in ("none", "tanh", "stick-slip"):

@@ -17,10 +17,10 @@ import numpy as np
 
 from towercrane.cranes.parts.air import air_at, load_force
 from towercrane.cranes.parts.coupling import coupling_torque
+from towercrane.cranes.parts.friction import BY_RATE, held, holding, slip
 from towercrane.kernels.algebra import Row, Vector, dot
-from towercrane.kernels.choices import below, choose
 from towercrane.kernels.hanging import hang_load
-from towercrane.kernels.payload import Hung, Load, Rope, Structure, slopes, state_of
+from towercrane.kernels.payload import Load, Rope, Structure, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
 from towercrane.kernels.straight.leaves import CHANGING
 
@@ -40,9 +40,6 @@ SHAFT, ROPE = range(2)
 TENSION, INSIDE, OUTSIDE, SLIDING, HOLDING, NEEDED = range(6)
 """Guards: rope tension [N]; way to the drive's corner from inside and from outside [rad]; rate in the direction of
 slip [rad/s]; torque that friction can still take, and the torque that holds the coordinate at rest [N m]."""
-
-SLIP_BACK, STICK, SLIP_AHEAD, BY_RATE = -1.0, 0.0, 1.0, 2.0
-"""States of set-valued friction; BY_RATE reads it off the rate, which is exactly zero while it sticks."""
 
 AXES = 3
 
@@ -185,32 +182,6 @@ def structure(
     return Structure(mass, force, place, tip.velocity, tip.bias, jacobian, winds[-1]), power
 
 
-def held(crane: Structure, i: int, sticks: Any) -> Structure:
-    """A crane whose coordinate i is at rest where it sticks: its row is taken out of the equations."""
-
-    def out(value: Any, instead: float = 0.0) -> Any:
-        return choose(sticks, instead, value)
-
-    return crane._replace(
-        mass=[
-            [out(own, float(j == k)) if i in (j, k) else own for k, own in enumerate(row)]
-            for j, row in enumerate(crane.mass)
-        ],
-        force=[out(own) if j == i else own for j, own in enumerate(crane.force)],
-        jacobian=[[out(own) if j == i else own for j, own in enumerate(row)] for row in crane.jacobian],
-    )
-
-
-def needed_at_rest(crane: Structure, i: int, hung: Hung) -> Any:
-    """Torque on coordinate i without which the crane would not accelerate as it does."""
-    needed = -crane.force[i]
-    for j, acceleration in enumerate(hung.accelerations):
-        needed = needed + crane.mass[max(i, j)][min(i, j)] * acceleration
-    for axis, row in enumerate(crane.jacobian):
-        needed = needed - row[i] * hung.pull(axis)
-    return needed
-
-
 def forces_at_rest(crane: Constants, _t: Any, q: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
     """Forces on the coordinates while nothing moves, friction apart, the load hanging at rest; no guards."""
     winds = winds_of(crane, inputs)
@@ -226,18 +197,17 @@ def equations(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any],
     angle, shaft_rate, _ = polynomial(inputs[SHAFT], t)
     drive, driven = crane.drive, crane.driven
     rate, limit = state.rates[driven], drive.friction_torque
-    way, sticks, sliding = 0.0, 0.0, np.inf
+    way, sticks, set_valued = 0.0, 0.0, drive.friction == "stick-slip"
     if drive.friction == "tanh":
         way = np.tanh(rate / drive.friction_rate)
-    elif drive.friction == "stick-slip":
-        way = choose(below(SLIP_AHEAD, crane.friction_state), np.sign(rate), crane.friction_state)
-        sticks, sliding = below(abs(way), SLIP_AHEAD), way * rate
+    elif set_valued:
+        way, sticks = slip(crane.friction_state, rate)
     winds = winds_of(crane, [polynomial(channel, t) for channel in inputs])
     bare, power = structure(crane, state.coordinates, state.rates, (angle, shaft_rate), winds, -limit * way)
     hung = hang_load(held(bare, driven, sticks), state, rope, crane.load, crane.gravity)
-    needed = needed_at_rest(bare, driven, hung)
     beyond = abs(state.coordinates[driven] - angle) - drive.corner
     return slopes(state, hung, hung.power + power), [
-        hung.tension, -beyond, beyond, sliding,
-        choose(sticks, limit - abs(needed), np.inf), choose(sticks, needed, 0.0), *hung.guards,
+        hung.tension, -beyond, beyond,
+        *(holding(bare, driven, hung, sticks, way * rate, limit) if set_valued else (np.inf, np.inf, 0.0)),
+        *hung.guards,
     ]  # fmt: skip

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from towercrane.cranes.kind import Drives, Kind, Signals, later
 from towercrane.cranes.parts.height import summed
-from towercrane.cranes.parts.wind_checks import check_wind
+from towercrane.cranes.parts.turbulence.checks import check_wind
 from towercrane.cranes.slewing.tables import BasicCase, EnhancedCase, MultiMassCase
 from towercrane.schema.ranges import SPRINGS, Range
 

@@ -10,12 +10,12 @@ import numpy as np
 
 from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.parts.corner import Corners
+from towercrane.cranes.parts.friction import Transitions
 from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
 from towercrane.cranes.parts.hoisting.on_rope import OnRope
 from towercrane.cranes.parts.wind import wind_channels
 from towercrane.cranes.slewing import equations
 from towercrane.cranes.slewing.equations import Arm, Body, Constants, structure
-from towercrane.cranes.slewing.friction import Transitions
 from towercrane.kernels.elastic_rope import TAUT
 from towercrane.kernels.payload import SLACK, Load, Structure
 from towercrane.kernels.polynomial import polynomial
@@ -166,7 +166,8 @@ class LumpedSystem(OnRope):
         if corner is None and not sticks:
             return None
         friction_state = place_of(self.constants, "friction_state")
-        return Transitions(rates + self.constants.driven, friction_state, corner, changes_equations=sticks)
+        guards = equations.SLIDING, equations.HOLDING, equations.NEEDED
+        return Transitions(rates + self.constants.driven, friction_state, corner, guards, changes_equations=sticks)
 
     def fastest_on(self, length: float) -> float:
         """Highest angular frequency of its small motions with so much rope, the coupling at its stiffest [rad/s]."""

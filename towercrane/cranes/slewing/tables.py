@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from towercrane.cranes.parts.tables import CaseTable, CraneTable, Drive, Friction, Start
-from towercrane.cranes.parts.wind_tables import Wind  # noqa: TC001 - pydantic reads annotations
+from towercrane.cranes.parts.turbulence.tables import Wind  # noqa: TC001 - pydantic reads annotations
 from towercrane.schema.fields import (
     Damping,
     Drag,

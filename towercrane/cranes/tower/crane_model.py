@@ -111,7 +111,8 @@ def tower_crane_model(
 
         kind, chosen = LuffingModel, luffing_crane(crane, modes, planes)
     else:
-        chosen = flexible_crane(crane, modes, areas, planes, nodes)
+        free = drive is not None and drive.free
+        chosen = flexible_crane(crane, modes, areas, planes, nodes, moves=free)
     if crane.tie_bars is not None:
         from towercrane.cranes.tower.tied_model import TiedModel
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from towercrane.cranes.kind import Drives, Kind, Signals, Track, later
 from towercrane.cranes.tower.file.case_tables import TowerCase
+from towercrane.cranes.tower.file.checks.free import check_free, refused_free
 from towercrane.cranes.tower.file.checks.jib import check_jibs, jib_length
 from towercrane.cranes.tower.file.checks.luffing import check_luffing, head_height, limits, pivots, refused
 from towercrane.cranes.tower.file.checks.rope import check_elastic
@@ -35,7 +36,9 @@ TOWER = Kind(
     tables=TowerCase,
     drives=FIXED,
     drives_in=lambda tree: PIVOTING if pivots(tree) else FIXED,
-    checks=(check_tower, check_jibs, check_luffing, check_ties, check_sections, check_scene, check_elastic),
+    checks=(
+        check_tower, check_jibs, check_luffing, check_ties, check_sections, check_scene, check_elastic, check_free,
+    ),
     build=later("towercrane.cranes.tower.file.build", "tower_model"),
     poses=later("towercrane.cranes.tower.poses", "tower_poses"),
     computed=later("towercrane.cranes.tower.file.lattices.torsion", "computed"),
@@ -52,7 +55,9 @@ TOWER = Kind(
     left_out=later("towercrane.cranes.tower.file.requests", "left_out"),
     notices=later("towercrane.cranes.tower.file.requests", "notices"),
     sways={"sway_radial": "along the jib", "sway_tangential": "across the jib"},
-    wind_places=later("towercrane.cranes.tower.file.air", "places_of"),
-    refuses=lambda tables: refused_on_elastic(tables) | refused(tables) | refused_on_ties(tables),
+    wind_places=later("towercrane.cranes.tower.file.wind", "places_of"),
+    refuses=lambda tables: (
+        refused_on_elastic(tables) | refused(tables) | refused_on_ties(tables) | refused_free(tables)
+    ),
     serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members"}),
 )  # fmt: skip

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.cranes.parts.wind_tables import Wind
+    from towercrane.cranes.parts.turbulence.tables import Wind
 
     Floats = NDArray[np.float64]
 

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import accumulate
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.cranes.parts.friction import BY_RATE
 from towercrane.cranes.parts.ground import CHANNELS as GROUND
 from towercrane.cranes.tower.equations.matrices import met_by_wind, own_mass, rotary_mass, softening, stiffness
 from towercrane.cranes.tower.equations.play import play_of
 from towercrane.cranes.tower.modes.mass_sums import Straight
 from towercrane.cranes.tower.modes.shape_table import shape_table
 from towercrane.kernels.algebra import Row
+from towercrane.kernels.straight.leaves import CHANGING
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -60,7 +62,7 @@ class Constants:
         Number of the motions that drive it.
     counts : tuple of 12 int
         Coordinates of each kind.
-    slewing : {"fixed", "prescribed", "driven"}
+    slewing : {"fixed", "prescribed", "driven", "free"}
     wind : int
         Number of places that see a wind of their own, the load the last; 1: one wind for all; 0: none.
     head_nodes, tower_nodes : tuple of int
@@ -77,6 +79,8 @@ class Constants:
         Mass, first moment and moments of inertia of what turns [kg, kg m, kg m^2].
     jib_length, tilt_limit : float
         [m], [rad]
+    head_places : ndarray, shape (head nodes,)
+        Where they are along the jib [m].
     head_area, head_area_moment : ndarray, shape (head nodes,)
         Drag per squared speed of jib and counter-jib, and its first moment [kg/m, kg].
     plane_cosine, plane_sine : float
@@ -131,6 +135,7 @@ class Constants:
     yaw: float
     jib_length: float
     tilt_limit: float
+    head_places: Floats
     head_area: Floats
     head_area_moment: Floats
     plane_cosine: float
@@ -154,6 +159,7 @@ class Constants:
     luffing: Luffing | None
     tied: Tied | None
     play: Play | None
+    friction_state: float = field(default=BY_RATE, metadata=CHANGING)
 
     @property
     def coordinates(self) -> int:
@@ -220,7 +226,7 @@ def constants_of(model: Coordinates) -> Constants:
         axes=model.axes,
         channels=len(model.channels),
         counts=tuple(model.counts.get(kind, 0) for kind in KINDS),
-        slewing="driven" if drive is not None else str(model.slewing),
+        slewing=str(model.slewing) if drive is None else "free" if drive.free else "driven",
         wind=model.wind,
         ground=model.channels.index(GROUND[0]) if model.ground else 0,
         load=model.load,

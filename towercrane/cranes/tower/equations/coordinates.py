@@ -119,8 +119,13 @@ class Coordinates:
             raise ValueError(f"FlexibleModel.floors: wanted {wanted}, got {self.floors!r}")
         if self.drive is None and self.drive_inertia:
             raise ValueError(f"FlexibleModel.drive_inertia: wanted 0 without a drive, got {self.drive_inertia!r}")
-        if self.drive is not None and self.drive.friction == "stick-slip":
-            raise ValueError("FlexibleModel.slewing: wanted friction 'none' or 'tanh', got 'stick-slip'")
+        if self.drive is not None and (self.drive.friction == "stick-slip") != self.drive.free:
+            wanted = "'stick-slip' of a brake without a coupling, else 'none' or 'tanh'"
+            raise ValueError(f"FlexibleModel.slewing: wanted friction {wanted}, got {self.drive.friction!r}")
+        if self.drive is not None and self.drive.free and crane.luffing is not None:
+            raise ValueError(
+                "FlexibleModel.slewing: wanted a motion or a drive with a coupling for a jib that pivots"
+            )
 
     @property
     def drive(self) -> Drive | None:
@@ -131,7 +136,7 @@ class Coordinates:
     def channels(self) -> tuple[str, ...]:
         """Motions, as there are: trolley [m] or luffing [rad], rope [m], slewing or shaft of its drive [rad], ground
         and floors [m], wind [m/s]."""
-        turning: tuple[str, ...] = ("shaft",) if self.drive is not None else ("slewing",)
+        turning: tuple[str, ...] = ("slewing",) if self.drive is None or self.drive.free else ("shaft",)
         if self.slewing == "fixed":
             turning = ()
         placing = "trolley" if self.crane.luffing is None else "luffing"

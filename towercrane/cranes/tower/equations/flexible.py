@@ -10,6 +10,7 @@ import numpy as np
 
 from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.parts.corner import Corners
+from towercrane.cranes.parts.friction import Transitions
 from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
 from towercrane.cranes.parts.hoisting.on_rope import OnRope
 from towercrane.cranes.tower.equations import motion
@@ -23,12 +24,12 @@ from towercrane.cranes.tower.equations.play import contact_stiffness
 from towercrane.cranes.tower.equations.structure import static_force, structure
 from towercrane.kernels.payload import SLACK, Load, State, Structure, state_of
 from towercrane.kernels.polynomial import polynomial
-from towercrane.kernels.straight.leaves import numbers_of
+from towercrane.kernels.straight.leaves import numbers_of, place_of
 from towercrane.kernels.straight.written import written
 from towercrane.simulation.equilibrium import Unstable, stable_equilibrium
 from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB
 from towercrane.simulation.starts.turning import Turning
-from towercrane.simulation.system import NoEquilibrium, System
+from towercrane.simulation.system import NoEquilibrium, Switch, System
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -60,7 +61,8 @@ class Equations(Coordinates, OnRope):
         """The same with an inextensible rope."""
         n = self.coordinates
         section = ("section", "section", "section") if self.constants.jointed else ()
-        contacts, first = names_of(self.constants.play), motion.GUARDS + len(section)
+        brake = ("slip", "stick", "needed") if self.constants.slewing == "free" else ()
+        contacts, first = names_of(self.constants.play), motion.GUARDS + len(section) + len(brake)
         floors = np.full(first + len(contacts), -np.inf)
         floors[motion.TENSION] = -np.inf if self.rope_as_rod else SLACK
         floors[[motion.INNER_END, motion.OUTER_END]] = -ROUNDING
@@ -69,12 +71,21 @@ class Equations(Coordinates, OnRope):
         return System(
             equations=motion.motion,
             size=self.size,
-            guards=(SLACK_ROPE, TROLLEY_OFF_JIB, TROLLEY_OFF_JIB, TOWER_BUCKLED, *recorded, *section, *contacts),
+            guards=(
+                SLACK_ROPE,
+                TROLLEY_OFF_JIB,
+                TROLLEY_OFF_JIB,
+                TOWER_BUCKLED,
+                *recorded,
+                *section,
+                *brake,
+                *contacts,
+            ),
             floors=floors,
             scale=scale(self),
             constants=self.constants,
             directions=np.array([[n, 2 * n + self.axes, self.axes]]),
-            switch=self.corners((motion.INSIDE, motion.OUTSIDE), first),
+            switch=self.switch((motion.INSIDE, motion.OUTSIDE), first),
             fastest=lambda: self.fastest,
             crossings=Joints(self.constants) if self.constants.jointed else None,
         )
@@ -88,6 +99,20 @@ class Equations(Coordinates, OnRope):
     def on_its_rope(self, system: System) -> System:
         """A system with what an elastic rope adds, if there is one."""
         return on_its_rope(system, self.load, ROPE, self.fastest_on, self.rope_as_rod)
+
+    @property
+    def held(self) -> Self:
+        """The crane as small motions are of it: a head that is free stands where it begins."""
+        return replace(self, slewing="prescribed", drive_inertia=0.0) if self.constants.slewing == "free" else self
+
+    def switch(self, coupling: tuple[int, int], first: int) -> Switch | None:
+        """Corners of forces, and of a head that is free its brake, whose guards stand before those of collars."""
+        corners = self.corners(coupling, first)
+        if self.constants.slewing != "free":
+            return corners
+        rate = self.coordinates + self.axes + self.parts["slewing"].start
+        guards = first - 3, first - 2, first - 1
+        return Transitions(rate, place_of(self.constants, "friction_state"), corners, guards, changes_equations=True)
 
     @cached_property
     def fastest(self) -> float:

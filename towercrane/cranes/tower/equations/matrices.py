@@ -113,6 +113,7 @@ def met_by_wind(model: Coordinates) -> dict[str, Any]:
             row[parts[plane]] = part.swept[: model.counts[plane]]
     return {
         "head_nodes": tuple(own.node for own in head), "tower_nodes": tuple(own.node for own in tower),
+        "head_places": np.array([own.place for own in head]),
         "head_area": np.array([sums.mass for sums in turning]),
         "head_area_moment": np.array([sums.moment for sums in turning]),
         "head_exposure": head_exposure, "tower_exposure": tower_exposure,

@@ -23,7 +23,7 @@ from towercrane.cranes.tower.equations.actions.drive import Driven, drive
 from towercrane.cranes.tower.equations.actions.ground import ground_of, shake
 from towercrane.cranes.tower.equations.actions.wind import press_wind, winds_of
 from towercrane.cranes.tower.equations.body import Carried, body_of, carried
-from towercrane.cranes.tower.equations.constants import SLIDE_X, SLIDE_Y
+from towercrane.cranes.tower.equations.constants import SLEWING, SLIDE_X, SLIDE_Y
 from towercrane.cranes.tower.equations.head import Head, head_of
 from towercrane.cranes.tower.equations.jib import bend, path_of, trolley_of
 from towercrane.cranes.tower.equations.projection import (
@@ -43,6 +43,10 @@ from towercrane.kernels.payload import State, Structure
 if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.constants import Constants, Drives
     from towercrane.cranes.tower.equations.jib import Section, Trolley
+
+
+HELD = 1e9
+"""Stiffness by which a head that is free stands for its states at rest where it begins [N m/rad]."""
 
 
 class CraneStructure(NamedTuple):
@@ -194,7 +198,12 @@ def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[A
     hanging = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]]).hanging
     pull = load_force(crane.load, crane.gravity, hanging.wind)
     columns = zip(*hanging.jacobian, strict=True)
-    return [own + dot(column, pull) for own, column in zip(hanging.force, columns, strict=True)], []
+    forces = [own + dot(column, pull) for own, column in zip(hanging.force, columns, strict=True)]
+    if crane.slewing == "free":
+        # The brake holds it where it begins.
+        (turned,) = crane.part("slewing")
+        forces[turned] = HELD * (inputs[SLEWING, 0] - y[turned])
+    return forces, []
 
 
 def slewing_torque(share: Share, projected: list[Projected], accelerations: list[Any], pull: list[Any]) -> Any:

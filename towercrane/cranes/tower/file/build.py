@@ -20,6 +20,7 @@ from towercrane.cranes.tower.file.plane import heading_of
 from towercrane.cranes.tower.modes.collars import TowerCollar
 from towercrane.cranes.tower.modes.parameters import as_chain
 from towercrane.cranes.tower.outputs.cut_sums import Section
+from towercrane.schema.motions import FreeTurn
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.file.case_tables import TowerCase
@@ -148,7 +149,10 @@ def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[
 
     crane, model = tables.crane, tables.model
     drive = None
-    if crane.drive is not None and tables.motion.shaft is not None:
+    if isinstance(free := tables.motion.slewing, FreeTurn):
+        # A coupling that holds nothing leaves the brake.
+        drive = Drive("slewing", 0.0, 0.0, 1.0, 0.0, "stick-slip", free.brake_torque)
+    elif crane.drive is not None and tables.motion.shaft is not None:
         coupling, friction = crane.drive, crane.friction
         drive = Drive(
             "slewing", coupling.soft_stiffness, coupling.stiff_stiffness, coupling.corner, coupling.damping,

@@ -8,7 +8,7 @@ from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from modal.elements.beam_elements import MOST_ELEMENTS
 from towercrane.cranes.parts.tables import CaseTable, SwayStart
-from towercrane.cranes.parts.wind_tables import Wind  # noqa: TC001 - pydantic reads annotations
+from towercrane.cranes.parts.turbulence.tables import Wind  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.file.luffing_tables import without_trolley
 from towercrane.cranes.tower.file.tables import Crane  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.targets import ALL, ANY_MOTION, FORETOLD
@@ -26,7 +26,7 @@ from towercrane.schema.fields import (
     Table,
     ToleranceIfAny,
 )
-from towercrane.schema.motions import HoistMotion, JointMotion, TrolleyMotion  # noqa: TC001
+from towercrane.schema.motions import HoistMotion, JointMotion, SlewingMotion, TrolleyMotion  # noqa: TC001
 from towercrane.schema.targets import Asked, OutputsField, TargetField, Targets
 
 
@@ -39,7 +39,7 @@ class Motions(Table):
     trolley: TrolleyMotion
     luffing: JointMotion | None = None
     hoist: HoistMotion | None = None
-    slewing: JointMotion | None = None
+    slewing: SlewingMotion | None = None
     shaft: JointMotion | None = None
 
 

@@ -9,7 +9,16 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from towercrane.results.result_file import saved_axes
-from towercrane.schema.motions import JointMotion, Points, Rest, Sequence, SmoothRamps, SpeedTrapezoid, reader
+from towercrane.schema.motions import (
+    FreeTurn,
+    JointMotion,
+    Points,
+    Rest,
+    Sequence,
+    SmoothRamps,
+    SpeedTrapezoid,
+    reader,
+)
 from towercrane.schema.ranges import at, si_at
 
 if TYPE_CHECKING:
@@ -73,7 +82,7 @@ def _directions(axes: Iterable[str]) -> list[float]:
     return [HORIZONTAL[axis] for axis in axes if axis in HORIZONTAL]
 
 
-def _heading(turn: JointMotion | None, duration: float, pushed: list[float | None]) -> float | None:
+def _heading(turn: JointMotion | FreeTurn | None, duration: float, pushed: list[float | None]) -> float | None:
     """Of a turn and the directions in which something pushes or shakes, not known where they vary."""
     heading = float(getattr(turn, "start", 0.0))
     if turn is not None and _departure(turn, heading) < duration:
@@ -83,10 +92,10 @@ def _heading(turn: JointMotion | None, duration: float, pushed: list[float | Non
     return heading
 
 
-def _departure(turn: JointMotion | TurnStep, start: float) -> float:
+def _departure(turn: JointMotion | FreeTurn | TurnStep, start: float) -> float:
     """When a turn leaves the angle at which it begins [s]; infinite if it never does."""
     match turn:
-        case Points():
+        case Points() | FreeTurn():
             return 0.0
         case Rest():
             return inf

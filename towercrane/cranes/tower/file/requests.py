@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from towercrane.cranes.tower.crane_model import MODE_KINDS, moving
 from towercrane.cranes.tower.file.plane import heading_of, stays_in_plane
 from towercrane.cranes.tower.targets import ANY_MOTION, FORETOLD, absent, lacking
+from towercrane.schema.motions import FreeTurn
 from towercrane.schema.targets import ForEvery
 
 if TYPE_CHECKING:
@@ -87,6 +88,15 @@ def of_play(tables: TowerCase, pressed: Collection[int] | None = ()) -> list[str
     return said
 
 
+def of_free_head(tables: TowerCase, model: FlexibleModel) -> list[str]:
+    """Which way the wind turns a head that is free, and what natural frequencies know of it."""
+    if not isinstance(tables.motion.slewing, FreeTurn):
+        return []
+    from towercrane.cranes.tower.file.wind import HELD, weathervane
+
+    return [*weathervane(tables, model), HELD]
+
+
 def notices(tables: TowerCase, model: FlexibleModel) -> list[str]:
     """What the modes of a run leave out of forces on base and collars, and natural frequencies of play."""
     written = model.crane.written
@@ -100,6 +110,7 @@ def notices(tables: TowerCase, model: FlexibleModel) -> list[str]:
     if tables.earthquake is not None:
         said.append(effective_mass(written).notice(count))
     said += of_play(tables, () if model.axes == 2 else None)
+    said += of_free_head(tables, model)
     return [sentence for sentence in said if sentence]
 
 

@@ -216,7 +216,7 @@ class FlexibleCrane:
 
 def flexible_crane(
     crane: TowerCrane, modes: ModeCounts, areas: WindAreas | None = None, planes: int = 2,
-    nodes: WindNodes | None = None,
+    nodes: WindNodes | None = None, *, moves: bool = False,
 ) -> FlexibleCrane:  # fmt: skip
     """Crane in so many modes of its members, the tower's with the head on their end.
 
@@ -229,6 +229,8 @@ def flexible_crane(
         Directions in which the tower bends.
     nodes : WindNodes, optional
         Where a wind of its own blows; without, one wind blows for all.
+    moves : bool
+        Whether the air knows that what turns moves itself.
 
     Raises
     ------
@@ -251,7 +253,7 @@ def flexible_crane(
         tower_mass=crane.tower_mass,
         trolley_mass=crane.trolley_mass,
         planes=planes,
-        exposure=None if areas is None else exposure_of(shapes, tower, crane.tower.length, areas, nodes),
+        exposure=None if areas is None else exposure_of(shapes, tower, crane.tower.length, areas, nodes, moves),
         tower_moment=crane.tower_moment,
         collars=crane.collars,
         gravity=crane.gravity,

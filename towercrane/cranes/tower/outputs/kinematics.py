@@ -98,7 +98,7 @@ class Kinematics:
     def slewing(self) -> Pair:
         """Slewing angle of the head on the tower's top and its rate; a head that is fixed stands at its heading."""
         crane = self.seen.crane
-        if crane.slewing == "driven":
+        if crane.slewing in ("driven", "free"):
             (at,) = crane.part("slewing")
             return self.state.coordinates[at], self.state.rates[at]
         if crane.slewing == "prescribed":

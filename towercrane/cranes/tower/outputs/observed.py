@@ -254,7 +254,7 @@ def about(
     if model.axes == 2:
         counts["tower_y"] = counts["tower_x"]
     there = {
-        "shaft": crane.drive is not None,
+        "shaft": crane.slewing == "driven",
         "wind": bool(crane.wind),
         "ground": bool(crane.ground),
         "counter": model.crane.counter_bends,

@@ -1,4 +1,4 @@
-"""Pressure of a wind on tower, head and jib, all of which stand still for it."""
+"""Pressure of a wind on tower, head and jib, which stand still for it unless the head is free to turn."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from towercrane.cranes.parts.air import air_at
 from towercrane.kernels.algebra import Vector, dot
+from towercrane.kernels.choices import below, choose
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.constants import Constants, Drives
@@ -35,9 +36,30 @@ def winds_of(crane: Constants, drives: Drives) -> list[Vector]:
 
 
 def pressures(crane: Constants, head: Head, winds: list[Vector]) -> list[Any]:
-    """Squared speed across the jib, with its sign, at each place on what turns."""
+    """Squared speed across the jib, with its sign, at each place on what turns.
+
+    Of a head that is free to turn it is that of the air against the head; between the ends of a panel that is linear,
+    and its square has the same force and moment as what is linear between the values for both ends.
+    """
     normals = [dot(winds[node], head.rotation[1::3]) for node in crane.head_nodes]
-    return [abs(normal) * normal for normal in normals]
+    if crane.slewing != "free":
+        return [abs(normal) * normal for normal in normals]
+    parts = zip(normals, crane.head_places, strict=True)
+    against = [normal - (head.top[1] + place * head.spin[2]) for normal, place in parts]
+    return [end for pair in zip(against[::2], against[1::2], strict=True) for end in panel_pressures(*pair)]
+
+
+def panel_pressures(begin: Any, end: Any) -> tuple[Any, Any]:
+    """Values at both ends whose linear course has the integrals of r |r| and of r |r| s, with r linear over s.
+
+    Where r changes its sign, at s_0, both are those of r^2 less twice those up to there.
+    """
+    changes = below(begin * end, 0.0)
+    upto = choose(changes, begin / choose(changes, begin - end, 1.0), 0.0)
+    sense = np.sign(choose(changes, end, begin + end))
+    force = (begin * begin + begin * end + end * end - 2.0 * begin * begin * upto) / 3.0
+    moment = (begin * begin + 2.0 * begin * end + 3.0 * end * end - 2.0 * begin * begin * upto * upto) / 12.0
+    return sense * (4.0 * force - 6.0 * moment), sense * (6.0 * moment - 2.0 * force)
 
 
 def press_wind(crane: Constants, state: State, head: Head, winds: list[Vector]) -> Blown:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cranes.parts.wind_checks import MISSING, check_wind
+from towercrane.cranes.parts.turbulence.checks import MISSING, check_wind
 from towercrane.cranes.tower.file.case_tables import Model
 from towercrane.cranes.tower.file.checks.jib import laced
 from towercrane.cranes.tower.file.checks.tower import tables_in
