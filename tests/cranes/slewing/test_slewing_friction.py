@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from oracles.balance import imbalance
 from samples.lab_crane import PARAMETERS, crane, motions, run
 
+from towercrane.cranes.parts import friction
 from towercrane.cranes.slewing import equations
 from towercrane.motions.motion import phases
 from towercrane.simulation.integrate import integrate
@@ -70,7 +71,7 @@ def test_a_breakaway_is_no_reversal_though_rounding_turns_its_first_rates():
         return guards
 
     switch.begin(state, numbers, floors, guards_at)
-    assert numbers[system.place_of("friction_state")] == equations.SLIP_AHEAD
+    assert numbers[system.place_of("friction_state")] == friction.SLIP_AHEAD
     state[driven] = -1e-27
     assert np.all(guards_at() >= floors)
     # A rate that has turned is one.

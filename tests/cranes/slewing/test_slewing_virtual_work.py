@@ -168,7 +168,7 @@ def test_accelerations_fulfil_the_virtual_work_of_positions(kind, law):
         swing = cp * theta_rate * e_theta + psi_rate * e_psi
         n_load, w = np.array([s * cp, sp, -c * cp]), swing
         if elastic:
-            held, _ = equations.structure(model.constants, q, rates, shaft)
+            held, _ = equations.structure(model.constants, q, rates, shaft, equations.winds_of(model.constants, []))
             reach, growing = rope[0] + stretch[0], rope[1] + stretching[0]
             n_load = np.array(held.place) + reach * n_load
             swing = np.array(held.velocity) + growing * (n_load - held.place) / reach + reach * w
