@@ -14,6 +14,7 @@ from towercrane.cases.wind_file import rises_until
 from towercrane.cranes.registry import KINDS
 from towercrane.simulation.methods.method import EnergyDriftWarning
 from towercrane.simulation.simulate import labelled, looks_per_row, record
+from towercrane.simulation.starts.end import end_of
 from towercrane.simulation.system import NoEquilibrium
 
 if TYPE_CHECKING:
@@ -57,7 +58,10 @@ def record_case(
     result.attrs["changes"] = json.dumps(case.changes)
     result.attrs["case_text"] = json.dumps(case.as_written)
     said = KINDS[case.kind].notices
-    before = json.loads(result.attrs["end"])["time"] - result.attrs["end_time"]
+    # What another run needs to go on from here.
+    before, until = result.attrs["time_before"], result.attrs["end_time"]
+    end = end_of(result.model, result.motions, until) | {"time": before + until}
+    result.attrs["end"] = json.dumps(end)
     goes_on = [f"goes on from {case.start.from_} after {before:g} s: the clock is set back, the work is not"]
     notices = [*table_notices(case), *(goes_on if case.start.from_ else [])]
     result.attrs["notices"] = json.dumps([*notices, *(said(case.checked, result.model) if said else ())])

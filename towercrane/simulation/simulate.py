@@ -24,7 +24,6 @@ from towercrane.simulation.methods.registry import method_of
 from towercrane.simulation.outcomes import FINISHED, INTERRUPTED
 from towercrane.simulation.run import Run
 from towercrane.simulation.starts.begin import begin
-from towercrane.simulation.starts.end import end_of
 from towercrane.simulation.starts.start import HANGING, Start
 from towercrane.simulation.system import Model, NoEquilibrium, start_inputs
 from towercrane.simulation.trajectory import Trajectory
@@ -146,7 +145,7 @@ def record(
         "message": message,
         "end_time": end_time,
         "end_state": end_state,
-        "end": json.dumps(end_of(model, motions, end_time) | {"time": start.time + end_time}),
+        "time_before": start.time,
         "output_step": output_step,
         "method": method,
         "rtol": rtol,
