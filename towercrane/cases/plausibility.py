@@ -7,7 +7,7 @@ from math import pi
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cases.kinds import known_leaves
-from towercrane.cranes.parts.load import check_rope, stretched
+from towercrane.cranes.parts.load import check_ground, check_rope, stretched
 from towercrane.cranes.registry import KINDS
 from towercrane.schema.faults import Fault, did_you_mean, shown
 from towercrane.schema.ranges import (
@@ -152,6 +152,9 @@ RANGES = (
     Range("payload.drag", "N s^2/m^2", 1e-5, 1e3, ("g/m",)),
     Range("map.payload_masses*", "kg", 1, 1e6, ("t", "g")),
     Range("rope.length", "m", 0.1, 1000, LENGTHS),
+    Range("ground.height", "m", 1e-3, 1000, LENGTHS, signed=True),
+    Range("ground.friction", "1", 1e-3, 2.0, ("%",)),
+    Range("start.slack", "m", 1e-5, 100, LENGTHS),
     Range("rope.stiffness", "N", 1e3, 1e12, ("MN", "kN")),
     Range("rope.axial_stiffness", "N", 1e3, 1e12, ("MN", "kN")),
     Range("rope.extra_length", "m", 1e-3, 1000, LENGTHS),
@@ -216,7 +219,15 @@ def check_values(tree: dict[str, Any], kind: str) -> Iterator[Fault]:
     """Values that do not fit each other, motions and towers apart."""
     yield from _check_from(tree)
     yield from _check_sways(tree, *KINDS[kind].sways)
-    for check in (_check_output, _check_elements, _check_drag, _check_friction, _check_method, check_rope):
+    for check in (
+        _check_output,
+        _check_elements,
+        _check_drag,
+        _check_friction,
+        _check_method,
+        check_rope,
+        check_ground,
+    ):
         yield from check(tree)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from towercrane.kernels.algebra import Row, dot, solve
 from towercrane.kernels.elastic_rope import stretch
+from towercrane.kernels.ground import stand
 from towercrane.kernels.payload import Hung
 
 if TYPE_CHECKING:
@@ -97,13 +98,17 @@ def _hang_elastically(
         for force, column, j in zip(structure.force, columns, pulled, strict=True)
     ]
     accelerations = solve(structure.mass, right)
-    power, falling = pull.power, []
+    power, pushed = pull.power, []
     for k in axes:
         power = power + (air[k] - load.mass * ground[k]) * velocity[k]
-        falling.append((air[k] + pull.hinge[k] - pull.tension * pull.direction[k]) / load.mass - ground[k])
-    falling[-1] = falling[-1] - gravity
-    suspension = _moved(structure, bias, accelerations)
-    guards = pull.margin, -pull.margin, pull.stored
+        pushed.append(air[k] + pull.hinge[k] - pull.tension * pull.direction[k] - load.mass * ground[k])
+    suspension, of_rope = _moved(structure, bias, accelerations), (pull.margin, -pull.margin, pull.stored)
+    if load.ground is not None:
+        held = stand(load.ground, place, velocity, pushed, load.mass, gravity)
+        falling, power, guards = held.accelerations, power + held.power, (*held.guards, *of_rope)
+    else:
+        falling, guards = [own / load.mass for own in pushed], of_rope
+        falling[-1] = falling[-1] - gravity
     return Hung(pull.tension, power, accelerations, falling, pull.direction, pull.hinge, suspension, guards)
 
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from towercrane.kernels.algebra import Row
     from towercrane.kernels.elastic_rope import Elasticity
+    from towercrane.kernels.ground import Ground
 
 AIR_DENSITY = 1.225
 """Density of air at 15 degrees Celsius and sea level [kg/m^3] (ISO 2533)."""
@@ -48,6 +49,8 @@ class Load:
         Drag coefficient times area [m^2].
     elasticity : Elasticity or None
         Of a rope that stretches.
+    ground : Ground or None
+        Under a load on such a rope.
 
     Raises
     ------
@@ -59,6 +62,7 @@ class Load:
     rope_damping: float = 0.0
     drag_area: float = 0.0
     elasticity: Elasticity | None = None
+    ground: Ground | None = None
 
     def __post_init__(self) -> None:
         check_fields(self, positive=("mass",), not_negative=("rope_damping", "drag_area"))
@@ -160,7 +164,8 @@ class Hung(NamedTuple):
     direction, hinge, suspension : list of d
         Unit vector from D to the load, hinge force on the load, acceleration of D with that of the ground.
     guards : list
-        Of an elastic rope: how far it is from slack and from taut, as strains; energy stored in it [J].
+        Of the ground, if there is any; of an elastic rope: how far it is from slack and from taut, as strains, and
+        energy stored in it [J].
     """
 
     tension: Any

@@ -99,7 +99,8 @@ def tipped(moment_x: float, moment_y: float) -> float:
 def static(run: Run, values: Sequence[float]) -> dict[str, float]:
     """Outputs of the crane at rest under its load, its drives at these values and a wind at its mean; none if it
     falls."""
-    model = run.model
+    # Under its load it hangs, whatever that stands on now and then.
+    model = getattr(run.model, "lifted", run.model)
     # As wide as those of the run: for others the equations would be written anew.
     width = max(3, *(run.motions[channel].coefficients.shape[1] for channel in model.channels))
     inputs = np.zeros((len(values), width))

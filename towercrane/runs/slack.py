@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from towercrane.runs.extremes import Extremes
     from towercrane.simulation.run import Run
 
-FORCE = "hoist_rope_force"
+FORCE, GROUND = "hoist_rope_force", "load_ground_force"
 
 
 def rope_report(run: Run) -> dict[str, Any] | None:
@@ -19,7 +19,8 @@ def rope_report(run: Run) -> dict[str, Any] | None:
     Returns
     -------
     dict
-        ``slack_phases``, ``slack_from_s``, ``slack_to_s`` (the last of which may be the run's end).
+        ``slack_phases``, ``slack_from_s``, ``slack_to_s`` (the last of which may be the run's end); over ground
+        ``lifted_off_s`` and ``landed_s``.
     """
     if "rope_stretch" not in run:
         return None
@@ -30,7 +31,22 @@ def rope_report(run: Run) -> dict[str, Any] | None:
     begins, ends = times[taut[:-1] & ~taut[1:]].tolist(), times[~taut[:-1] & taut[1:]].tolist()
     if len(ends) < len(begins):
         ends.append(float(run.times[-1]))
-    return {"slack_phases": len(begins), "slack_from_s": begins, "slack_to_s": ends}
+    return {"slack_phases": len(begins), "slack_from_s": begins, "slack_to_s": ends, **_on_ground(run)}
+
+
+def _on_ground(run: Run) -> dict[str, list[float]]:
+    """When the load was lifted off the ground and when it landed, if there is ground."""
+    if GROUND not in run:
+        return {}
+    times, forces = run.times[:1], run[GROUND].values[:1]
+    if run.switches is not None:
+        times, forces = np.append(times, run.switches.times), np.append(forces, run.switches[GROUND].values)
+    stands = forces > 0.0
+    turned = np.flatnonzero(stands[1:] != stands[:-1]) + 1
+    return {
+        "lifted_off_s": times[turned[~stands[turned]]].tolist(),
+        "landed_s": times[turned[stands[turned]]].tolist(),
+    }
 
 
 def rope_notice(run: Run, found: Extremes) -> list[str]:

@@ -129,7 +129,8 @@ class Variants:
         cut = phases(tuple(motions[channel] for channel in model.channels), case.run.duration)
         by_value = getattr(model, "value_channels", ())
         means = {model.channels.index(channel): motions[channel].mean for channel in by_value}
-        return LaneRun(model, cut, start_of(case, model, motions), means)
+        run = LaneRun(model, cut, start_of(case, model, motions), means)
+        return dataclasses.replace(run, model=model.standing(run.start_inputs))
 
     def _plain_one(self, runs: list[int]) -> Variant | None:
         """A run that differs from these in its load and its resting rope alone; None if they differ in more.

@@ -111,6 +111,8 @@ def record(
         raise ValueError(f"motions: wanted a rope longer than 0 m, got {shortest:g} m")
     sample_times = rows_of(duration, output_step, looks)
     message, inputs = "", start_inputs(model, motions, cut.inputs[0])
+    if hasattr(model, "standing"):
+        model = model.standing(inputs)
     try:
         began_at = begin(model, inputs, start)
     except NoEquilibrium as failure:

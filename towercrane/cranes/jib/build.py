@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.parts.load import ground_of, load_of
 from towercrane.cranes.parts.parameters import flat
 
 if TYPE_CHECKING:
@@ -23,4 +23,6 @@ def model_of(tables: JibCase) -> PlannedJibCrane:
     from towercrane.cranes.jib.parameters import JibCrane
 
     crane = JibCrane(**parameters_of(tables.crane))
-    return PlannedJibCrane(crane, load_of(tables.payload, tables.rope), rope_as_rod=tables.rope.slack == "rod")
+    return PlannedJibCrane(
+        crane, load_of(tables.payload, tables.rope, ground_of(tables)), rope_as_rod=tables.rope.slack == "rod"
+    )

@@ -19,7 +19,7 @@ from towercrane.cranes.jib import equations
 from towercrane.cranes.jib.outputs import ABOUT, Seen, driven_outputs, planned_outputs
 from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
 from towercrane.cranes.parts.hoisting.on_rope import OnRope
-from towercrane.cranes.parts.points import ROPE_STRETCH
+from towercrane.cranes.parts.points import rope_about
 from towercrane.kernels.payload import SLACK, Structure
 from towercrane.kernels.polynomial import polynomial
 from towercrane.simulation.observed import observe
@@ -72,7 +72,7 @@ class JibModel(OnRope):
     @property
     def about(self) -> dict[str, About]:
         """What the outputs are."""
-        return ABOUT if self.load.elasticity is None else {**ABOUT, "rope_stretch": ROPE_STRETCH}
+        return {**ABOUT, **rope_about(self.load)}
 
     @property
     def channels(self) -> tuple[str, ...]:

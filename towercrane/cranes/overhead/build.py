@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from towercrane.cranes.overhead.model import OverheadModel
 from towercrane.cranes.overhead.parameters import OverheadCrane
-from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.parts.load import ground_of, load_of
 from towercrane.cranes.parts.parameters import flat
 
 if TYPE_CHECKING:
@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 def model_of(tables: OverheadCase) -> OverheadModel:
     """Model of an overhead crane's case."""
     crane = OverheadCrane(**flat(tables.crane))
-    return OverheadModel(crane, load_of(tables.payload, tables.rope), rope_as_rod=tables.rope.slack == "rod")
+    return OverheadModel(
+        crane, load_of(tables.payload, tables.rope, ground_of(tables)), rope_as_rod=tables.rope.slack == "rod"
+    )
 
 
 def lengths_of(model: OverheadModel) -> dict[str, float]:

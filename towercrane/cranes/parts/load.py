@@ -7,21 +7,32 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.kernels.elastic_rope import BY_STRAIN, TAUT, Elasticity
+from towercrane.kernels.ground import Ground
 from towercrane.kernels.payload import AIR_DENSITY, Load
 from towercrane.schema.faults import Fault, shown
-from towercrane.schema.ranges import at
+from towercrane.schema.ranges import at, si_at
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from towercrane.cranes.parts.tables import CaseTable
     from towercrane.schema.fields import Payload, Rope
 
 
-def load_of(payload: Payload, rope: Rope | None = None) -> Load:
-    """The load, its rope's losses, and how it stretches if the rope is told and does."""
+def load_of(payload: Payload, rope: Rope | None = None, ground: Ground | None = None) -> Load:
+    """The load, its rope's losses, how it stretches if the rope is told and does, and the ground."""
     drag_area = payload.drag_area or 2.0 * payload.drag / AIR_DENSITY
     elasticity = None if rope is None else elasticity_of(payload, rope)
-    return Load(payload.mass, payload.rope_damping, drag_area, elasticity)
+    return Load(payload.mass, payload.rope_damping, drag_area, elasticity, ground)
+
+
+def ground_of(tables: CaseTable, foot: float = 0.0) -> Ground | None:
+    """Ground of a case, if there is any; the foot of its crane at a height in the equations [m]."""
+    if tables.ground is None:
+        return None
+    if tables.start.slack is not None:
+        return Ground(slack=tables.start.slack, friction=tables.ground.friction)
+    return Ground((tables.ground.height or 0.0) + foot, friction=tables.ground.friction)
 
 
 def elasticity_of(payload: Payload, rope: Rope) -> Elasticity | None:
@@ -74,3 +85,28 @@ def check_rope(tree: dict[str, Any]) -> Iterator[Fault]:
     if rope.get("slack") == "stop" and stretched(tree):
         hint = "a rope that stretches goes slack and is caught; as a rod it would push"
         yield Fault("", "rope.slack", 'no key of a rope that stretches, or "rod"', shown(rope["slack"]), hint)
+
+
+def check_ground(tree: dict[str, Any]) -> Iterator[Fault]:
+    """Ground that does not go with the rope, and a load that is to stand on it and cannot."""
+    ground, slack, start = at(tree, "ground"), at(tree, "start.slack"), at(tree, "start")
+    if ground is None:
+        if slack is not None:
+            hint = "the load stands on ground, [ground]; friction may be stated there"
+            yield Fault("", "start.slack", "a table [ground] beside it", shown(slack), hint)
+        return
+    if not stretched(tree) or at(tree, "rope.slack") == "rod":
+        hint = "what is lifted off by a rope that does not stretch, or pushes, has no force to tell"
+        yield Fault("", "ground", "a rope that stretches and goes slack, rope.stiffness", "another", hint)
+    if slack is None:
+        return
+    if at(tree, "ground.height") is not None:
+        hint = "the ground is where the load stands: below the crane at rest without it, by the rope less its slack"
+        yield Fault("", "ground.height", "no key beside start.slack", shown(at(tree, "ground.height")), hint)
+    length, loose = si_at(tree, "rope.length", "m"), si_at(tree, "start.slack", "m")
+    if length and loose and loose >= length:
+        yield Fault("", "start.slack", f"less than rope.length, {length:g} m", shown(slack))
+    others = [key for key in start if key not in ("slack", "state")] if isinstance(start, dict) else []
+    if others or at(tree, "start.state") not in (None, "equilibrium"):
+        got = ", ".join(others) or shown(at(tree, "start.state"))
+        yield Fault("", "start.slack", 'a crane in equilibrium, state = "equilibrium", and nothing else', got)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from towercrane.cranes.parts.hoisting.elastic import SLACKENS, STORED
+from towercrane.cranes.parts.hoisting.contact import REACTION
+from towercrane.cranes.parts.hoisting.slackening import SLACKENS, STORED
 from towercrane.kernels.algebra import Row, dot
 from towercrane.kernels.choices import below, choose
 from towercrane.simulation.observed import About
@@ -44,7 +45,10 @@ class Point(NamedTuple):
             for pair in ((hung.place, self.place), (hung.velocity, self.velocity))
         )
         reach, stretched = rope_seen(load, along, parting, guards)
-        return Carried(hung, along, stretched, {"rope_stretch": reach - length}, guards[STORED])
+        shown = {"rope_stretch": reach - length}
+        if load.ground is not None:
+            shown["load_ground_force"] = guards[REACTION]
+        return Carried(hung, along, stretched, shown, guards[STORED])
 
     def energy(self, mass: Any, gravity: Any) -> Any:
         """Kinetic and potential energy of a mass there [J]."""
@@ -76,6 +80,15 @@ class Carried(NamedTuple):
 
 ROPE_STRETCH = About("m", "distance from load to rope's upper end beyond the rope's length; below zero it is slack")
 """What an elastic rope shows."""
+
+GROUND_FORCE = About("N", "force of the load on the ground")
+"""What ground shows."""
+
+
+def rope_about(load: Load) -> dict[str, About]:
+    """What is shown of a load's rope, if it stretches, and of the ground."""
+    found = {} if load.elasticity is None else {"rope_stretch": ROPE_STRETCH}
+    return found if load.ground is None else {**found, "load_ground_force": GROUND_FORCE}
 
 
 def rope_seen(load: Load, along: Row, parting: Row, guards: Row) -> tuple[Any, tuple[Any, Any, Row, Row]]:

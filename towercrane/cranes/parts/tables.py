@@ -14,6 +14,9 @@ from towercrane.schema.fields import (
     Expect,
     HingeDamping,
     Payload,
+    PositionIfAny,
+    Ratio,
+    ReachIfAny,
     Rope,
     RotaryStiffness,
     Run,
@@ -36,10 +39,12 @@ class CraneTable(Table):
 class StartTable(Table):
     """Initial state; sways and their rates are named as the outputs are, as which they begin.
 
-    A run that goes on from the end of another names its result alone.
+    With slack in its rope the load stands on the ground. A run that goes on from the end of another names its result
+    alone.
     """
 
     state: str = "equilibrium"
+    slack: ReachIfAny = None
     from_: str = Field(default="", alias="from")
 
 
@@ -58,6 +63,13 @@ class Start(SwayStart):
     state: Literal["equilibrium", "quiet", "zero"] = "equilibrium"
 
 
+class GroundTable(Table):
+    """Level ground under the load; its height is over the crane's foot, unless the load stands on it at the start."""
+
+    height: PositionIfAny = None
+    friction: Ratio = 0.0
+
+
 class CaseTable(Table):
     """What every case has; each kind has its own crane and motions."""
 
@@ -65,6 +77,7 @@ class CaseTable(Table):
     crane: CraneTable
     payload: Payload
     rope: Rope
+    ground: GroundTable | None = None
     motion: Table
     start: StartTable = Field(default_factory=StartTable)
     run: Run

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.parts.load import ground_of, load_of
 from towercrane.cranes.parts.parameters import flat
 from towercrane.cranes.parts.turbulence.field import Places
 from towercrane.cranes.slewing import models
@@ -35,7 +35,8 @@ def parameters_of(crane: SlewingCrane) -> SlewingParameters:
 
 def builder_of(tables: SlewingCase) -> Callable[[Any], LumpedModel]:
     """Model of a slewing case from a parameter set that may differ from the case's own."""
-    make, load, as_rod = CRANES[tables.crane.kind], load_of(tables.payload, tables.rope), tables.rope.slack == "rod"
+    make, load = CRANES[tables.crane.kind], load_of(tables.payload, tables.rope, ground_of(tables))
+    as_rod = tables.rope.slack == "rod"
 
     def build(parameters: Any) -> LumpedModel:
         crane, wind = make(parameters, tables.rope.length), tables.wind

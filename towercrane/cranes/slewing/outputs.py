@@ -9,7 +9,7 @@ import numpy as np
 
 from towercrane.cranes.parts.base import Reaction, added, base_about, base_outputs, rope_on_crane, together
 from towercrane.cranes.parts.coupling import coupling_energy, coupling_torque
-from towercrane.cranes.parts.points import ROPE_STRETCH, Point, load_places, load_places_about, turned_back
+from towercrane.cranes.parts.points import Point, load_places, load_places_about, rope_about, turned_back
 from towercrane.cranes.slewing.equations import AXES, ROPE, SHAFT, TENSION, drag_on, motion_of, turned, winds_of
 from towercrane.kernels.algebra import dot
 from towercrane.kernels.payload import state_of
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.parts.points import Carried
     from towercrane.cranes.slewing.description import LumpedCrane
     from towercrane.cranes.slewing.equations import Body, Constants
+    from towercrane.kernels.payload import Load
     from towercrane.simulation.observed import Instant
 
     Floats = NDArray[np.float64]
@@ -73,7 +74,7 @@ def seen_of(crane: LumpedCrane, constants: Constants) -> Seen:
 WINDS = {f"wind_{axis}": About("m/s", f"wind along {axis}, at the load") for axis in "xyz"}
 
 
-def about_of(crane: LumpedCrane, *, wind: bool = False, elastic: bool = False) -> dict[str, About]:
+def about_of(crane: LumpedCrane, *, load: Load, wind: bool = False) -> dict[str, About]:
     """What the outputs of a crane are, and of wind and rope where one blows and one stretches."""
     return {
         "sway_tangential": About("rad", "sway across the jib, atan2(across, down), positive in the turning sense"),
@@ -84,7 +85,7 @@ def about_of(crane: LumpedCrane, *, wind: bool = False, elastic: bool = False) -
         "drive_torque_elastic": About("N m", "torque of the coupling's spring alone, positive driving"),
         "rope_length": About("m", "length of the unstretched rope"),
         "hoist_rope_force": About("N", "rope tension"),
-        **({"rope_stretch": ROPE_STRETCH} if elastic else {}),
+        **rope_about(load),
         **{name: About(output.units, output.long_name) for name, output in crane.linear_outputs.items()},
         **{
             name: About("rad" if name in crane.angles else "m", f"coordinate: {name.replace('_', ' ')}")

@@ -83,6 +83,7 @@ def _without(crane: LumpedCrane, stretch: Row) -> LumpedCrane:
         drive=replace(crane.drive, on=name_of(crane.drive.on)),
         inertias=row(crane.inertias),
         steady_force=row(crane.steady_force),
+        counter_moments=row(crane.counter_moments),
         jib_angle=name_of(crane.jib_angle),
         # What was read off the stretch of a member that is rigid now has no output any more.
         linear_outputs={

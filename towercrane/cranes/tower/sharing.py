@@ -22,4 +22,5 @@ def made_of(model: FlexibleModel) -> str:
 def plain(tables: TowerCase) -> bool:
     """Whether another load, and another rope that rests, change nothing else of a run."""
     # A hauled rope begins its motion at its length, and what a tolerance of frequencies leaves out hangs on the load.
-    return tables.motion.hoist is None and tables.accuracy.frequency is None
+    stretches = tables.rope.stretches
+    return tables.motion.hoist is None and tables.accuracy.frequency is None and not stretches

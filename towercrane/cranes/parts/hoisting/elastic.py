@@ -1,16 +1,18 @@
-"""An elastic rope as the solver sees it: where it goes slack and is caught, how fast it vibrates, how it begins."""
+"""A load on an elastic rope, over ground or not, as the solver sees it; how fast it vibrates."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.parts.hoisting import contact, slackening
+from towercrane.cranes.parts.hoisting.contact import Contact
+from towercrane.cranes.parts.hoisting.slackening import Slackening
 from towercrane.kernels.algebra import vibrations
-from towercrane.kernels.elastic_rope import SLACK_MODE, TAUT
+from towercrane.kernels.elastic_rope import TAUT
 from towercrane.kernels.straight.leaves import place_of
-from towercrane.simulation.outcomes import ROPE_CAUGHT, ROPE_SLACK
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,67 +23,6 @@ if TYPE_CHECKING:
     from towercrane.simulation.system import Switch, System
 
     Floats = NDArray[np.float64]
-
-GUARDS = (ROPE_SLACK, ROPE_CAUGHT, "rope energy")
-"""Guards of an elastic rope, behind all others: strains to where it slackens and to where it is caught, and its
-energy [J], which is only recorded."""
-
-SLACKENS, CATCHES, STORED = -3, -2, -1
-"""Their places."""
-
-
-@dataclass(frozen=True, slots=True)
-class Slackening:
-    """A rope that goes slack and is caught, beside whatever else of a crane switches.
-
-    A rope that slackens while it retracts leaves some strain to its own damping: what that stores is lost, and is
-    there again if the rope is caught before it is gone.
-
-    Parameters
-    ----------
-    mode : int
-        Where the numbers have the rope's mode.
-    other : Switch or None
-        Of the crane.
-    """
-
-    mode: int
-    other: Switch | None
-
-    @property
-    def changes_equations(self) -> bool:
-        """Always."""
-        return True
-
-    def begin(self, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]) -> None:
-        """Set the rope's mode from the state, then the others."""
-        taut = float(guards_at()[SLACKENS]) > 0.0
-        if numbers[self.mode] in (SLACK_MODE, TAUT) and taut != (numbers[self.mode] == TAUT):
-            # The winch's speed has jumped.
-            self._turn(taut, state, numbers, floors, guards_at)
-        self._set(taut, numbers, floors)
-        if self.other is not None:
-            self.other.begin(state, numbers, floors, guards_at)
-
-    def cross(
-        self, guard: int, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]
-    ) -> bool:
-        """Set what holds after a guard."""
-        if guard - len(floors) in (SLACKENS, CATCHES):
-            self._turn(guard - len(floors) == CATCHES, state, numbers, floors, guards_at)
-            return True
-        return self.other is not None and self.other.cross(guard, state, numbers, floors, guards_at)
-
-    def _turn(
-        self, taut: bool, state: Floats, numbers: Floats, floors: Floats, guards_at: Callable[[], Floats]
-    ) -> None:
-        self._set(True, numbers, floors)
-        state[-1] += guards_at()[STORED] * (1.0 if taut else -1.0)
-        self._set(taut, numbers, floors)
-
-    def _set(self, taut: bool, numbers: Floats, floors: Floats) -> None:
-        numbers[self.mode] = TAUT if taut else SLACK_MODE
-        floors[SLACKENS], floors[CATCHES] = (0.0, -np.inf) if taut else (-np.inf, 0.0)
 
 
 def on_its_rope(
@@ -104,23 +45,52 @@ def on_its_rope(
     Raises
     ------
     ValueError
-        If it does, and its elasticity does not say so.
+        If it does, and its elasticity does not say so; or if there is ground under a rope that is not elastic.
     """
     if load.elasticity is None:
+        if load.ground is not None:
+            raise ValueError("Load.ground: wanted None under a rope that does not stretch, got ground")
         return system
     rod = load.elasticity.mode == TAUT
+    if rod and load.ground is not None:
+        raise ValueError("Load.ground: wanted None under a rope that pushes, got ground")
     if rope_as_rod and not rod:
         raise ValueError("rope_as_rod: wanted a rope whose elasticity is always taut (mode=TAUT), got another")
-    floors = np.concatenate([system.floors, np.full(len(GUARDS), -np.inf)])
+    guards = guards_of(load)
+    floors = np.concatenate([system.floors, np.full(len(guards), -np.inf)])
     floors[0] = -np.inf
     return replace(
         system,
-        guards=(*system.guards, *GUARDS),
+        guards=(*system.guards, *guards),
         floors=floors,
         directions=system.directions[:0],
-        switch=system.switch if rod else Slackening(place_of(system.constants, "mode"), system.switch),
+        switch=system.switch if rod else _switch(system, load),
         rope=rope,
         fastest=fastest,
+    )
+
+
+def guards_of(load: Load) -> tuple[str, ...]:
+    """Guards that an elastic rope, and ground under its load, add behind all others."""
+    if load.elasticity is None:
+        return ()
+    return slackening.GUARDS if load.ground is None else (*contact.GUARDS, *slackening.GUARDS)
+
+
+def _switch(system: System, load: Load) -> Switch:
+    places = {name: place_of(system.constants, name) for name in ("mode", "gravity")}
+    rope = Slackening(places["mode"], system.switch)
+    if load.ground is None:
+        return rope
+    ((first, rate, axes),) = system.directions.tolist()
+    return Contact(
+        rope,
+        load,
+        float(system.numbers[places["gravity"]]),
+        place_of(system.constants, "contact"),
+        place_of(system.constants, "sliding"),
+        slice(first, first + axes),
+        slice(rate, rate + axes),
     )
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from towercrane.simulation.system import check_start
+from towercrane.simulation.outcomes import IN_THE_GROUND
+from towercrane.simulation.system import NoEquilibrium, check_start
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -15,6 +17,10 @@ if TYPE_CHECKING:
     from towercrane.kernels.payload import Load, Structure
 
     Floats = NDArray[np.float64]
+
+
+UNLOADED = 1e-6
+"""Mass that stands for none [kg]."""
 
 
 class OnRope(ABC):
@@ -54,15 +60,60 @@ class OnRope(ABC):
         ------
         ValueError
             If the start is none.
+        NoEquilibrium
+            If it would hang in the ground.
         """
         check_start(start)
+        ground = self.carried.ground
+        if ground is not None and ground.carries:
+            return self._standing(inputs, start, ground.height)
         direction, tension = -np.eye(self.axes)[-1], 0.0
         if start == "equilibrium" and (force := self.load_at_rest(inputs)).any():
             # Without weight and wind any direction will do.
             tension = float(np.linalg.norm(force))
             direction = force / tension
         strain = tension / self.carried.elasticity.stiffness if self.carried.elasticity is not None else 0.0
-        return self._placed(state, inputs, direction, np.zeros(self.axes), strain)
+        found = self._placed(state, inputs, direction, np.zeros(self.axes), strain)
+        if ground is not None and start == "equilibrium":
+            above = float(found[self.rope + self.axes - 1]) - ground.height
+            if above < 0.0:
+                raise NoEquilibrium(IN_THE_GROUND, f"the load would hang {-above:.4g} m below the ground")
+        return found
+
+    @property
+    def lifted(self) -> Self:
+        """The same model without ground."""
+        if self.load.ground is None:
+            return self
+        asked: Any = self
+        found: Self = replace(asked, load=replace(self.load, ground=None))
+        return found
+
+    def standing(self, inputs: Floats) -> Self:
+        """The same model with the ground under its load, where that stands on it at the start."""
+        ground = self.load.ground
+        if ground is None or not np.isnan(ground.height):
+            return self
+        asked: Any = self
+        state = self._unloaded(inputs, "equilibrium")
+        length, *_ = self.below(state, inputs)
+        height = float(self.suspended(state, inputs).place[-1]) - (length - ground.slack)
+        found: Self = replace(asked, load=replace(self.load, ground=replace(ground, height=height)))
+        return found
+
+    def _unloaded(self, inputs: Floats, start: str) -> Floats:
+        """State of the crane at rest without a load."""
+        found: Any = self
+        bare = replace(self.load, mass=UNLOADED, elasticity=None, ground=None)
+        return np.asarray(replace(found, load=bare).start(inputs, start))
+
+    def _standing(self, inputs: Floats, start: str, height: float) -> Floats:
+        """State of the crane at rest without a load, which stands below it on the ground."""
+        found, moved = self._unloaded(inputs, start), self.system.size // 2 + self.rope
+        place = np.array(self.suspended(found, inputs).place, dtype=float)
+        place[-1] = height
+        found[self.rope : self.rope + self.axes], found[moved : moved + self.axes] = place, 0.0
+        return found
 
     def rope_direction(self, state: Floats, inputs: Floats) -> Floats:
         """Unit vector from where the rope hangs to the load; shape (3,)."""

@@ -159,10 +159,10 @@ class Equations(Coordinates, OnRope):
             # The load's weight takes stiffness, and with it speed, from the tower.
             constants = replace(constants, stiffness=stiffness(other), softening=softening(other))
             fastest = lambda: other.fastest  # noqa: E731
-        if load.elasticity is not None:
-            fastest = other.fastest_on
         # Cached properties that are filled beforehand.
         vars(other)["constants"] = constants
+        if self.load.elasticity is not None or load.elasticity is not None:
+            return other
         crossings = None if self.system.crossings is None else Joints(constants)
         vars(other)["system"] = replace(
             self.system, constants=constants, scale=steered, fastest=fastest, crossings=crossings

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from modal import CraneFrame, EndBody
-from towercrane.cranes.parts.load import load_of
+from towercrane.cranes.parts.load import ground_of, load_of
 from towercrane.cranes.tower.file.effects import kept_tower, softened
 from towercrane.cranes.tower.file.members import (
     counter_jib_of,
@@ -158,9 +158,10 @@ def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[
             "slewing", coupling.soft_stiffness, coupling.stiff_stiffness, coupling.corner, coupling.damping,
             friction.law, friction.torque, friction.rate,
         )  # fmt: skip
+    made = built or crane_of(tables)
     return {
-        "crane": built or crane_of(tables),
-        "load": load_of(tables.payload, tables.rope),
+        "crane": made,
+        "load": load_of(tables.payload, tables.rope, ground_of(tables, -made.tower.length)),
         "self_weight": tables.start.state != "zero-no-self-weight",
         "rope_as_rod": tables.rope.slack == "rod",
         "damping": ModalDamping(

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.parts.coupling import coupling_energy
-from towercrane.cranes.parts.hoisting.elastic import STORED
+from towercrane.cranes.parts.hoisting.slackening import STORED
 from towercrane.cranes.tower.equations.actions.collars import meet
 from towercrane.cranes.tower.equations.constants import SLEWING
 from towercrane.kernels.algebra import dot, form

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.parts.base import BASE, Reaction, length
-from towercrane.cranes.parts.points import ROPE_STRETCH
+from towercrane.cranes.parts.hoisting.contact import REACTION
+from towercrane.cranes.parts.points import GROUND_FORCE, ROPE_STRETCH
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
 from towercrane.cranes.tower.equations.coordinates import ANGLES, BOWS
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
@@ -118,6 +119,7 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
     "rope_length": (lambda at: at.instant.drives[ROPE][0], About("m", "rope length")),
     "hoist_rope_force": (lambda at: at.instant.guards[TENSION], About("N", "rope tension, the force of the hoist")),
     "rope_stretch": (lambda at: at.rope_reach - at.below[0], ROPE_STRETCH),
+    "load_ground_force": (lambda at: at.instant.guards[REACTION], GROUND_FORCE),
     "slewing_angle": (lambda at: at.slewing[0], About("rad", "angle of the head on the tower's top")),
     "slewing_speed": (lambda at: at.slewing[1], About("rad/s", "rate of that angle")),
     "slewing_torque": (
@@ -259,6 +261,7 @@ def about(
         "ground": bool(crane.ground),
         "counter": model.crane.counter_bends,
         "rope_stretch": crane.load.elasticity is not None,
+        "load_ground_force": crane.load.ground is not None,
     }
     found = {
         name: shown

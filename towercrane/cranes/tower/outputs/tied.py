@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from towercrane.cranes.parts.hoisting.elastic import GUARDS
+from towercrane.cranes.parts.hoisting.elastic import guards_of
 from towercrane.cranes.tower.equations.tied.fields import kinetic_energy, move_fields
 from towercrane.cranes.tower.equations.tied.ties import Taut, pull_ties, stored
 from towercrane.cranes.tower.modes.tied.bars import MOST_TIES
@@ -117,9 +117,9 @@ def tensions(jib: int, counter_jib: int) -> Read:
     """Tensions of so many ties, from the tower's axis outward."""
 
     def read(k: int, side: str) -> Callable[[Any], Any]:
-        # They are the last of the guards but for those of a rope that stretches, those of the jib first.
+        # They are the last of the guards but for those of rope and ground, those of the jib first.
         def tension(at: TiedSight) -> Any:
-            last = len(at.own.lengths) + (len(GUARDS) if at.seen.crane.load.elasticity is not None else 0)
+            last = len(at.own.lengths) + len(guards_of(at.seen.crane.load))
             return at.instant.guards[k + (at.own.ahead if side == "counter_jib" else 0) - last]
 
         return tension
