@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,9 +13,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
+    Residual = Callable[[Floats], Floats]
+    Contact = Callable[[Floats], tuple[Floats, Floats]]
 
 MOST_STEPS = 50
 
+SHORTEST = 1.0 / 128.0
+"""Share of the forces by which they grow at least, where they do not act all at once."""
 
 SETTLED = 1e-8
 """Change of the coordinates, relative to their scale, below which no further progress is rounding."""
@@ -25,9 +30,9 @@ class Unstable(ArithmeticError):
 
 
 def stable_equilibrium(
-    residual: Callable[[Floats], Floats],
+    residual: Residual,
     scale: Floats,
-    contact: Callable[[Floats], tuple[Floats, Floats]] | None = None,
+    contact: Contact | None = None,
 ) -> Floats:
     """Coordinates at which the forces vanish and any small displacement is resisted.
 
@@ -44,7 +49,7 @@ def stable_equilibrium(
     Returns
     -------
     ndarray, shape (n,)
-        Found from the undeformed state, to rounding.
+        Found from the undeformed state, to rounding; where the whole of the forces leads astray, as they grow.
 
     Raises
     ------
@@ -54,17 +59,36 @@ def stable_equilibrium(
     q = np.zeros(len(scale))
     if not len(scale):
         return q
-    n, steps = len(scale), np.diag(1e-5 * scale)
-    around = np.hstack([-steps, steps, np.zeros((n, 1))])
+    try:
+        return _settled(residual, scale, contact, q)
+    except Unstable:
+        _check(_tangent(residual, scale, contact, q)[0])
+    # A long step can lead astray where a way in short ones, all of them stable, leads on.
+    first, share, step = _tangent(residual, scale, contact, q)[1][:, None], 0.0, 0.5
+    while share < 1.0:
+        grown = min(share + step, 1.0)
+        missing = (1.0 - grown) * first
+        try:
+            q = _settled(partial(_less, residual, missing), scale, contact, q)
+        except Unstable:
+            step = 0.5 * step
+            if step < SHORTEST:
+                raise
+        else:
+            share, step = grown, 2.0 * step
+    return q
+
+
+def _less(residual: Residual, missing: Floats, q: Floats) -> Floats:
+    return residual(q) - missing
+
+
+def _settled(residual: Residual, scale: Floats, contact: Contact | None, q: Floats) -> Floats:
+    """Coordinates to which Newton's steps lead, all of them where the stiffness is positive definite."""
     before = np.inf
     for _ in range(MOST_STEPS):
-        forces = residual(q[:, None] + around)
-        tangent, force = (forces[:, :n] - forces[:, n:-1]) / (2e-5 * scale), forces[:, -1]
-        if contact is not None:
-            pushed, held = contact(q)
-            tangent, force = tangent + held, force + pushed
-        if np.linalg.eigvalsh(tangent + tangent.T).min() <= 0.0:
-            raise Unstable("the stiffness is not positive definite")
+        tangent, force = _tangent(residual, scale, contact, q)
+        _check(tangent)
         change = np.linalg.solve(tangent, force)
         q = q + change
         size = float(np.max(abs(change) / scale))
@@ -73,3 +97,19 @@ def stable_equilibrium(
             return q
         before = size
     raise Unstable("the search did not settle")
+
+
+def _tangent(residual: Residual, scale: Floats, contact: Contact | None, q: Floats) -> tuple[Floats, Floats]:
+    """Tangent stiffness and forces at coordinates."""
+    n, steps = len(scale), np.diag(1e-5 * scale)
+    forces = residual(q[:, None] + np.hstack([-steps, steps, np.zeros((n, 1))]))
+    tangent, force = (forces[:, :n] - forces[:, n:-1]) / (2e-5 * scale), forces[:, -1]
+    if contact is None:
+        return tangent, force
+    pushed, held = contact(q)
+    return tangent + held, force + pushed
+
+
+def _check(tangent: Floats) -> None:
+    if np.linalg.eigvalsh(tangent + tangent.T).min() <= 0.0:
+        raise Unstable("the stiffness is not positive definite")
