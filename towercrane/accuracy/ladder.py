@@ -92,7 +92,8 @@ def laddered_choice(
     plain = Setting(planar=scene.planar, rtol=LOOSEST, atol=ABSOLUTE * LOOSEST).with_counts(lowest(scene, kinds))
     more = {kind: RUNG[kind] for kind in kinds}
     rungs: list[_Rung] = []
-    setting, known, tried = replace(plain, **stated), None, 0
+    setting, tried = replace(plain, **stated), 0
+    known: Run | None = None
     while True:
         result = known or run_of(scene, setting, progress)
         peaks = peaks_of(scene, result)
@@ -101,7 +102,9 @@ def laddered_choice(
         richer = run_of(scene, higher, progress)
         tried += 1 + (known is None)
         found = np.array([gap(result, richer, name) for name in scene.outputs])
-        estimate = Estimate(_factors(found, rungs[-1].found if rungs else None) * found, stepping(scene, setting))
+        # Kinds that are stated do not near each other from rung to rung.
+        before = rungs[-1].found if rungs and known is not None else None
+        estimate = Estimate(_factors(found, before) * found, stepping(scene, setting))
         excess = float(ratios(estimate.errors(peaks), allowed).max())
         early = [run.attrs["outcome"] for run in (result, richer) if run.attrs["outcome"] != FINISHED]
         if rungs and not early and excess > max(HELPS * rungs[-1].excess, 1.0):
