@@ -22,7 +22,7 @@ from towercrane.simulation.integrate import integrate
 from towercrane.simulation.outcomes import ROPE_SLACK, SLACK_ROPE
 from towercrane.simulation.simulate import record
 from towercrane.simulation.starts.begin import begin
-from towercrane.simulation.starts.end import end_of, other_side
+from towercrane.simulation.starts.end import end_of, leaps, other_side
 from towercrane.simulation.starts.start import Start
 from towercrane.simulation.system import NoEquilibrium
 
@@ -206,3 +206,11 @@ def test_a_run_in_the_plane_goes_on_in_space_and_one_in_space_stays_there(ended,
     )
     assert again.model.axes == 3
     assert_allclose(again["sway_tangential"].values[0], run["sway_tangential"].values[-1], rtol=1e-12)
+
+
+def test_a_head_that_is_free_goes_on_where_it_is_whatever_its_motion_says():
+    case = load_case("qtz5613/weathervane", [*FEW, "model.jib_lateral_modes=1"])
+    model, motions = model_of(case), motions_of(case)
+    end = end_of(model, motions, 0.0)
+    assert set(end["drives"]) == {"trolley", "rope"}
+    assert not list(leaps(end, model, {**motions, "slewing": rest(1.0)}))

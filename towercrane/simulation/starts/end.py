@@ -33,7 +33,9 @@ def end_of(model: Model, motions: Mapping[str, Motion], time: float) -> dict[str
         ``between``: what crossings have told its last phase, as on which side of a joint the trolley is.
     """
     by_value = getattr(model, "value_channels", ())
-    drives = [channel for channel in model.channels if channel not in by_value]
+    # A head that is free is where its state says, wherever its motion lets it begin.
+    led = getattr(getattr(model, "drive", None), "free", False)
+    drives = [name for name in model.channels if name not in by_value and not (led and name == "slewing")]
     return _described(model) | {
         "drives": {name: [float(motions[name](time, order)) for order in range(2)] for name in drives},
         "between": _between(model, motions, time, -1),
