@@ -57,7 +57,6 @@ def test_a_collar_takes_its_force_between_the_sections_beside_it():
         (CASE, 'name = "a", of = "jib", position = "2 kg"', ["sections.0.position", "2 kg"]),
         (CASE, 'name = "a", of = "tower", height = "2 m", position = "2 m"', ["a height, of a section of the tower"]),
         (CASE, 'name = "a", of = "tower", hight = "2 m"', ['closest known key: "height"']),
-        ("luffing/manoeuvre", 'name = "a", of = "jib", position = "2 m"', ["a jib that pivots"]),
     ],
 )
 def test_a_fault_in_a_section_names_its_key(case, table, words):
@@ -91,3 +90,19 @@ def test_a_jib_on_ties_turns_freely_at_its_foot_and_steps_where_ties_hold_it():
     moment = run["section_inside_moment"].values - run["section_outside_moment"].values
     # The tie pulls over the jib's axis.
     assert_allclose(moment, -pulled * 1.2, rtol=1e-2)
+
+
+def test_a_jib_that_pivots_bears_nothing_about_its_hinge_and_its_own_weight_between_sections():
+    asked = [f'name = "{name}", of = "jib", position = "{place} m"' for name, place in (("foot", 0), ("mid", 20))]
+    case = load_case("luffing/manoeuvre", ["run.duration=3 s", sections(*asked)])
+    run = record_case(case)
+    assert_allclose(run["section_foot_axial_force"].values, -run["jib_compression"].values, rtol=1e-12)
+    aside = run["jib_root_moment_sideways"].values
+    assert_allclose(run["section_foot_moment_sideways"].values, aside, rtol=0, atol=1e-12 * np.max(abs(aside)))
+    assert np.max(abs(run["section_foot_moment"].values)) < 1e-3 * np.max(abs(run["section_mid_moment"].values))
+    # At rest twenty metres of jib weigh between them.
+    weight = 20.0 * case.crane.jib.mass_per_length * 9.81
+    angle = run["luffing_angle"].values[0] - run["tower_tip_tilt"].values[0]
+    for kind, share in (("axial_force", -np.sin(angle)), ("shear", -np.cos(angle))):
+        step = run[f"section_foot_{kind}"].values[0] - run[f"section_mid_{kind}"].values[0]
+        assert step == pytest.approx(share * weight, rel=1e-3), kind

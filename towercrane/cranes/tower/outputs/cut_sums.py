@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
 from modal.structures.part_shapes import gauss
 from towercrane.cranes.parts.wind import drag
 from towercrane.cranes.tower.modes.exposures import TowerExposure
-from towercrane.cranes.tower.modes.mass_sums import MassSums
+from towercrane.cranes.tower.modes.mass_sums import MassSums, point_sums
 from towercrane.cranes.tower.modes.parameters import as_chain
 from towercrane.cranes.tower.modes.tied.head import sums_of_points
 
@@ -32,7 +32,10 @@ PANELS = 6
 
 
 class Section(NamedTuple):
-    """Where force and moment are wanted: a height of the tower, or a distance along the jib from its axis [m]."""
+    """Where force and moment are wanted: a height of the tower, or a distance along the jib [m].
+
+    It is from the tower's axis, of a jib that pivots from its foot.
+    """
 
     name: str
     of: Literal["tower", "jib"]
@@ -133,7 +136,6 @@ class Cuts(NamedTuple):
 
 
 NONE = Cuts()
-"""No sections."""
 
 
 def cuts_of(
@@ -157,14 +159,12 @@ def cuts_of(
     Raises
     ------
     ValueError
-        If a section is off its member, or of a jib that pivots.
+        If a section is off its member.
     """
     for own in asked:
         length = crane.tower_height if own.of == "tower" else crane.jib_length
         if not 0.0 <= own.place <= length:
             raise ValueError(f"section {own.name}: wanted a place from 0 to {length:g} m, got {own.place:g}")
-        if own.of == "jib" and crane.luffing is not None:
-            raise ValueError(f"section {own.name}: wanted one of the tower, or of a jib that does not pivot")
     return Cuts(
         tuple(asked),
         tuple(tower_cut(crane, written, own.name, own.place, areas, nodes) for own in asked if own.of == "tower"),
@@ -231,9 +231,12 @@ def _jib_cut(
     sideways = None if written.jib_lateral is None else as_chain(written.jib_lateral)
     x, dx = _spread(upright.nodes, asked.place)
     m = upright.section(x, "mass_per_length") * dx
-    ends = [(float(upright.nodes[node]), body) for node, body in upright.bodies.items()]
-    ends = [(at, body) for at, body in ends if at >= asked.place]
-    places, masses = np.append(x, [at for at, _ in ends]), np.append(m, [body.mass for _, body in ends])
+    heavy = [
+        (float(upright.nodes[k]), own.mass) for k, own in upright.bodies.items() if upright.nodes[k] >= asked.place
+    ]
+    if crane.luffing is not None:
+        heavy.append((crane.jib_length, crane.luffing.tip_mass))
+    places, masses = np.append(x, [at for at, _ in heavy]), np.append(m, [mass for _, mass in heavy])
     beyond = _sums(crane, places, masses)
     # Sections and bodies turn by themselves beside that.
     turned, own = np.zeros(len(beyond.first)), [0.0, 0.0]
@@ -250,8 +253,8 @@ def _jib_cut(
         bodies = [(float(chain.nodes[node]), body.rotary_inertia) for node, body in chain.bodies.items()]
         at = np.append(x, [place for place, _ in bodies if place >= asked.place])
         inertia = np.append(inertia, [rotary for place, rotary in bodies if place >= asked.place])
-        own[k] = float(inertia.sum())
-        turned[mine] = basis.rotation(at) @ inertia
+        if inertia.any():
+            own[k], turned[mine] = float(inertia.sum()), basis.rotation(at) @ inertia
     pitch, yaw = own
     own_pitch, own_yaw = beyond.pitch + pitch, beyond.yaw + yaw
     sums = replace(beyond, roll=pitch + yaw, pitch=own_pitch, yaw=own_yaw, turned=turned)
@@ -281,11 +284,7 @@ def _ties_beyond(tied: TiedHead, place: float) -> tuple[TieCut, ...]:
 
 def _sums(crane: FlexibleCrane, x: Floats, m: Floats) -> MassSums:
     """Sums over points of mass on the jib."""
-    shapes, inertia = crane.jib_shapes(x), float(m @ x**2)
-    none = np.zeros(len(shapes))
-    products: Any = (shapes * m) @ shapes.T
-    straight = float(m.sum()), float(m @ x), 0.0, inertia, inertia
-    return MassSums(*straight, shapes @ m, shapes @ (m * x), products, none, np.zeros_like(products))
+    return point_sums(x, m, crane.lateral, crane.vertical).among(crane.carrying, sum(crane.groups))
 
 
 def _spread(nodes: Sequence[float] | Floats, begin: float) -> tuple[Floats, Floats]:
@@ -294,7 +293,6 @@ def _spread(nodes: Sequence[float] | Floats, begin: float) -> tuple[Floats, Floa
     ends = np.append([begin], inside[inside > begin])
     if len(ends) < 2:
         return np.zeros(0), np.zeros(0)
-    fine = np.concatenate([np.linspace(a, b, PANELS + 1)[:-1] for a, b in pairwise(ends)])
-    fine = np.append(fine, ends[-1])
+    fine = np.append(np.concatenate([np.linspace(a, b, PANELS + 1)[:-1] for a, b in pairwise(ends)]), ends[-1])
     points, weights = gauss()
     return (fine[:-1, None] + np.diff(fine)[:, None] * points).ravel(), (np.diff(fine)[:, None] * weights).ravel()

@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from towercrane.cranes.parts.base import Reaction, length
 from towercrane.kernels.algebra import cross
-from towercrane.kernels.choices import below, choose
 from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from towercrane.cranes.tower.equations.body import Body
     from towercrane.cranes.tower.outputs.cut_sums import Cuts, JibCut
     from towercrane.cranes.tower.outputs.sections import Sections
     from towercrane.cranes.tower.outputs.support import Support
@@ -50,7 +48,8 @@ JIB: dict[str, tuple[Callable[[Reaction], Any], About]] = {
     ),
     "torque": (lambda on: on.moment[0], About("N m", "moment about the jib's axis in section {}")),
 }  # fmt: skip
-"""Outputs of a section of the jib, along the axes of the head, about where the deflected jib has it."""
+"""Outputs of a section of the jib, about where the deflected jib has it: along the axes of the head; of a jib that
+pivots along its chord, and upward is across that."""
 
 PLANE = ("force_x", "force_z", "shear", "moment_y", "moment", "axial_force")
 """Those that a scene in the plane of the fixed x axis has; in another plane the tower has both horizontal ones."""
@@ -88,17 +87,8 @@ def _all(cuts: Cuts) -> Iterator[tuple[str, str, tuple[Callable[[Reaction], Any]
 
 
 def jib_loads(sections: Sections, cut: JibCut) -> Reaction:
-    """Force and moment of what is beyond a section of the jib, in the head's axes, the moment about its place."""
-    alone = sections.cut_off(cut)
-    carrying = sections.loaded(alone)
-    # A trolley right on the section is beyond it.
-    short = below(sections.at.trolley.x, cut.position)
-
-    def chosen(part: Callable[[Body], Any]) -> Any:
-        pairs = zip(part(alone), part(carrying), strict=True)
-        return tuple(choose(short, without, beside) for without, beside in pairs)
-
-    force, moment = chosen(lambda body: body.force), chosen(lambda body: body.moment)
+    """Force and moment of what is beyond a section of the jib, the moment about its place."""
+    force, moment = sections.beyond(cut)
     place = cut.position, *sections.at.deflection(cut.shapes, sections.at.state.coordinates)
     x, y, z = (own - shifted for own, shifted in zip(moment, cross(place, force), strict=True))
     return Reaction(force, (x, y, z))

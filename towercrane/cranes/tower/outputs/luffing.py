@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.body import Body, Carried
     from towercrane.cranes.tower.equations.luffing.constants import Luffing
     from towercrane.cranes.tower.equations.luffing.pivot import Coupled
+    from towercrane.cranes.tower.outputs.cut_sums import JibCut
     from towercrane.cranes.tower.outputs.kinematics import Pair
     from towercrane.cranes.tower.outputs.seen import Seen
     from towercrane.simulation.observed import Instant
@@ -131,8 +133,27 @@ class LuffingSections(Sections):
     @cached_property
     def foot(self) -> Body:
         """What is beyond the jib's foot, with both ropes: about the foot along the jib's axes."""
+        return self._held(self.hinged)
+
+    def beyond(self, cut: JibCut) -> tuple[Vector, Vector]:
+        """Force and moment of all that is beyond a section of the jib, about its foot along its axes."""
+        crane, sums = self.at.seen.crane, cut.beyond
+        own, rest = self.at.own, [0.0] * crane.movers
+        straight: Any = sums.mass, sums.moment, sums.pitch
+        # The equations' own sums, of less of the jib.
+        less: dict[str, Any] = {
+            "jib_mass": [*rest, *sums.first, 0.0],
+            "jib_moment": [*rest, *sums.second, 0.0],
+            "own_mass": [*(rest for _ in rest), *([*rest, *row, 0.0] for row in sums.products)],
+            "luffing": replace(own, jib=straight),
+        }
+        body = self._held(hinge(replace(crane, **less), self.head, self.at.state))
+        return body.force, body.moment
+
+    def _held(self, hinged: Hinged) -> Body:
+        """A jib on its hinge, or what of it is beyond a section, with all ropes at its head."""
         at, own, pivot = self.at, self.at.own, self.at.pivot
-        jib = self._moving(self.hinged.jib, self.hinged.jib_rows, pivot.to_jib(self.top_acceleration))
+        jib = self._moving(hinged.jib, hinged.jib_rows, pivot.to_jib(self.top_acceleration))
         q, qd = jib_part(at.seen.crane, at.state)
         pull, couple = self.hung
         held = [(tied_at(own, q, qd, 0.0).place, pivot.to_jib(pull))]

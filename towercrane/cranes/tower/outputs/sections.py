@@ -18,6 +18,7 @@ from towercrane.cranes.tower.equations.body import Body, body_of
 from towercrane.cranes.tower.equations.jib import Sums
 from towercrane.cranes.tower.equations.motion import TENSION
 from towercrane.kernels.algebra import Row, Vector, dot, form
+from towercrane.kernels.choices import below, choose
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -127,6 +128,19 @@ class Sections:
     def cut_off(self, cut: JibCut) -> Body:
         """What is beyond a section of the jib, without trolley and load."""
         return self.pressed(self.turning(cut.beyond), cut.exposed)
+
+    def beyond(self, cut: JibCut) -> tuple[Vector, Vector]:
+        """Force and moment of all that is beyond a section of the jib, the moment about the tower's top."""
+        alone = self.cut_off(cut)
+        carrying = self.loaded(alone)
+        # A trolley right on the section is beyond it.
+        short = below(self.at.trolley.x, cut.position)
+
+        def chosen(one: Vector, other: Vector) -> Vector:
+            x, y, z = (choose(short, without, beside) for without, beside in zip(one, other, strict=True))
+            return x, y, z
+
+        return chosen(alone.force, carrying.force), chosen(alone.moment, carrying.moment)
 
     @cached_property
     def hung(self) -> tuple[Vector, Vector]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from towercrane.cranes.tower.file.checks.jib import jib_length
 from towercrane.cranes.tower.file.checks.tower import tower_height
 from towercrane.schema.faults import Fault, shown
-from towercrane.schema.ranges import at, si
+from towercrane.schema.ranges import si
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -53,5 +53,3 @@ def check_sections(tree: dict[str, Any]) -> Iterator[Fault]:
         length, asked = length_of(tree), si(own.get(wanted), "m")
         if length is not None and asked is not None and asked > length:
             yield Fault("", f"{key}.{wanted}", f"a {wanted} up to {length:g} m, the end of the {of}", f"{asked:g} m")
-        if of == "jib" and at(tree, "crane.jib.luffing") is not None:
-            yield Fault("", f"{key}.of", '"tower", or a jib that does not pivot', "a jib that pivots")
