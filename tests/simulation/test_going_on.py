@@ -19,12 +19,13 @@ from towercrane.runs.run import record_case
 from towercrane.runs.variants import Variants
 from towercrane.schema.faults import CaseError
 from towercrane.simulation.integrate import integrate
-from towercrane.simulation.outcomes import ROPE_SLACK, SLACK_ROPE
+from towercrane.simulation.outcomes import ON_THE_GROUND, ROPE_SLACK, SLACK_ROPE
 from towercrane.simulation.simulate import record
 from towercrane.simulation.starts.begin import begin
 from towercrane.simulation.starts.end import end_of, leaps, other_side
 from towercrane.simulation.starts.start import Start
 from towercrane.simulation.system import NoEquilibrium
+from towercrane.studies.linear_report import linear_model
 
 FEW = ["model.tower_modes=1", "model.jib_vertical_modes=1"]
 TIGHT = ["solver.rtol=1e-10", "solver.atol=1e-12"]
@@ -214,3 +215,15 @@ def test_a_head_that_is_free_goes_on_where_it_is_whatever_its_motion_says():
     end = end_of(model, motions, 0.0)
     assert set(end["drives"]) == {"trolley", "rope"}
     assert not list(leaps(end, model, {**motions, "slewing": rest(1.0)}))
+
+
+def test_a_load_on_the_ground_has_no_linear_model_and_no_turning_start():
+    few = ["model.tower_modes=1", "model.jib_vertical_modes=1"]
+    with pytest.raises(NoEquilibrium) as caught:
+        linear_model(load_case("qtz5613/lift-off", few), 0.0)
+    assert caught.value.outcome == ON_THE_GROUND
+    turns = "motion.slewing={shape='speed-trapezoid', speed='1 rpm', start_speed='1 rpm', ramp='2 s', hold='1 s'}"
+    with pytest.raises(CaseError) as refused:
+        load_case("qtz5613/lift-off", [*few, turns])
+    (fault,) = refused.value.faults
+    assert fault.key == "start.slack"

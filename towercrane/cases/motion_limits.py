@@ -120,7 +120,7 @@ def check_motions(
         plans[joint], more = _motion(tree, way, reader(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
     more, plans["rope"] = _rope(tree, folder, drives)
-    faults += [*more, *_turns_in_wind(tree, plans, tuple(name for names in drives.joints for name in names))]
+    faults += [*more, *_turns_at_first(tree, plans, tuple(name for names in drives.joints for name in names))]
     found = {name: plan for name, plan in plans.items() if plan is not None}
     if KINDS[kind].natural is None:
         faults += [_without_model(name, kind) for name, plan in found.items() if plan.needs_model]
@@ -252,13 +252,18 @@ def _jumps(told: Plan) -> list[tuple[float, float]]:
     return [(one.end_rate, float(other(0.0, 1))) for one, other in pairwise(moves)]
 
 
-def _turns_in_wind(tree: dict[str, Any], plans: Mapping[str, Plan | None], joints: tuple[str, ...]) -> list[Fault]:
-    """Fault of a wind that blows while the crane turns as a run begins, which is no equilibrium."""
+def _turns_at_first(tree: dict[str, Any], plans: Mapping[str, Plan | None], joints: tuple[str, ...]) -> list[Fault]:
+    """Faults of a crane that turns as a run begins, in a wind or with its load on the ground: that is no rest."""
     turns = [name for name in joints if (told := plans.get(name)) is not None and float(told.commanded(0.0, 1))]
     blows = any(told is not None and told.commanded.mean for name, told in plans.items() if name.startswith("wind"))
     start = at(tree, "start")
     written = start if isinstance(start, dict) else {}
-    if not (turns and blows) or written.get("from") or written.get("state", "").startswith("zero"):
+    if not turns or written.get("from"):
+        return []
+    if written.get("slack") is not None:
+        hint = f"motion.{turns[0]} begins at speed"
+        return [Fault("", "start.slack", "no such key where the head turns at first", shown(written["slack"]), hint)]
+    if not blows or str(written.get("state", "")).startswith("zero"):
         return []
     hint = f"in a wind nothing turns steadily; motion.{turns[0]} begins at speed"
     return [Fault("", "start.state", '"zero", or a start from another run', shown(written.get("state")), hint)]

@@ -240,7 +240,9 @@ def _check_from(tree: dict[str, Any]) -> Iterator[Fault]:
     start = at(tree, "start")
     if not isinstance(start, dict) or not start.get("from"):
         return
-    others = [key for key, value in start.items() if key != "from" and (key, value) not in SAYS_NOTHING]
+    others = [
+        key for key, value in start.items() if key not in ("from", "slack") and (key, value) not in SAYS_NOTHING
+    ]
     if others:
         yield Fault("", "start.from", "it alone in [start]", f"{', '.join(others)} beside it", "all states are saved")
     if at(tree, "accuracy.target") is not None:

@@ -10,7 +10,7 @@ from towercrane.linear.chart import Chart, per_second
 from towercrane.linear.statespace import RATE, OperatingPoint, Signal, StateSpace
 from towercrane.motions.motion import Motion
 from towercrane.simulation.differences import jacobian
-from towercrane.simulation.outcomes import ROPE_SLACK
+from towercrane.simulation.outcomes import LANDS, ON_THE_GROUND, ROPE_SLACK
 from towercrane.simulation.starts.begin import begin, rope_direction
 from towercrane.simulation.system import NoEquilibrium, start_inputs
 
@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 AT_REST = 1e-9
 """Resultant, beside the largest output of its unit, that is nothing."""
+
+NEARLY = 1e-9
+"""Height over the ground that is none [m]."""
 
 NOTHING = 1e-12
 """Entries of the matrices smaller than this, relative to the largest of their row, are differences' rounding."""
@@ -178,6 +181,8 @@ def _check_state(model: Model, state: Floats, drives: Floats) -> None:
     why = "no small motions are about such a state"
     if len(fallen := np.flatnonzero(guards < model.system.floors)):
         raise NoEquilibrium(names[fallen[0]], why)
+    if LANDS in names and not guards[names.index(LANDS)] > NEARLY:
+        raise NoEquilibrium(ON_THE_GROUND, why)
     if ROPE_SLACK in names and not getattr(model, "rope_as_rod", False) and guards[names.index(ROPE_SLACK)] <= 0.0:
         raise NoEquilibrium(ROPE_SLACK, why)
 
