@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -172,7 +172,7 @@ class TiedModel(FlexibleModel):
         Raises
         ------
         NoEquilibrium
-            If the ties do not hold the crane's own weight, one would push, or there is no stable equilibrium.
+            If the ties do not hold the crane's own weight, or it has no stable equilibrium.
         """
         tensions = self._at_rest_alone[0].pretension
         if np.any(tensions <= 0.0):
@@ -187,30 +187,11 @@ class TiedModel(FlexibleModel):
                 f"with the stated pretension the ties' ends stand {listed} m off level under the crane's own weight; "
                 "state none, or fewer: what the weight asks for is found",
             )
-        try:
-            loaded = super().equilibrium(inputs)
-        except NoEquilibrium:
-            self._refuse_slack(self._first_step(inputs), "to first order")
-            raise
-        self._refuse_slack(loaded, "at rest")
-        return loaded
-
-    def _first_step(self, inputs: Floats) -> Floats:
-        """Coordinates under all weights with the stiffness of the crane in its own."""
-        origin = self.undeformed(inputs)
-        slope, _ = jacobian(partial(self.static_forces, inputs=inputs), origin, self.system.scale[: len(origin)])
-        return np.asarray(origin - np.linalg.solve(slope, self.static_forces(origin[:, None], inputs)[:, 0]))
-
-    def _refuse_slack(self, q: Floats, how: str) -> None:
-        """Refuse a state in which a tie would push: its bow has no stiffness then."""
-        tied, own = self._at_rest_alone
-        tensions = np.array(pull_ties(tied, q[-len(own) :]).tensions)
-        if np.any(tensions < 0.0):
-            raise NoEquilibrium(SLACK_TIE, f"{how} the ties would pull with {_in_kilonewtons(tensions)} kN")
+        return super().equilibrium(inputs)
 
     def gives_way(self, why: str = "") -> NoEquilibrium:
         """What is said of a crane that cannot stand."""
-        jib = "a jib or a cat-head buckles that ties press too hard, or a tie would push"
+        jib = "a jib or a cat-head buckles that ties press too hard"
         return NoEquilibrium(UNSTABLE, f"{why}{jib}; {self.buckling_message()}")
 
     def undeformed(self, inputs: Floats) -> Floats:
