@@ -109,7 +109,6 @@ def test_a_jib_stands_where_its_rope_stretches_to(written):
         ((), [(f"[motion.luffing]\n{REST_AT_45}", "")], "motion.luffing", "a table"),
         ((), [(REST_AT_45, TRAPEZOID.format(end=95, speed=1))], "motion.luffing", "from 15 to 85 deg"),
         ((), [("[run]", '[motion.trolley]\nshape = "rest"\nstart = 3\n[run]')], "motion.trolley", "[motion.luffing]"),
-        ((), [('"5 t"', '"5 t"\ndrag_area = 3'), ("[run]", "[wind]\nspeed = 3\n[run]")], "wind", "with a trolley"),
         ((), [("[run]", "[model]\ncounter_jib_lateral_modes = 1\n[run]")], "model.counter_jib_lateral_modes", ""),
         ((), [("[run]", "[modes]\nluffing_angles = [0.7, 1.5]\n[run]")], "modes.luffing_angles.1", "15 to 85"),
         ((), [('"20 m"', '"90 m"')], "rope.length", "jib's head"),

@@ -23,8 +23,8 @@ def apart(a, b):
 class LuffingCloud(CraneCloud):
     """Points of a model whose ``crane`` is the TowerCrane that it was made of; drives: slewing, luffing, rope."""
 
-    def __init__(self, model, crane):
-        super().__init__(model, crane)
+    def __init__(self, model, crane, areas=None):
+        super().__init__(model, crane, areas)
         self.own = crane.luffing
         self.jib, self.jib_weights = on(crane.jib.length)
 
@@ -101,6 +101,7 @@ class LuffingCloud(CraneCloud):
                     for row, b in zip(axes, (ux, uy, Jet(0.0)), strict=True)]  # fmt: skip
 
         angle, length = part["luffing"][0], crane.jib.length
+        self.angle = float(np.squeeze(angle.c[0]))
         below = drives[2] - (self.ways(part, angle)[1] - own.hoist_way(length, own.reference_angle)) * (1 / own.falls)
         theta, phi = angles
         rope = [theta.sin() * phi.cos(), phi.sin(), -(theta.cos() * phi.cos())]
@@ -148,6 +149,23 @@ class LuffingCloud(CraneCloud):
         sums, sizes = super().left_over(q, rate, acceleration, drives, bare, wind)
         stored = np.array([float(column["stored"]) for column in columns])
         return sums + stored, sizes + abs(stored)
+
+    def blow(self, felt, wind):
+        """Let points resist one wind: the jib across its chord, the counter-jib across the head."""
+        (wind,) = wind
+        head = np.array([[float(np.squeeze(part.c[0])) for part in row] for row in self.axes])
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        chord = head @ [c, 0.0, s]
+        across, side = wind - (wind @ chord) * chord, head[:, 1]
+        press = 0.6125 * abs(wind @ side) * (wind @ side) * side
+        _, weights = on(self.crane.counter_jib_length)
+        felt["jib"] = (
+            felt["jib"] - 0.6125 * self.areas.jib * self.jib_weights[:, None] * np.linalg.norm(across) * across
+        )
+        felt["counter-jib"] = felt["counter-jib"] - self.areas.counter_jib * weights[:, None] * press
+        felt["counterweight"] = felt["counterweight"] - self.areas.counterweight * press
+        along = 0.6125 * self.areas.tower * np.linalg.norm(wind) * wind
+        felt["tower"] = felt["tower"] - self.tower_weights[:, None] * along
 
     def _own(self, i, q, rate, acceleration):
         return np.zeros(1) if i == self.model.parts["luffing"].start else super()._own(i, q, rate, acceleration)

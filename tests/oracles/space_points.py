@@ -228,21 +228,7 @@ class CraneCloud:
         relative = self.now["load"].derivative() - wind[-1]
         felt["load"] = felt["load"] + load.drag * np.linalg.norm(relative) * relative
         if self.areas is not None:
-            across = np.array([row[1].c[0] for row in self.axes]).ravel()
-            # Of several winds the first is the tower's, then those of the counter-jib's end, the jib's root and tip.
-            turning = [wind[0]] * 3 if len(wind) == 1 else wind[1:4]
-            pressing = [0.5 * 1.225 * abs(own @ across) * (own @ across) for own in turning]
-            ends = -self.crane.counter_jib_length, 0.0, self.crane.jib.length
-
-            def press(at):
-                return np.interp(at, ends, pressing)[:, None] * across
-
-            for name, area in (("jib", self.areas.jib), ("counter-jib", self.areas.counter_jib)):
-                member = self.members[name]
-                felt[name] = felt[name] - area * member.length[:, None] * press(member.side * member.at)
-            felt["counterweight"] = felt["counterweight"] - self.areas.counterweight * press(ends[:1])
-            along = 0.5 * 1.225 * self.areas.tower * np.linalg.norm(wind[0]) * wind[0]
-            felt["tower"] = felt["tower"] - self.tower_weights[:, None] * along
+            self.blow(felt, wind)
         swing = np.array([jet.c[1] for jet in rope]).ravel()
         sums, sizes = [], []
         for i, column in enumerate(columns):
@@ -254,6 +240,24 @@ class CraneCloud:
             sums.append(flat.sum())
             sizes.append(abs(flat).sum())
         return np.array(sums), np.array(sizes)
+
+    def blow(self, felt, wind):
+        """Let points resist winds."""
+        across = np.array([row[1].c[0] for row in self.axes]).ravel()
+        # Of several winds the first is the tower's, then those of the counter-jib's end, the jib's root and tip.
+        turning = [wind[0]] * 3 if len(wind) == 1 else wind[1:4]
+        pressing = [0.5 * 1.225 * abs(own @ across) * (own @ across) for own in turning]
+        ends = -self.crane.counter_jib_length, 0.0, self.crane.jib.length
+
+        def press(at):
+            return np.interp(at, ends, pressing)[:, None] * across
+
+        for name, area in (("jib", self.areas.jib), ("counter-jib", self.areas.counter_jib)):
+            member = self.members[name]
+            felt[name] = felt[name] - area * member.length[:, None] * press(member.side * member.at)
+        felt["counterweight"] = felt["counterweight"] - self.areas.counterweight * press(ends[:1])
+        along = 0.5 * 1.225 * self.areas.tower * np.linalg.norm(wind[0]) * wind[0]
+        felt["tower"] = felt["tower"] - self.tower_weights[:, None] * along
 
     def _own(self, i, q, rate, acceleration):
         """Elasticity, damping, inertia of torsion and drive, and the weight's softening of one coordinate."""

@@ -45,7 +45,7 @@ def crane(**changes):
     return dataclasses.replace(CRANE, luffing=dataclasses.replace(PIVOTING, **changes))
 
 
-def model(tower=0, torsion=0, lateral=2, vertical=2, load=5000.0, planes=2, crane=CRANE, **options):
+def model(tower=0, torsion=0, lateral=2, vertical=2, load=5000.0, planes=2, crane=CRANE, areas=None, **options):
     modes = ModeCounts(tower, torsion, lateral, vertical)
     hung = load if isinstance(load, Load) else Load(load)
-    return LuffingModel(luffing_crane(crane, modes, planes), hung, **options)
+    return LuffingModel(luffing_crane(crane, modes, planes, areas), hung, **options)

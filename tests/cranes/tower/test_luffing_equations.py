@@ -11,6 +11,7 @@ from oracles.jets import Jet
 from oracles.luffing_points import LuffingCloud
 from samples import luffing_crane as sample
 
+from towercrane.cranes.parts.wind import CHANNELS, WindAreas
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.constants import SLIDE_X, SLIDE_Y
 from towercrane.cranes.tower.equations.luffing import motion as luffing
@@ -24,6 +25,7 @@ from towercrane.motions.motion import Motion
 from towercrane.motions.profiles import speed_trapezoid, trapezoid
 from towercrane.simulation.simulate import simulate
 
+AREAS = WindAreas(tower=3.0, jib=1.2, counter_jib=1.5, counterweight=8.0)
 DRIVE = Drive("slewing", 4e6, 3e7, 0.02, 2e5, "tanh", 3e4, 0.01)
 LOSSY = {
     "load": Load(5000.0, rope_damping=400.0, drag_area=6.0),
@@ -40,6 +42,7 @@ SCENES = {
     "whole": {"tower": 2, "torsion": 1, "crane": BEHIND},
     "planar": {"tower": 2, "lateral": 0, "vertical": 2, "planes": 1, "slewing": "fixed", "crane": SOFT},
     "lossy": {"tower": 1, "torsion": 1, "crane": SOFT, **LOSSY},
+    "windy": {"tower": 1, "torsion": 1, "crane": BEHIND, "wind": 1, "areas": AREAS, **LOSSY},
     "weightless": {"tower": 1, "torsion": 1, "self_weight": False},
     "driven": {"tower": 1, "torsion": 1, "slewing": DRIVE, "drive_inertia": 2e5, "crane": SOFT, **LOSSY},
 }
@@ -50,7 +53,7 @@ class Moving:
 
     def __init__(self, rng, options):
         self.model = model = sample.model(**options)
-        self.cloud = LuffingCloud(model, options.get("crane", sample.CRANE))
+        self.cloud = LuffingCloud(model, options.get("crane", sample.CRANE), options.get("areas"))
         n = self.n = model.coordinates
         amplitude = 0.3 * model.system.scale[:n]
         self.q, self.rates = amplitude * rng.normal(size=n), amplitude * rng.normal(size=n)
@@ -61,6 +64,8 @@ class Moving:
             "rope": [rng.uniform(14, 30), rng.normal(), rng.normal()],
             "slewing": [rng.uniform(-3, 3), 0.2 * rng.normal(), 0.2 * rng.normal()],
         }
+        self.wind = rng.normal(size=3) * 12.0 if model.wind else np.zeros(3)
+        drives |= {c: [speed, 0.0, 0.0] for c, speed in zip(CHANNELS, self.wind, strict=True)}
         if model.slewing == "fixed":
             drives["slewing"] = [0.0, 0.0, 0.0]
         if model.drive is not None:
@@ -100,7 +105,7 @@ class Moving:
 
     def left_over(self):
         """Work that inertia and forces leave over, per displacement of coordinates, the load's angles and drives."""
-        return self.cloud.left_over(*self.drawn(), self.found, self.drives, self.columns, np.zeros(3))
+        return self.cloud.left_over(*self.drawn(), self.found, self.drives, self.columns, self.wind)
 
     def observed(self):
         span = np.array([0.0, 1.0])
@@ -120,7 +125,7 @@ def states(name):
 @pytest.mark.parametrize("name", SCENES)
 def test_accelerations_follow_from_positions_and_energies(name):
     for at in states(name):
-        expected, mass = at.cloud.accelerations(*at.drawn(), at.drives, at.columns, np.zeros(3), at.extra)
+        expected, mass = at.cloud.accelerations(*at.drawn(), at.drives, at.columns, at.wind, at.extra)
         size = np.sqrt(np.diag(mass))
         assert np.max(abs(at.found - expected) * size) < 1e-11 * np.max(abs(expected) * size)
 

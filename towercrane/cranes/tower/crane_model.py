@@ -109,7 +109,7 @@ def tower_crane_model(
         from towercrane.cranes.tower.luffing_model import LuffingModel
         from towercrane.cranes.tower.modes.luffing_crane import luffing_crane
 
-        kind, chosen = LuffingModel, luffing_crane(crane, modes, planes)
+        kind, chosen = LuffingModel, luffing_crane(crane, modes, planes, areas, nodes)
     else:
         free = drive is not None and drive.free
         chosen = flexible_crane(crane, modes, areas, planes, nodes, moves=free)

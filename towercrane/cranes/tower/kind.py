@@ -27,7 +27,7 @@ FIXED = Drives(
 
 PIVOTING = Drives(
     head_height, "the height of the jib's head",
-    joints=(("luffing",), ("shaft", "slewing")), fastest_turn=FASTEST_SLEWING, limits={"luffing": limits},
+    joints=(("luffing",), ("shaft", "slewing")), fastest_turn=FASTEST_SLEWING, wind=True, limits={"luffing": limits},
 )  # fmt: skip
 """Of a crane whose jib pivots."""
 

@@ -62,6 +62,7 @@ def pivoting(model: FlexibleModel) -> Luffing:
         middle=crane.jib_shapes(0.5 * length),
         shortening=shortening,
         weighted=weighted,
+        exposure=crane.exposure,
     )
 
 

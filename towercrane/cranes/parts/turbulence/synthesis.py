@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+SEPARATE = 1e-12
+"""Part of the variance that two places have apart which are one."""
+
 AT_ONCE = 2048
 """Frequencies whose matrices are in memory together."""
 
@@ -132,7 +135,8 @@ class Turbulence:
         for begin in range(0, len(lines), AT_ONCE):
             part = slice(begin, begin + AT_ONCE)
             # Two components have the same coherence: the factor of one scales to the other.
-            mixed = np.linalg.cholesky(self.coherence(lines[part], distances, speed, hub))
+            shared = self.coherence(lines[part], distances, speed, hub)
+            mixed = np.linalg.cholesky(shared + SEPARATE * np.eye(places_count))
             for own, component, drawn in zip(found, self.components, phases[:, part], strict=True):
                 size = np.sqrt(
                     self.densities(lines[part], component, places[:, 2], speeds) / (2.0 * count * self.step)

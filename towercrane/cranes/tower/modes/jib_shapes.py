@@ -77,7 +77,7 @@ class JibShapes:
         """
         crane = self.crane
         per_length, tip = wind.drag(areas.counter_jib), wind.drag(areas.counterweight)
-        if rising is None and isinstance(crane.jib, Beam):
+        if rising is None and isinstance(crane.jib, Beam) and crane.luffing is None:
             jib = self.jib.scaled(wind.drag(areas.jib) / crane.jib.mass_per_length)
         else:
             swept = _along(as_chain(crane.jib), wind.drag(areas.jib), self.lateral, self.vertical, rising=rising)
@@ -186,6 +186,9 @@ def _spread(
 def _factor(x: NDArray[np.float64] | float, rising: tuple[float, float] | None) -> NDArray[np.float64] | float:
     if rising is None:
         return 1.0
+    if rising[0] == rising[1]:
+        # Of a counter-jib without length both ends have half of what is there.
+        return np.where(x == rising[1], 0.5, 0.0)
     share = (x - rising[0]) / (rising[1] - rising[0])
     return np.where((share >= 0.0) & (share <= 1.0), share, 0.0)
 

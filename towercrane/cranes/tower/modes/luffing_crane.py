@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from modal.beams.beam import EndBody
 from towercrane.cranes.tower.modes.chord_shapes import ChordShapes
+from towercrane.cranes.tower.modes.exposures import exposure_of
+from towercrane.cranes.tower.modes.jib_shapes import JibShapes
 from towercrane.cranes.tower.modes.mass_sums import point_sums, rigid_sums
 from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane, check_described, torsion_of
 from towercrane.cranes.tower.modes.parameters import modes_of
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from towercrane.cranes.parts.wind import WindAreas, WindNodes
     from towercrane.cranes.tower.modes.luffing_jib import LuffingJib
     from towercrane.cranes.tower.modes.mass_sums import Basis
     from towercrane.cranes.tower.modes.mode_counts import ModeCounts
@@ -37,7 +40,9 @@ def products(crane: TowerCrane, lateral: Basis, vertical: Basis) -> tuple[Floats
     return slopes, beyond
 
 
-def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> FlexibleCrane:
+def luffing_crane(
+    crane: TowerCrane, modes: ModeCounts, planes: int, areas: WindAreas | None = None, nodes: WindNodes | None = None
+) -> FlexibleCrane:
     """Crane in so many modes of its members.
 
     To its sides the jib bends as clamped at its foot and free at its head, up and down as held at both.
@@ -48,6 +53,8 @@ def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> Flexible
     modes : ModeCounts
     planes : {1, 2}
         Directions in which the tower bends.
+    areas, nodes
+        As in :func:`towercrane.cranes.tower.modes.modal_crane.flexible_crane`.
 
     Raises
     ------
@@ -59,17 +66,20 @@ def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> Flexible
     jib, lateral_jib = crane.uniform_jib, crane.jib_lateral
     lateral = modes_of(lateral_jib or jib, modes.lateral, EndBody(own.tip_mass))
     vertical = ChordShapes(jib, modes.vertical)
-    rest = own.rest_sums(crane)
+    rest, tower = own.rest_sums(crane), crane.tower_shapes(modes.tower)
+    sums = point_sums(*own.points_of(jib), lateral, vertical)
+    counter = rigid_sums(rest.mass, rest.forward, rest.yy, modes.lateral + modes.vertical)
+    shapes = JibShapes(crane, lateral, vertical, None, None, sums, counter)
     return FlexibleCrane(
         name=crane.name,
         tower_height=crane.tower.length,
         jib_length=crane.jib.length,
-        tower=crane.tower_shapes(modes.tower),
+        tower=tower,
         torsion=torsion_of(crane, modes.torsion),
         lateral=lateral,
         vertical=vertical,
-        jib=point_sums(*own.points_of(jib), lateral, vertical),
-        counter=rigid_sums(rest.mass, rest.forward, rest.yy, modes.lateral + modes.vertical),
+        jib=sums,
+        counter=counter,
         tower_mass=crane.tower_mass,
         trolley_mass=0.0,
         planes=planes,
@@ -77,5 +87,6 @@ def luffing_crane(crane: TowerCrane, modes: ModeCounts, planes: int) -> Flexible
         collars=crane.collars,
         gravity=crane.gravity,
         luffing=own,
+        exposure=None if areas is None else exposure_of(shapes, tower, crane.tower.length, areas, nodes),
         written=crane,
     )

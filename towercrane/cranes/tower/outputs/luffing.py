@@ -13,6 +13,7 @@ from towercrane.cranes.tower.equations.luffing.hinge import Hinged, hinge, jib_p
 from towercrane.cranes.tower.equations.luffing.motion import COMMANDED, HOLDING, TENSION
 from towercrane.cranes.tower.equations.luffing.pivot import Pivot, foot_of, pivot_at
 from towercrane.cranes.tower.equations.luffing.ropes import Held, hold, tied_at, way_to
+from towercrane.cranes.tower.equations.luffing.wind import Blown, blow
 from towercrane.cranes.tower.modes.mass_sums import Straight
 from towercrane.cranes.tower.outputs import energy, tied
 from towercrane.cranes.tower.outputs.observed import ORIGIN, OUTPUTS, TURNING_AXES, Outputs, Sight
@@ -128,7 +129,14 @@ class LuffingSections(Sections):
         """What is beyond the top of the tower: all that turns, and the load."""
         body = self._moving(self.hinged.body, self.hinged.rows, self.top_acceleration)
         pull, couple = self.hung
-        return body.pushed(pull, sum_of(cross(self.hinged.end.place, pull), couple))
+        body = body.pushed(pull, sum_of(cross(self.hinged.end.place, pull), couple))
+        return body if self.blown_on is None else body.pushed(*self.blown_on.turning)
+
+    @cached_property
+    def blown_on(self) -> Blown | None:
+        """Forces of the wind, where one blows."""
+        at = self.at
+        return blow(at.seen.crane, at.state, at.head, at.winds) if at.seen.crane.wind else None
 
     @cached_property
     def foot(self) -> Body:
@@ -166,7 +174,8 @@ class LuffingSections(Sections):
             held.append((tied.place, (-tension * x, -tension * y, -tension * z)))
         for place, force in held:
             jib = jib.pushed(force, cross(place, force))
-        return jib.pushed((0.0, 0.0, 0.0), pivot.to_jib(couple))
+        jib = jib.pushed((0.0, 0.0, 0.0), pivot.to_jib(couple))
+        return jib if self.blown_on is None else jib.pushed(*self.blown_on.jib)
 
     def _moving(self, body: Body, rows: list[Coupled], top: Vector) -> Body:
         """A body with the inertia of all accelerations, that of the tower's top along its own axes."""
@@ -226,7 +235,6 @@ OWN: Read = {
 
 LEFT_OUT = (
     "trolley_position", "trolley_speed", "trolley_force", "jib_tip_deflection", "jib_root_moment",
-    "wind_x", "wind_y", "wind_z",
 )  # fmt: skip
 """Outputs of cranes with a trolley that these have not."""
 

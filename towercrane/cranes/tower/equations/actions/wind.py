@@ -62,22 +62,27 @@ def panel_pressures(begin: Any, end: Any) -> tuple[Any, Any]:
     return sense * (4.0 * force - 6.0 * moment), sense * (6.0 * moment - 2.0 * force)
 
 
-def press_wind(crane: Constants, state: State, head: Head, winds: list[Vector]) -> Blown:
-    """Forces of the wind."""
+def press_tower(crane: Constants, state: State, winds: list[Vector]) -> tuple[list[Any], Any]:
+    """Forces of the wind on the tower's modes, among all coordinates, and their power."""
     forces: list[Any] = [0.0] * crane.coordinates
-    power, rolling, pressing = 0.0, 0.0, pressures(crane, head, winds)
+    power: Any = 0.0
     met = [winds[node] for node in crane.tower_nodes]
     speeds = [np.sqrt(dot(wind, wind)) for wind in met]
-    along_x, along_y = ([speed * wind[k] for speed, wind in zip(speeds, met, strict=True)] for k in (0, 1))
-    pressed = (
-        (crane.part("tower_x"), along_x, crane.tower_exposure),
-        (crane.part("tower_y"), along_y, crane.tower_exposure),
-        (crane.lateral, pressing, crane.head_exposure),
-    )
-    for modes, pressure, exposure in pressed:
-        for i in modes:
-            forces[i] = dot(pressure, exposure[:, i])
+    for kind, axis in (("tower_x", 0), ("tower_y", 1)):
+        along = [speed * wind[axis] for speed, wind in zip(speeds, met, strict=True)]
+        for i in crane.part(kind):
+            forces[i] = dot(along, crane.tower_exposure[:, i])
             power = power + forces[i] * state.rates[i]
+    return forces, power
+
+
+def press_wind(crane: Constants, state: State, head: Head, winds: list[Vector]) -> Blown:
+    """Forces of the wind."""
+    forces, power = press_tower(crane, state, winds)
+    rolling, pressing = 0.0, pressures(crane, head, winds)
+    for i in crane.lateral:
+        forces[i] = dot(pressing, crane.head_exposure[:, i])
+        power = power + forces[i] * state.rates[i]
     for i in crane.vertical:
         for press, exposure in zip(pressing, crane.head_exposure, strict=True):
             rolling = rolling - exposure[i] * state.coordinates[i] * press

@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from towercrane.cranes.tower.modes.exposures import Exposure
+
     Floats = NDArray[np.float64]
 
 
@@ -41,6 +43,8 @@ class Luffing:
         Shapes of the modes at the jib's head to the left, and slopes of those up; of all at the jib's middle.
     shortening, weighted : ndarray, shape (n, n)
         Sums of slopes of either direction over the length, and with the mass beyond.
+    exposure : Exposure or None
+        What a wind meets, of the jib about its foot.
     """
 
     foot: Floats
@@ -62,3 +66,4 @@ class Luffing:
     middle: Floats
     shortening: Floats
     weighted: Floats
+    exposure: Exposure | None = None

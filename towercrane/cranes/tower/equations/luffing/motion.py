@@ -13,10 +13,12 @@ import numpy as np
 from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.tower.equations.actions.collars import sides
 from towercrane.cranes.tower.equations.actions.drive import Driven, drive
+from towercrane.cranes.tower.equations.actions.wind import winds_of
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING
 from towercrane.cranes.tower.equations.head import head_of
 from towercrane.cranes.tower.equations.luffing.hinge import Hinged, hinge, jib_part, luffing_of, pivot_of
 from towercrane.cranes.tower.equations.luffing.ropes import Held, hold, tied_at, way_to
+from towercrane.cranes.tower.equations.luffing.wind import blow
 from towercrane.cranes.tower.equations.projection import (
     Projected,
     Share,
@@ -100,7 +102,12 @@ def structure(crane: Constants, state: State, drives: Drives) -> LuffingStructur
     on_jib = [a + b + c for a, b, c in zip(hinged.forces, held.forces, sagging, strict=True)]
     forces, power, beyond = resist(crane, state, drives, [0.0] * movers + on_jib, held.power)
 
-    share = share_of(head, hinged.body, hinged.end.place)
+    winds, body = winds_of(crane, drives), hinged.body
+    if crane.wind:
+        blown = blow(crane, state, head, winds)
+        body, power = body.pushed(*blown.turning), power + blown.power
+        forces = [force + own for force, own in zip(forces, blown.forces, strict=True)]
+    share = share_of(head, body, hinged.end.place)
     projected = [project_mover(crane, i, share) for i in range(movers)]
     projected += [project_row(head, row, end) for row, end in zip(hinged.rows, hinged.ends, strict=True)]
     forces = [force + own.force for force, own in zip(forces, projected, strict=True)]
@@ -121,7 +128,7 @@ def structure(crane: Constants, state: State, drives: Drives) -> LuffingStructur
         velocity=[velocity[k] for k in axes],
         bias=[bias[k] for k in axes],
         jacobian=[[own.end[k] for own in projected] for k in axes],
-        wind=[0.0] * crane.axes,
+        wind=[winds[-1][k] for k in axes],
     )
     return LuffingStructure(hanging, rope, held, tilt, power, share, projected, hinged, driven, beyond)
 
@@ -147,7 +154,7 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
 
 
 def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
-    """Forces on the coordinates y at rest, with the load that hangs at rest; inputs at their values."""
+    """Forces on the coordinates y at rest, with the load that hangs at rest in the wind; inputs at their values."""
     state = State(y, (), [0.0] * crane.coordinates, ())
     found = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]])
     pull, columns = (

@@ -44,7 +44,6 @@ WITHOUT = {
         ("model.counter_jib_vertical_modes", "model.counter_jib_lateral_modes"),
         "a counter-jib behind a jib that pivots is rigid",
     ),
-    "wind": "runs in wind are for cranes with a trolley",
     "earthquake": "earthquakes are for cranes with a trolley",
     "modes.trolley_positions": "give modes.luffing_angles",
     "map.trolley_positions": "give map.luffing_angles",
