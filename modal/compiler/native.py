@@ -6,6 +6,7 @@ Their annotations say what each value is, and LLVM optimises what calls each oth
 from __future__ import annotations
 
 import ctypes
+import threading
 from functools import partial
 from typing import TYPE_CHECKING, Any, get_args
 
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     Given = Callable[[Any], tuple[Any, ...]]
+
+_one_at_a_time = threading.RLock()
 
 NUMBERS: dict[Any, Any] = {float: ctypes.c_double, int: ctypes.c_int64, bool: ctypes.c_bool, None: None}
 
@@ -60,25 +63,28 @@ class Native:
 
     def connect(self, engine: Any, kinds: dict[str, Any]) -> None:
         """Let Python in."""
-        # Put in place at the end: another thread may be doing the same.
         types: list[Any] = []
         gives = kinds.pop("return")
         given = [_door(f"{self.python.__name__}: {name}", kind, types) for name, kind in kinds.items()]
+        # The entry comes last: who finds one calls it.
         self.given, self.engine = given, engine
         address = engine.get_function_address(self.python.__name__)
         self.entry = ctypes.CFUNCTYPE(NUMBERS[gives], *types)(address)
 
 
 def _load(name: str, together: list[Native]) -> None:
-    """Machine code of functions into this process."""
+    """Machine code of functions into this process, once: another engine would take that from who is in it."""
     from modal.compiler.translation import Library, kinds_of
 
-    functions = [door.python for door in together]
-    rooms = dict.fromkeys(room_of(python.__code__.co_filename) for python in functions)
-    stamp = sources("modal/compiler", *rooms)
-    engine = loaded(name, stamp, lambda: Library(name, functions).module)
-    for door in together:
-        door.connect(engine, kinds_of(door.python))
+    with _one_at_a_time:
+        if all(door.entry is not None for door in together):
+            return
+        functions = [door.python for door in together]
+        rooms = dict.fromkeys(room_of(python.__code__.co_filename) for python in functions)
+        stamp = sources("modal/compiler", *rooms)
+        engine = loaded(name, stamp, lambda: Library(name, functions).module)
+        for door in together:
+            door.connect(engine, kinds_of(door.python))
 
 
 def _door(name: str, kind: Any, types: list[Any]) -> Given:

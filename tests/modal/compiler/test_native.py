@@ -3,6 +3,7 @@
 import ctypes
 import math
 from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
 from typing import NamedTuple
 
 import numpy as np
@@ -246,6 +247,23 @@ def test_threads_may_be_the_first_together(folder):
     with ThreadPoolExecutor(4) as pool:
         assert list(pool.map(outer, [1.0] * 8)) == [4.0] * 8
     assert outer(2.0) == 7.0
+
+
+def test_threads_that_are_the_first_together_load_one_engine(folder, monkeypatch):
+    # A second one would free the machine code that another thread is in.
+    del folder
+    met, load, engines = Barrier(2, timeout=10.0), native._load, []
+
+    def both(name, together):
+        met.wait()
+        load(name, together)
+
+    monkeypatch.setattr(native, "_load", both)
+    monkeypatch.setattr(native, "loaded", lambda *given: engines.append(machine_code.loaded(*given)) or engines[-1])
+    (outer,) = native.native("doors", _outer)
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(outer, [1.0, 2.0])) == [4.0, 7.0]
+    assert len(engines) == 1
 
 
 def test_code_from_disk_is_used_as_it_is(folder, monkeypatch):
