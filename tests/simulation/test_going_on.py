@@ -82,6 +82,7 @@ def test_lanes_go_on_too(ended):
         (["start.from=nowhere.nc"], ["a result.nc of `towercrane run`, nowhere.nc", "No such file"]),
         (["crane.jib.length=50 m"], ["a run of this crane", "crane.jib.length = 55.6", "50.0"]),
         (["model.jib_vertical_modes=2"], ["a run in these modes", "jib_vertical_mode_2"]),
+        (["rope.stiffness=14 MN"], ["on this rope", "another rope", "[14000000.0"]),
         (["motion.trolley.start=11 m"], ["motions that begin as", "trolley at 13 m, not 11 m"]),
         (["rope.length=17 m"], ["motions that begin as", "rope at 18 m, not 17 m"]),
     ],

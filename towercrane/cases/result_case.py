@@ -92,7 +92,7 @@ def _saved_start(case: Case, model: Model | None, motions: Mapping[str, Motion] 
         raise refuse("a run of this crane", changed)
     rises = end["axes"] < int(getattr(model, "axes", 3))
     if other := other_states(end, model_of(case, planar=True) if rises else model):
-        raise refuse("a run in these modes", f"one with {other}")
+        raise refuse("a run in these modes and on this rope", f"one with {other}")
     if rises:
         heading = heading_of(before.tables(TowerCase)) or 0.0
         state = lifted(state, end, model, heading)
@@ -124,7 +124,11 @@ def _ended(named: str) -> tuple[Case, dict[str, Any], Floats]:
         state = np.array(result.attrs["end_state"], dtype=float)
         numbers = [end["time"], end["axes"], *(number for pair in end["drives"].values() for number in pair)]
         end |= {"basis": np.array(end["basis"], dtype=float).tolist(), "outcome": str(result.attrs["outcome"])}
-        whole = all(isinstance(number, int | float) for number in numbers) and {"between", "coordinates"} <= set(end)
+        whole = all(isinstance(number, int | float) for number in numbers) and {
+            "between",
+            "coordinates",
+            "rope",
+        } <= set(end)
     except (KeyError, TypeError, AttributeError, ValueError):
         whole = False
     if not whole:

@@ -29,7 +29,8 @@ def end_of(model: Model, motions: Mapping[str, Motion], time: float) -> dict[str
     -------
     dict
         ``axes`` of the load's space, ``coordinates`` by name, ``basis`` (numbers that tell modes from those of
-        another crane or of other signs), ``drives``: value and rate of each [m or rad, and per s], by channel;
+        another crane or of other signs), ``rope`` (stiffness, further length and relaxation time), ``drives``: value
+        and rate of each [m or rad, and per s], by channel;
         ``between``: what crossings have told its last phase, as on which side of a joint the trolley is.
     """
     by_value = getattr(model, "value_channels", ())
@@ -48,6 +49,8 @@ def other_states(end: Mapping[str, Any], model: Model) -> str:
     if own["coordinates"] != end["coordinates"]:
         there, here = (", ".join(names) or "none" for names in (end["coordinates"], own["coordinates"]))
         return f"the coordinates {there}, where this run has {here}"
+    if len(own["rope"]) != len(end["rope"]) or not np.allclose(own["rope"], end["rope"], rtol=SAME, atol=0.0):
+        return f"another rope: stiffness, further length, relaxation time {end['rope']}, here {own['rope']}"
     before, now = (np.array(found["basis"], dtype=float) for found in (end, own))
     if before.shape != now.shape or np.any(abs(before - now) > SAME * abs(now).max(initial=1.0)):
         return "modes of other shapes or signs"
@@ -95,7 +98,9 @@ def _between(model: Model, motions: Mapping[str, Motion], duration: float, phase
 
 
 def _described(model: Model) -> dict[str, Any]:
+    rope = getattr(getattr(model, "carried", None), "elasticity", None)
     return {
+        "rope": [] if rope is None else [rope.stiffness, rope.extra_length, rope.relaxation_time],
         "axes": int(getattr(model, "axes", 3)),
         "coordinates": list(getattr(model, "state_names", ())),
         "basis": np.asarray(getattr(model, "basis", ())).tolist(),
