@@ -185,7 +185,8 @@ def leaf_keys(kind):
     for key in known_keys(KINDS[kind].tables):
         field, within = None, [KINDS[kind].tables]
         for name in key.split("."):
-            fields = [table.model_fields[name] for table in within if name in table.model_fields]
+            known = [item for table in within for item in table.model_fields.items()]
+            fields = [field for own, field in known if name == (field.alias or own)]
             field, within = fields[0], [inner for f in fields for inner in tables(f.annotation)]
         first = key.split(".")[0]
         if not within and first not in ("title", "kind", "allow_implausible", "modes", "map", "expect", "accuracy"):
