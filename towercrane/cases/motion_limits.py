@@ -13,6 +13,7 @@ from towercrane.cases.earthquake_file import channels_of, earthquake_motions
 from towercrane.cases.plausibility import FARTHEST_TURN, FASTEST
 from towercrane.cases.profiles import plan
 from towercrane.cases.wind_file import CHANNELS, wind_motions
+from towercrane.cranes.parts.hoisting.letting_go import CHANNEL, letting_go
 from towercrane.cranes.registry import KINDS
 from towercrane.motions.plans import Move, Plan
 from towercrane.schema.faults import CaseError, Fault, shown
@@ -119,6 +120,8 @@ def check_motions(
         way = Way(f"motion.{joint}", most, False, wanted, hint, turns=True, fastest=drives.fastest_turn, low=low)
         plans[joint], more = _motion(tree, way, reader(JointMotion), folder, 0.0 if joint in RESTS else None)
         faults += more
+    if (released := getattr(checked, "release", None)) is not None:
+        plans[CHANNEL] = Plan((Move(letting_go(released.time, released.duration)),))
     more, plans["rope"] = _rope(tree, folder, drives)
     faults += [*more, *_turns_at_first(tree, plans, tuple(name for names in drives.joints for name in names))]
     found = {name: plan for name, plan in plans.items() if plan is not None}

@@ -150,6 +150,8 @@ RANGES = (
     Range("payload.rope_damping", "N m s/rad", 1e-6, 1e8, ("kN m s/rad",)),
     Range("payload.drag_area", "m^2", 1e-4, 1e3, AREAS),
     Range("payload.drag", "N s^2/m^2", 1e-5, 1e3, ("g/m",)),
+    Range("release.mass", "kg", 1, 1e6, ("t", "g")),
+    Range("release.base_half_width", "m", 0.1, 100, LENGTHS),
     Range("map.payload_masses*", "kg", 1, 1e6, ("t", "g")),
     Range("rope.length", "m", 0.1, 1000, LENGTHS),
     Range("ground.height", "m", 1e-3, 1000, LENGTHS, signed=True),

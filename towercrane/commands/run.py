@@ -65,6 +65,7 @@ def run(
     summary = summarise(task.case, result) | verified
     # Pictures mark them, and whoever reads the file finds them.
     result.attrs["loads"] = json.dumps(summary["loads"])
+    result.attrs["release"] = json.dumps(summary.get("release"))
     files: dict[str, Any] = {"result.nc": result, **({"result.csv": result} if csv else {})}
     assert task.folder is not None
     if interrupted:

@@ -96,7 +96,15 @@ class Pull(NamedTuple):
 
 
 def stretch(
-    rope: Elasticity, length: Any, wound: Any, rate: Any, paid: Any, apart: Row, parting: Row, hinge_damping: Any
+    rope: Elasticity,
+    length: Any,
+    wound: Any,
+    rate: Any,
+    paid: Any,
+    apart: Row,
+    parting: Row,
+    hinge_damping: Any,
+    hangs: Any = None,
 ) -> Pull:
     """Pull of an elastic rope.
 
@@ -113,6 +121,8 @@ def stretch(
         From D to the load, and its rate.
     hinge_damping : number
         [N m s/rad]
+    hangs : number, optional
+        1 while something hangs on it, else 0: then it is slack.
 
     Notes
     -----
@@ -132,6 +142,8 @@ def stretch(
     late = rope.relaxation_time * straining
     margin = strain + choose(below(late, 0.0), late, 0.0)
     taut = choose(below(rope.mode, BY_STRAIN), rope.mode, below(0.0, margin))
+    if hangs is not None:
+        margin, taut = choose(hangs, margin, -1.0), hangs * taut
     elastic, viscous = taut * rope.stiffness * strain, taut * rope.stiffness * late
     torque = taut * hinge_damping / (safe * safe)
     return Pull(

@@ -9,7 +9,7 @@ import numpy as np
 from towercrane.kernels.algebra import Row, dot, solve
 from towercrane.kernels.elastic_rope import stretch
 from towercrane.kernels.ground import stand
-from towercrane.kernels.payload import Hung
+from towercrane.kernels.payload import Hung, Momentary
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from towercrane.kernels.payload import Load, Rope, State, Structure
 
 
-def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravity: Any) -> Hung:
+def hang_load(structure: Structure, state: State, rope: Rope, load: Load | Momentary, gravity: Any) -> Hung:
     """Accelerations of a crane with its load.
 
     Notes
@@ -28,6 +28,8 @@ def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravit
     is, so one Cholesky factor serves, and nothing divides by the load's mass but its own acceleration. What a rate of
     the coordinates pays out, dl/dq, adds to j: the rope's force acts on whatever its length depends on. An elastic
     rope pulls with what it is stretched by, whatever the structure does: then nothing of the load is in the matrix.
+    Mass that goes takes its energy along, m' (v^2 / 2 + g z). Where none is left the end of an inextensible rope
+    swings on with T = 0, and on an elastic one the place is that of what falls.
     """
     if load.elasticity is not None:
         return _hang_elastically(structure, state, rope, load, load.elasticity, gravity)
@@ -49,6 +51,10 @@ def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravit
         s = s + direction[k] * (air[k] - load.mass * bias[k])
     for k in axes:
         power = power + (air[k] - load.mass * ground[k]) * velocity[k]
+    inertia = load.mass
+    if isinstance(load, Momentary):
+        inertia = load.inertia
+        power = power - load.leaving * _energy(velocity, structure.place[-1] + length * direction[-1], gravity)
 
     columns, pulled = _pulled(structure, rope, direction)
     right = [
@@ -65,7 +71,7 @@ def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravit
     for j, acceleration in zip(pulled, accelerations, strict=True):
         tension = tension - load.mass * j * acceleration
     suspension = _moved(structure, bias, accelerations)
-    falling = [suspension[k] - (air[k] + hinge[k]) / load.mass for k in axes]
+    falling = [suspension[k] - (air[k] + hinge[k]) / inertia for k in axes]
     falling[-1] = falling[-1] + gravity
     outward = dot(falling, direction)
     turning = [
@@ -76,7 +82,7 @@ def hang_load(structure: Structure, state: State, rope: Rope, load: Load, gravit
 
 
 def _hang_elastically(
-    structure: Structure, state: State, rope: Rope, load: Load, elasticity: Elasticity, gravity: Any
+    structure: Structure, state: State, rope: Rope, load: Load | Momentary, elasticity: Elasticity, gravity: Any
 ) -> Hung:
     """:func:`hang_load` where the rope stretches: M q'' = f + J^T (T n - H), m v' = -T n + H + F - m g e_z."""
     place, velocity, axes, ground = state.direction, state.swing, range(len(state.direction)), structure.ground
@@ -90,6 +96,7 @@ def _hang_elastically(
         [place[k] - structure.place[k] for k in axes],
         [velocity[k] - structure.velocity[k] for k in axes],
         load.rope_damping,
+        load.hangs if isinstance(load, Momentary) else None,
     )
     air = _drag(load, velocity, structure.wind)
     columns, pulled = _pulled(structure, rope, pull.direction)
@@ -98,7 +105,10 @@ def _hang_elastically(
         for force, column, j in zip(structure.force, columns, pulled, strict=True)
     ]
     accelerations = solve(structure.mass, right)
-    power, pushed = pull.power, []
+    power, pushed, inertia = pull.power, [], load.mass
+    if isinstance(load, Momentary):
+        inertia = load.inertia
+        power = power - load.leaving * _energy(velocity, place[-1], gravity)
     for k in axes:
         power = power + (air[k] - load.mass * ground[k]) * velocity[k]
         pushed.append(air[k] + pull.hinge[k] - pull.tension * pull.direction[k] - load.mass * ground[k])
@@ -107,12 +117,17 @@ def _hang_elastically(
         held = stand(load.ground, place, velocity, pushed, load.mass, gravity)
         falling, power, guards = held.accelerations, power + held.power, (*held.guards, *of_rope)
     else:
-        falling, guards = [own / load.mass for own in pushed], of_rope
+        falling, guards = [own / inertia for own in pushed], of_rope
         falling[-1] = falling[-1] - gravity
     return Hung(pull.tension, power, accelerations, falling, pull.direction, pull.hinge, suspension, guards)
 
 
-def _drag(load: Load, velocity: Row, wind: Row) -> list[Any]:
+def _energy(velocity: Row, height: Any, gravity: Any) -> Any:
+    """Kinetic and potential energy per mass [J/kg]."""
+    return 0.5 * dot(velocity, velocity) + gravity * height
+
+
+def _drag(load: Load | Momentary, velocity: Row, wind: Row) -> list[Any]:
     """Force of the air on the load."""
     through = [v - air for v, air in zip(velocity, wind, strict=False)]
     speed = np.sqrt(dot(through, through))

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from modal.checks import check_fields
+from towercrane.kernels.choices import below, choose
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,6 +37,55 @@ SLACK = -1e-6
 
 
 @dataclass(frozen=True, slots=True)
+class Release:
+    """What of a load lets go during a run.
+
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    drag_area : float
+        Of its drag coefficient times area [m^2].
+
+    Raises
+    ------
+    ValueError
+        If the mass is not positive or the area is negative.
+    """
+
+    mass: float
+    drag_area: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_fields(self, positive=("mass",), not_negative=("drag_area",))
+
+
+class Momentary(NamedTuple):
+    """A load of which some has let go.
+
+    Parameters
+    ----------
+    mass, drag, rope_damping, elasticity, ground
+        As of a `Load`; without mass nothing damps, and there is no ground.
+    hangs : number
+        1 while there is mass, else 0.
+    inertia : number
+        The mass, or any where there is none, to divide by [kg].
+    leaving : number
+        Rate at which mass goes [kg/s].
+    """
+
+    mass: Any
+    drag: Any
+    rope_damping: Any
+    elasticity: Elasticity | None
+    hangs: Any
+    inertia: Any
+    leaving: Any
+    ground: None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Load:
     """The load and its rope.
 
@@ -51,11 +101,13 @@ class Load:
         Of a rope that stretches.
     ground : Ground or None
         Under a load on such a rope.
+    release : Release or None
+        What of it lets go.
 
     Raises
     ------
     ValueError
-        If the mass is not positive or another value is negative.
+        If the mass is not positive or another value is negative, or if more is to go than there is.
     """
 
     mass: float
@@ -63,9 +115,36 @@ class Load:
     drag_area: float = 0.0
     elasticity: Elasticity | None = None
     ground: Ground | None = None
+    release: Release | None = None
 
     def __post_init__(self) -> None:
         check_fields(self, positive=("mass",), not_negative=("rope_damping", "drag_area"))
+        if (own := self.release) is not None and (own.mass > self.mass or own.drag_area > self.drag_area):
+            raise ValueError(f"Load.release: wanted no more than mass and drag area of the load, got {own}")
+        if self.release is not None and self.ground is not None:
+            raise ValueError("Load.release: wanted None over ground, got what lets go")
+
+    @property
+    def lightest(self) -> float:
+        """Least mass that its rope carries [kg]."""
+        return self.mass - (0.0 if self.release is None else self.release.mass) or self.mass
+
+    def now(self, gone: Sequence[Any]) -> Load | Momentary:
+        """The load at a time; of what lets go the part that is gone, 0 to 1, and the rate of that."""
+        if self.release is None:
+            return self
+        part, rate, *_ = gone
+        mass = self.mass - self.release.mass * part
+        hangs = below(0.0, mass)
+        return Momentary(
+            mass=mass,
+            drag=0.5 * AIR_DENSITY * (self.drag_area - self.release.drag_area * part),
+            rope_damping=hangs * self.rope_damping,
+            elasticity=self.elasticity,
+            hangs=hangs,
+            inertia=choose(hangs, mass, 1.0),
+            leaving=self.release.mass * rate,
+        )
 
     def work_scale(self, gravity: float, length: float) -> float:
         """Tolerance of the work per unit of that of swing, by gravity [m/s^2] and a length of the crane [m]; [J].

@@ -51,7 +51,8 @@ def linearise(
     model : Model
         The crane; its state is (q, n, q', p, work). Optional attributes: ``axes`` (2 or 3, default 3),
         ``state_names`` (a dict from the name of each coordinate q, and of the sways if they have other names, to its
-        units), ``channel_units`` and ``value_channels`` (those that act by their value alone, such as a wind).
+        units), ``channel_units`` and ``value_channels`` (those that act by their value alone, such as a wind);
+        ``settled`` (model and motions without what only switches, as a load that lets go).
     motions : dict of str to Motion, or ndarray
         One for each channel; or, for each channel, ascending coefficients of a polynomial in time.
     time : float
@@ -87,6 +88,8 @@ def linearise(
     """
     if inputs not in ("acceleration", "motion"):
         raise ValueError(f"inputs: wanted 'acceleration' or 'motion', got {inputs!r}")
+    if (settled := getattr(model, "settled", None)) is not None:
+        model, motions = settled(motions, time)
     drives = _drives(model, motions, time)
     if state is None:
         turns, drives[1:] = drives[1].copy(), 0.0

@@ -81,8 +81,8 @@ def extremes_of(run: Run) -> Extremes:
         times, order = np.unique(np.concatenate([times, close]), return_index=True)
         found = {name: np.concatenate([looked[name], seen[name]])[order] for name in names}
     return Extremes(
-        {name: _highest(times, own, 1.0) for name, own in found.items()},
-        {name: _highest(times, own, -1.0) for name, own in found.items()},
+        {name: highest(times, own, 1.0) for name, own in found.items()},
+        {name: highest(times, own, -1.0) for name, own in found.items()},
         times,
         found,
     )
@@ -174,7 +174,7 @@ def phases_between(cut: Phases, begin: float, end: float) -> Phases:
     return Phases(np.r_[starts, end] - begin, inputs[:-1], inputs[-1])
 
 
-def _highest(times: Floats, values: Floats, sign: float) -> Extreme:
+def highest(times: Floats, values: Floats, sign: float) -> Extreme:
     """Largest of values times the sign."""
     at = int(np.argmax(sign * values))
     if 0 < at < len(times) - 1:

@@ -6,9 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.cranes.parts.hoisting.letting_go import CHANNEL
+
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from towercrane.kernels.payload import Load
     from towercrane.runs.extremes import Extremes
     from towercrane.simulation.run import Run
+
+    Floats = NDArray[np.float64]
 
 FORCE, GROUND = "hoist_rope_force", "load_ground_force"
 
@@ -19,18 +26,20 @@ def rope_report(run: Run) -> dict[str, Any] | None:
     Returns
     -------
     dict
-        ``slack_phases``, ``slack_from_s``, ``slack_to_s`` (the last of which may be the run's end); over ground
-        ``lifted_off_s`` and ``landed_s``.
+        ``slack_phases``, ``slack_from_s``, ``slack_to_s`` (the last of which may be the run's end), without load
+        none; over ground ``lifted_off_s`` and ``landed_s``.
     """
     if "rope_stretch" not in run:
         return None
     times, forces = run.times[:1], run[FORCE].values[:1]
     if run.switches is not None:
         times, forces = np.append(times, run.switches.times), np.append(forces, run.switches[FORCE].values)
+    hung = _hangs(run, times)
+    times, forces = times[hung], forces[hung]
     taut = np.concatenate([[True], forces > 0.0])
     begins, ends = times[taut[:-1] & ~taut[1:]].tolist(), times[~taut[:-1] & taut[1:]].tolist()
     if len(ends) < len(begins):
-        ends.append(float(run.times[-1]))
+        ends.append(float(run.times[_hangs(run, run.times)][-1]))
     return {"slack_phases": len(begins), "slack_from_s": begins, "slack_to_s": ends, **_on_ground(run)}
 
 
@@ -47,6 +56,14 @@ def _on_ground(run: Run) -> dict[str, list[float]]:
         "lifted_off_s": times[turned[~stands[turned]]].tolist(),
         "landed_s": times[turned[stands[turned]]].tolist(),
     }
+
+
+def _hangs(run: Run, times: Floats) -> NDArray[np.bool_]:
+    """At which times anything hangs on the rope."""
+    if CHANNEL not in run.motions:
+        return np.ones(len(times), dtype=bool)
+    load: Load = run.model.load  # type: ignore[attr-defined]
+    return np.asarray(load.now((run.motions[CHANNEL](times), 0.0)).mass > 0.0)
 
 
 def rope_notice(run: Run, found: Extremes) -> list[str]:

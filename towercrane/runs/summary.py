@@ -9,9 +9,11 @@ import numpy as np
 
 from towercrane.cases.assumptions import idle_in_file, left_out
 from towercrane.cranes.kind import Natural
+from towercrane.cranes.parts.hoisting.letting_go import CHANNEL
 from towercrane.cranes.registry import KINDS
 from towercrane.runs.extremes import extremes_of
 from towercrane.runs.loads import loads_of
+from towercrane.runs.release import release_report
 from towercrane.runs.slack import rope_notice, rope_report
 from towercrane.runs.vibration import vibration
 from towercrane.simulation.arguments import TIGHTEST
@@ -56,6 +58,7 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
         stopped (None without a regular swing),
         ``natural_frequencies_hz`` where the run ended, in space their ``natural_kinds``, ``energy_balance``,
         ``rope`` of one that stretches (see :func:`towercrane.runs.slack.rope_report`),
+        ``release`` where the load lets go (see :func:`towercrane.runs.release.release_report`),
         ``expected``, ``notices``, ``assumed``, ``idle`` (what the crane file holds for other cases), ``solver``,
         ``wall_seconds``; ``accuracy`` where the case asks for an error, see
         :func:`towercrane.accuracy.promise.promise`.
@@ -110,6 +113,7 @@ def summarise(case: Case, run: Run) -> dict[str, Any]:
         "versions": json.loads(attributes["versions"]),
         "wall_seconds": attributes["wall_seconds"],
         **({"rope": rope} if (rope := rope_report(run)) else {}),
+        **({"release": released} if (released := release_report(case, run, found)) else {}),
         **({"accuracy": promised} if (promised := accuracy(run)) else {}),
     }  # fmt: skip
 
@@ -255,7 +259,7 @@ def _natural(case: Case, run: Run, at: float) -> Natural:
 def _at_the_start(case: Case, run: Run, at_the_end: Natural) -> list[float]:
     """Natural frequencies [Hz] where the run began."""
     ways = [run[name].values for name in ("trolley_position", "luffing_command", "rope_length") if name in run]
-    if KINDS[case.kind].natural is None or all(way[0] == way[-1] for way in ways):
+    if KINDS[case.kind].natural is None or (CHANNEL not in run.motions and all(way[0] == way[-1] for way in ways)):
         return at_the_end.frequencies
     return _natural(case, run, 0.0).frequencies
 

@@ -81,7 +81,7 @@ def integrate(
         raise ValueError(f"split=False: wanted one of {able}, got {method!r}")
     if system.crossings is not None:
         if not split and system.crossings.crosses(phases):
-            raise ValueError("split: wanted True where the trolley passes a joint of its jib, got False")
+            raise ValueError("split: wanted True where rates or the load jump, as at a joint of the jib, got False")
         phases = system.crossings.cut(phases)
     began, began_cpu = time.perf_counter(), time.process_time()
     run = Run(system, rtol, atol, np.array(start, dtype=float), np.empty((len(sample_times), system.size)))

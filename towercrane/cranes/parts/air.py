@@ -9,7 +9,7 @@ import numpy as np
 from towercrane.kernels.algebra import Row, Vector, dot
 
 if TYPE_CHECKING:
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.payload import Load, Momentary
 
 
 def air_at(nodes: int, drives: Row) -> list[Vector]:
@@ -23,7 +23,7 @@ def air_at(nodes: int, drives: Row) -> list[Vector]:
     return [(east, north, values[-1]) for east, north in zip(values[:-1:2], values[1:-1:2], strict=True)]
 
 
-def load_force(load: Load, gravity: Any, wind: Row) -> list[Any]:
+def load_force(load: Load | Momentary, gravity: Any, wind: Row) -> list[Any]:
     """Force of weight and of a wind along the load's axes on the load at rest [N]."""
     speed = np.sqrt(dot(wind, wind))
     pull = [load.drag * speed * own for own in wind]

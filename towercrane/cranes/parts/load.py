@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from towercrane.cranes.parts.hoisting.release_table import release_of
 from towercrane.kernels.elastic_rope import BY_STRAIN, TAUT, Elasticity
 from towercrane.kernels.ground import Ground
 from towercrane.kernels.payload import AIR_DENSITY, Load
@@ -15,15 +16,19 @@ from towercrane.schema.ranges import at, si_at
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from towercrane.cranes.parts.hoisting.release_table import Released
     from towercrane.cranes.parts.tables import CaseTable
     from towercrane.schema.fields import Payload, Rope
 
 
-def load_of(payload: Payload, rope: Rope | None = None, ground: Ground | None = None) -> Load:
-    """The load, its rope's losses, how it stretches if the rope is told and does, and the ground."""
+def load_of(
+    payload: Payload, rope: Rope | None = None, ground: Ground | None = None, released: Released | None = None
+) -> Load:
+    """The load, its rope's losses, how it stretches if the rope is told and does, the ground, what of it lets go."""
     drag_area = payload.drag_area or 2.0 * payload.drag / AIR_DENSITY
     elasticity = None if rope is None else elasticity_of(payload, rope)
-    return Load(payload.mass, payload.rope_damping, drag_area, elasticity, ground)
+    going = None if released is None else release_of(payload, released)
+    return Load(payload.mass, payload.rope_damping, drag_area, elasticity, ground, going)
 
 
 def ground_of(tables: CaseTable, foot: float = 0.0) -> Ground | None:

@@ -18,7 +18,7 @@ from towercrane.simulation.observed import About
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from towercrane.kernels.payload import Load, State
+    from towercrane.kernels.payload import Load, Momentary, State
 
 
 class Point(NamedTuple):
@@ -91,7 +91,7 @@ def rope_about(load: Load) -> dict[str, About]:
     return found if load.ground is None else {**found, "load_ground_force": GROUND_FORCE}
 
 
-def rope_seen(load: Load, along: Row, parting: Row, guards: Row) -> tuple[Any, tuple[Any, Any, Row, Row]]:
+def rope_seen(load: Load | Momentary, along: Row, parting: Row, guards: Row) -> tuple[Any, tuple[Any, Any, Row, Row]]:
     """Distance that an elastic rope spans, and its damping, length, direction and rate of direction.
 
     A slack rope does not damp, and its direction does not matter.

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from towercrane.cranes.kind import Drives, Kind, Signals, Track, later
+from towercrane.cranes.parts.hoisting.release_table import check_release
+from towercrane.cranes.parts.hoisting.release_table import refused as no_release
 from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.file.checks.free import check_free, refused_free
 from towercrane.cranes.tower.file.checks.jib import check_jibs, jib_length
@@ -38,6 +40,7 @@ TOWER = Kind(
     drives_in=lambda tree: PIVOTING if pivots(tree) else FIXED,
     checks=(
         check_tower, check_jibs, check_luffing, check_ties, check_sections, check_scene, check_elastic, check_free,
+        check_release,
     ),
     build=later("towercrane.cranes.tower.file.build", "tower_model"),
     poses=later("towercrane.cranes.tower.poses", "tower_poses"),
@@ -58,6 +61,7 @@ TOWER = Kind(
     wind_places=later("towercrane.cranes.tower.file.wind", "places_of"),
     refuses=lambda tables: (
         refused_on_elastic(tables) | refused(tables) | refused_on_ties(tables) | refused_free(tables)
+        | no_release(tables.release)
     ),
     serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members"}),
 )  # fmt: skip

@@ -14,13 +14,13 @@ def made_of(model: FlexibleModel) -> str:
     # Written out, floats to the last digit: equal text is equal data.
     coordinates = model.crane.written, model.counts, model.axes, model.heading, model.slewing, model.drive_inertia
     losses = model.damping, model.cap, model.wind, model.ground, model.floors
-    return repr(
-        (*coordinates, *losses, model.weight_softening, model.self_weight, model.rope_as_rod, model.cuts.asked)
-    )
+    said = model.weight_softening, model.self_weight, model.rope_as_rod, model.load.release is None, model.cuts.asked
+    return repr((*coordinates, *losses, *said))
 
 
 def plain(tables: TowerCase) -> bool:
     """Whether another load, and another rope that rests, change nothing else of a run."""
-    # A hauled rope begins its motion at its length, and what a tolerance of frequencies leaves out hangs on the load.
-    stretches = tables.rope.stretches
-    return tables.motion.hoist is None and tables.accuracy.frequency is None and not stretches
+    # A hauled rope begins its motion at its length; what a tolerance of frequencies leaves out hangs on the load, and
+    # so does what lets go of it.
+    differs = tables.rope.stretches or tables.release is not None
+    return tables.motion.hoist is None and tables.accuracy.frequency is None and not differs

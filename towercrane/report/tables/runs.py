@@ -42,6 +42,8 @@ def run_tables(summary: dict[str, Any]) -> None:
         console.print(f"largest and smallest from {risen:.4g} s on, when the turbulence has risen")
     if summary["loads"]:
         _loads(console, summary["loads"])
+    if "release" in summary:
+        _release(console, summary["release"])
     for change in summary["changes"]:
         console.print(f"changed               {change}")
     period = summary["swing_period_s"]
@@ -99,6 +101,40 @@ def _loads(console: Console, loads: dict[str, dict[str, Any]]) -> None:
     if tips := loads.get("overturning_moment"):
         towards = degrees(tips[tips["largest"]]["direction_rad"])
         console.print(f"largest overturning moment: tips towards {towards:.1f} deg from the x axis")
+
+
+def _release(console: Console, released: dict[str, Any]) -> None:
+    """Backward swing, as :func:`towercrane.runs.release.release_report` gives it."""
+    what = f"{released['mass_kg']:g} kg ({released['fraction']:.0%} of the load)"
+    title = f"After {what} let go at {released['time_s']:g} s"
+    columns = "load", "unit", "before", "at rest after", "least", "at [s]", "largest", "at [s]", "1 + beta"
+    table = _table(title, *columns, left=2)
+    for name, load in released["swings_back"].items():
+        after, factor = load["after"], load["one_plus_beta"]
+        table.add_row(
+            name.replace("_", " "),
+            KILO[load["units"]],
+            f"{1e-3 * load['before']:.5g}",
+            "unknown" if after is None else f"{1e-3 * after:.5g}",
+            f"{1e-3 * load['minimum']:.5g}",
+            f"{load['minimum_time_s']:.2f}",
+            f"{1e-3 * load['maximum']:.5g}",
+            f"{load['maximum_time_s']:.2f}",
+            f"{factor:.3g}" if factor else "",
+        )
+    console.print(table)
+    standard, stability = released["standard"], released["stability"]
+    console.print(
+        f"{standard['name']}: 1 + beta_3 = {1 + standard['beta_slow']:g} for slow release, "
+        f"{1 + standard['beta_rapid']:g} for rapid"
+    )
+    half = stability["half_width_m"]
+    beside = f", {stability['used']:.0%} of half the base's width of {half:g} m" if half else ""
+    tips = ": it tips over" if stability["tips"] else ""
+    console.print(
+        f"resultant at the base   {stability['eccentricity_m']:.3g} m from the axis, towards the jib positive, "
+        f"at {stability['time_s']:.2f} s{beside}{tips}"
+    )
 
 
 def _spectrum(console: Console, summary: dict[str, Any]) -> None:

@@ -115,7 +115,7 @@ def fastest_on(stiffness: Floats, hanging: Structure, load: Load, length: float)
         return float(np.sqrt(max(vibrations(stiffness, mass)[0][-1], 0.0))) if n else 0.0
     spring, highest = load.elasticity.spring(length), 0.0
     whole = np.zeros((n + 1, n + 1))
-    whole[:n, :n], whole[n, n] = mass, load.mass
+    whole[:n, :n], whole[n, n] = mass, load.lightest
     for row in hanging.jacobian:
         along = np.append(np.array(row, dtype=float), -1.0)
         held = spring * np.outer(along, along)

@@ -70,6 +70,8 @@ class Constants:
     ground : int
         Place of the ground's displacement along x among the channels, which those along y and z, then those of floors
         follow; zero where the ground rests.
+    release : int
+        Place among the channels of the part of the load that has let go; zero where nothing does.
     load : Load
     drive : Drive or None
         Of a head that is driven.
@@ -123,6 +125,7 @@ class Constants:
     head_nodes: tuple[int, ...]
     tower_nodes: tuple[int, ...]
     ground: int
+    release: int
     load: Load
     drive: Drive | None
     trolley_mass: float
@@ -229,6 +232,7 @@ def constants_of(model: Coordinates) -> Constants:
         slewing=str(model.slewing) if drive is None else "free" if drive.free else "driven",
         wind=model.wind,
         ground=model.channels.index(GROUND[0]) if model.ground else 0,
+        release=model.channels.index("release") if model.load.release is not None else 0,
         load=model.load,
         drive=drive,
         trolley_mass=crane.trolley_mass,

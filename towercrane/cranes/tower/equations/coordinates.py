@@ -117,6 +117,8 @@ class Coordinates:
         if self.floors not in (0, len(crane.collars)) or (self.floors and not self.ground):
             wanted = f"0, or {len(crane.collars)} for a ground that moves, one for each collar"
             raise ValueError(f"FlexibleModel.floors: wanted {wanted}, got {self.floors!r}")
+        if self.weight_softening and self.load.release is not None:
+            raise ValueError("FlexibleModel.weight_softening: wanted False for a load that lets go, got True")
         if self.drive is None and self.drive_inertia:
             raise ValueError(f"FlexibleModel.drive_inertia: wanted 0 without a drive, got {self.drive_inertia!r}")
         if self.drive is not None and (self.drive.friction == "stick-slip") != self.drive.free:
@@ -134,14 +136,15 @@ class Coordinates:
 
     @cached_property
     def channels(self) -> tuple[str, ...]:
-        """Motions, as there are: trolley [m] or luffing [rad], rope [m], slewing or shaft of its drive [rad], ground
-        and floors [m], wind [m/s]."""
+        """Motions, as there are: trolley [m] or luffing [rad], rope [m], slewing or shaft of its drive [rad], part of
+        what lets go of the load that is gone, ground and floors [m], wind [m/s]."""
         turning: tuple[str, ...] = ("slewing",) if self.drive is None or self.drive.free else ("shaft",)
         if self.slewing == "fixed":
             turning = ()
         placing = "trolley" if self.crane.luffing is None else "luffing"
+        going = ("release",) if self.load.release is not None else ()
         shaken = (*GROUND, *floor_channels(self.floors)) if self.ground else ()
-        return (placing, "rope", *turning, *shaken, *self.value_channels)
+        return (placing, "rope", *turning, *going, *shaken, *self.value_channels)
 
     @property
     def value_channels(self) -> tuple[str, ...]:
@@ -152,6 +155,7 @@ class Coordinates:
     def channel_units(self) -> tuple[str, ...]:
         """Units of the channels."""
         units = dict.fromkeys(("luffing", "slewing", "shaft"), "rad") | dict.fromkeys(self.value_channels, "m/s")
+        units["release"] = "1"
         return tuple(units.get(channel, "m") for channel in self.channels)
 
     @cached_property

@@ -12,6 +12,7 @@ from towercrane.cranes.parts.air import load_force
 from towercrane.cranes.parts.corner import Corners
 from towercrane.cranes.parts.friction import Transitions
 from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
+from towercrane.cranes.parts.hoisting.letting_go import CHANNEL, LettingGo, crossings_of
 from towercrane.cranes.parts.hoisting.on_rope import OnRope
 from towercrane.cranes.tower.equations import motion
 from towercrane.cranes.tower.equations.actions.collars import corners_of, names_of, pressed_at_rest
@@ -32,9 +33,12 @@ from towercrane.simulation.starts.turning import Turning
 from towercrane.simulation.system import NoEquilibrium, Switch, System
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
+
+    from towercrane.motions.motion import Motion
+    from towercrane.simulation.system import Crossings
 
     Floats = NDArray[np.float64]
 
@@ -87,8 +91,14 @@ class Equations(Coordinates, OnRope):
             directions=np.array([[n, 2 * n + self.axes, self.axes]]),
             switch=self.switch((motion.INSIDE, motion.OUTSIDE), first),
             fastest=lambda: self.fastest,
-            crossings=Joints(self.constants) if self.constants.jointed else None,
+            crossings=self.crossings,
         )
+
+    @property
+    def crossings(self) -> Crossings | None:
+        """Instants at which its rates or its load jump."""
+        joints = Joints(self.constants) if self.constants.jointed else None
+        return crossings_of(joints, LettingGo(self) if self.load.release is not None else None)
 
     def corners(self, coupling: tuple[int, int], first: int) -> Corners | None:
         """Corners of forces, if there are any, of guards of the drive's coupling and of collars from a place on."""
@@ -163,11 +173,33 @@ class Equations(Coordinates, OnRope):
         vars(other)["constants"] = constants
         if self.load.elasticity is not None or load.elasticity is not None:
             return other
-        crossings = None if self.system.crossings is None else Joints(constants)
         vars(other)["system"] = replace(
-            self.system, constants=constants, scale=steered, fastest=fastest, crossings=crossings
+            self.system, constants=constants, scale=steered, fastest=fastest, crossings=other.crossings
         )
         return other
+
+    def settled(
+        self, motions: Mapping[str, Motion] | Floats, time: float
+    ) -> tuple[Self, Mapping[str, Motion] | Floats]:
+        """The same crane with what hangs of its load at a time [s] for good, and its other motions.
+
+        Raises
+        ------
+        ValueError
+            If nothing hangs then.
+        """
+        if self.load.release is None:
+            return self, motions
+        row = self.constants.release
+        if isinstance(motions, np.ndarray):
+            gone, motions = np.polynomial.polynomial.polyval(time, motions[row]), np.delete(motions, row, axis=0)
+        else:
+            gone = motions[CHANNEL](time)
+        left = self.load.now((float(gone), 0.0))
+        if not left.mass > 0.0:
+            raise ValueError(f"time: wanted one at which a load hangs, got {time:g} s")
+        area = self.load.drag_area - self.load.release.drag_area * float(gone)
+        return replace(self, load=replace(self.load, mass=left.mass, drag_area=area, release=None)), motions
 
     def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State at rest, the load hanging at rest.
@@ -303,7 +335,7 @@ class Equations(Coordinates, OnRope):
         """Force of weight and wind on the load at rest [N]; shape (axes,)."""
         *_, air = winds_of(self.constants, [[value] for value in inputs[:, 0]])
         own = [air[k] for k in self.constants.fixed_axes]
-        return np.array(load_force(self.load, self.constants.gravity, own))
+        return np.array(load_force(self.load.now(inputs[self.constants.release]), self.constants.gravity, own))
 
     def below(self, state: Floats, inputs: Floats) -> tuple[float, float, float]:
         """Rope below what it hangs from, what the winch has given of it and its rate [m, m, m/s]."""

@@ -96,7 +96,8 @@ class Joints:
         inner, outer = self._seen(state, before, time), self._seen(state, after, 0.0)
         velocity = np.array(outer.hanging.velocity) - np.array(inner.hanging.velocity)
         # An elastic rope has no impulse to give in no time.
-        parts, load = state_of(state, crane.coordinates, crane.axes), crane.load.mass * self._carries
+        parts = state_of(state, crane.coordinates, crane.axes)
+        load = crane.load.now(after[crane.release]).mass * self._carries
         n = np.array(parts.direction) / np.linalg.norm(parts.direction)
         jacobian = np.array(outer.hanging.jacobian, dtype=float).reshape(crane.axes, crane.coordinates)
         dragged = crane.trolley_mass * np.eye(crane.axes) + load * np.outer(n, n)

@@ -40,7 +40,7 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     if brake is not None:
         (turned,) = crane.part("slewing")
         hanging = held_at(hanging, turned, brake.sticks)
-    hung = hang_load(hanging, state, rope, crane.load, crane.gravity)
+    hung = hang_load(hanging, state, rope, crane.load.now(drives[crane.release]), crane.gravity)
     power, torque, beyond = found.power, 0.0, 0.0
     held_by: tuple[Any, ...] = ()
     if brake is not None and crane.drive is not None:

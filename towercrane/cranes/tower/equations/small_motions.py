@@ -71,7 +71,7 @@ def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None
     """
     inputs = np.zeros((len(model.channels), 3))
     inputs[:, 0] = np.ravel(np.asarray(drives, dtype=float))
-    n, sways, load = model.coordinates, model.axes - 1, model.load.mass
+    n, sways, load = model.coordinates, model.axes - 1, model.load.now(inputs[model.constants.release]).mass
     there = np.zeros(n) if about is None else about
     at_rest = model.at_rest(there, inputs)
     columns = np.array(at_rest.jacobian, dtype=float).reshape(model.axes, n)
@@ -112,7 +112,7 @@ def reciprocal_modes(model: Equations, mass: Floats, stiffness: Floats) -> tuple
     return 1.0 / np.sqrt(reciprocal[::-1]), vectors[:, ::-1]
 
 
-def plane_modes(model: Equations, place: float, rope_length: float) -> tuple[Floats, int]:
+def plane_modes(model: Equations, place: float, rope_length: float, gone: float = 0.0) -> tuple[Floats, int]:
     """Small motions in the jib's plane about the undeformed crane, as a linear frame has them.
 
     The second-order effect of the static deflection is not in them.
@@ -121,7 +121,7 @@ def plane_modes(model: Equations, place: float, rope_length: float) -> tuple[Flo
     ----------
     model : Equations
         That stays in the plane.
-    place, rope_length : float
+    place, rope_length, gone : float
         As in :func:`natural_modes`.
 
     Returns
@@ -137,18 +137,20 @@ def plane_modes(model: Equations, place: float, rope_length: float) -> tuple[Flo
     NoEquilibrium
         If the weight's softening leaves the tower no stiffness.
     """
-    mass, stiffness = plane_matrices(model, place, rope_length)
+    mass, stiffness = plane_matrices(model, place, rope_length, gone)
     frequencies, vectors = reciprocal_modes(model, mass, stiffness)
     return frequencies, int(np.argmax(stiffness[-1, -1] * vectors[-1] ** 2))
 
 
-def plane_matrices(model: Equations, place: float, rope_length: float) -> tuple[Floats, Floats]:
+def plane_matrices(model: Equations, place: float, rope_length: float, gone: float = 0.0) -> tuple[Floats, Floats]:
     """Mass and stiffness of small motions in the plane, see `plane_modes`; shapes (coordinates + 1, coordinates + 1).
 
     The last coordinate is the load's horizontal way from the point it hangs from [m].
     """
     drives = np.zeros(len(model.channels))
     drives[:2] = place, rope_length
+    if model.load.release is not None:
+        drives[model.constants.release] = gone
     if model.crane.luffing is None and model.crane.tied is None:
         return linear_matrices(model, drives)
     # A jib that pivots or hangs on ties stands in no state but that of equilibrium.
@@ -156,7 +158,7 @@ def plane_matrices(model: Equations, place: float, rope_length: float) -> tuple[
 
 
 def natural_modes(
-    model: Equations, place: float, rope_length: float, slewing_angle: float = 0.0
+    model: Equations, place: float, rope_length: float, slewing_angle: float = 0.0, gone: float = 0.0
 ) -> list[NaturalMode]:
     """Small motions about the equilibrium in still air, drives held; ascending by frequency.
 
@@ -170,6 +172,8 @@ def natural_modes(
         As the hoist winch has it [m].
     slewing_angle : float
         Of the head, or of the drive's shaft [rad].
+    gone : float
+        Part of what lets go of the load that is gone; some of it hangs.
 
     Raises
     ------
@@ -180,7 +184,7 @@ def natural_modes(
     """
     if model.axes != 3:
         raise ValueError("FlexibleModel.axes: wanted 3, a load in space, got 2")
-    drives = _standing(model, place, rope_length, slewing_angle)
+    drives = _standing(model, place, rope_length, slewing_angle, gone)
     q = model.equilibrium(drives)
     mass, stiffness = linear_matrices(model, drives[:, 0], about=q)
     frequencies, shapes = reciprocal_modes(model, mass, stiffness)
@@ -206,9 +210,20 @@ def leans_on(model: Equations, place: float, rope_length: float, slewing_angle: 
     return [number + 1 for number, met in zip(numbers, found, strict=True) if met.beyond > 0.0]
 
 
-def _standing(model: Equations, place: float, rope_length: float, slewing_angle: float) -> Floats:
+def unloaded_frequencies(model: Equations, place: float, rope_length: float, slewing_angle: float = 0.0) -> Floats:
+    """Angular frequencies of a crane whose load has let go, ascending [rad/s]; arguments and errors as above."""
+    if model.axes == 2:
+        matrices = plane_matrices(model, place, rope_length, 1.0)
+    else:
+        drives = _standing(model, place, rope_length, slewing_angle, 1.0)
+        matrices = linear_matrices(model, drives[:, 0], about=model.equilibrium(drives))
+    mass, stiffness = (matrix[: model.coordinates, : model.coordinates] for matrix in matrices)
+    return reciprocal_modes(model, mass, stiffness)[0] if model.coordinates else np.empty(0)
+
+
+def _standing(model: Equations, place: float, rope_length: float, slewing_angle: float, gone: float = 0.0) -> Floats:
     """Inputs of drives that stand, without wind; shape (channels, 3)."""
-    values = {"rope": rope_length, "slewing": slewing_angle, "shaft": slewing_angle}
+    values = {"rope": rope_length, "slewing": slewing_angle, "shaft": slewing_angle, "release": gone}
     values |= dict.fromkeys(("trolley", "luffing"), place)
     inputs = np.zeros((len(model.channels), 3))
     inputs[:, 0] = [values.get(channel, 0.0) for channel in model.channels]

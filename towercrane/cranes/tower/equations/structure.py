@@ -195,8 +195,9 @@ def place_of(crane: Constants, head: Head, end: Carried, state: State) -> Vector
 def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
     """Forces on the coordinates y at rest, with the load that hangs at rest in the wind; inputs at their values."""
     state = State(y, (), [0.0] * crane.coordinates, ())
-    hanging = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]]).hanging
-    pull = load_force(crane.load, crane.gravity, hanging.wind)
+    drives = [(value, 0.0, 0.0) for value in inputs[:, 0]]
+    hanging = structure(crane, state, drives).hanging
+    pull = load_force(crane.load.now(drives[crane.release]), crane.gravity, hanging.wind)
     columns = zip(*hanging.jacobian, strict=True)
     forces = [own + dot(column, pull) for own, column in zip(hanging.force, columns, strict=True)]
     if crane.slewing == "free":

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from modal.elements.beam_elements import MOST_ELEMENTS
+from towercrane.cranes.parts.hoisting.release_table import Released  # noqa: TC001
 from towercrane.cranes.parts.tables import CaseTable, SwayStart
 from towercrane.cranes.parts.turbulence.tables import Wind  # noqa: TC001 - pydantic reads annotations
 from towercrane.cranes.tower.file.luffing_tables import without_trolley
@@ -149,6 +150,7 @@ class TowerCase(CaseTable):
     map: MapRequest = Field(default_factory=MapRequest)
     accuracy: Accuracy = Field(default_factory=Accuracy)
     sections: tuple[NamedSection, ...] = ()
+    release: Released | None = None
 
     @model_validator(mode="before")
     @classmethod

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from towercrane.cranes.kind import Natural
-from towercrane.cranes.tower.equations.small_motions import natural_modes, plane_modes
+from towercrane.cranes.parts.hoisting.letting_go import CHANNEL
+from towercrane.cranes.tower.equations.small_motions import natural_modes, plane_modes, unloaded_frequencies
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -28,11 +29,14 @@ def natural(model: FlexibleModel, drives: Mapping[str, float]) -> Natural:
         If the tower buckles.
     """
     model = model if np.isinf(model.cap) else replace(model, cap=np.inf)
-    place, rope = drives[model.channels[0]], drives["rope"]
+    place, rope, turn = drives[model.channels[0]], drives["rope"], drives.get("shaft", drives.get("slewing", 0.0))
+    gone = drives.get(CHANNEL, 0.0)
+    if not model.load.now((gone, 0.0)).mass > 0.0:
+        return Natural((unloaded_frequencies(model, place, rope, turn) / (2 * np.pi)).tolist(), [], {})
     if model.axes == 2:
-        frequencies, swing = plane_modes(model, place, rope)
+        frequencies, swing = plane_modes(model, place, rope, gone)
         return Natural((frequencies / (2 * np.pi)).tolist(), [], {"sway_radial": swing})
-    modes = natural_modes(model, place, rope, drives["shaft" if "shaft" in drives else "slewing"])
+    modes = natural_modes(model, place, rope, turn, gone)
     kinds = [mode.kind for mode in modes]
     swings = {signal: kinds.index(kind) for signal, kind in SWAYS.items() if kind in kinds}
     return Natural([mode.frequency_hz for mode in modes], kinds, swings)

@@ -19,10 +19,12 @@ from towercrane.cranes.tower.equations.head import Head, head_of
 from towercrane.cranes.tower.equations.jib import Path, Section, Trolley, path_of, trolley_of
 from towercrane.cranes.tower.equations.motion import GUARDS
 from towercrane.kernels.algebra import Row, Vector, dot
-from towercrane.kernels.payload import State, state_of
+from towercrane.kernels.choices import choose
+from towercrane.kernels.payload import Momentary, State, state_of
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.outputs.seen import Seen
+    from towercrane.kernels.payload import Load
     from towercrane.simulation.observed import Instant
 
 Pair = tuple[Any, Any]
@@ -155,9 +157,21 @@ class Kinematics:
         return np.sqrt(dot(self.rope, self.rope))
 
     @cached_property
+    def stretch(self) -> Any:
+        """How much further that is than the rope is long; nothing where nothing hangs."""
+        found = self.rope_reach - self.below[0]
+        return choose(self.load.hangs, found, 0.0) if isinstance(self.load, Momentary) else found
+
+    @cached_property
     def swing(self) -> Vector:
         """Its rate."""
         return self._from_upper_end(self.state.swing, 1)
+
+    @cached_property
+    def load(self) -> Load | Momentary:
+        """The load as it is then."""
+        crane = self.seen.crane
+        return crane.load.now(self.instant.drives[crane.release])
 
     def _from_upper_end(self, own: Row, order: int) -> Vector:
         x, y, z = in_space(own)

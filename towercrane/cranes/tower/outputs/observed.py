@@ -118,7 +118,7 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
     ),
     "rope_length": (lambda at: at.instant.drives[ROPE][0], About("m", "rope length")),
     "hoist_rope_force": (lambda at: at.instant.guards[TENSION], About("N", "rope tension, the force of the hoist")),
-    "rope_stretch": (lambda at: at.rope_reach - at.below[0], ROPE_STRETCH),
+    "rope_stretch": (lambda at: at.stretch, ROPE_STRETCH),
     "load_ground_force": (lambda at: at.instant.guards[REACTION], GROUND_FORCE),
     "slewing_angle": (lambda at: at.slewing[0], About("rad", "angle of the head on the tower's top")),
     "slewing_speed": (lambda at: at.slewing[1], About("rad/s", "rate of that angle")),

@@ -145,7 +145,7 @@ class Sections:
     @cached_property
     def hung(self) -> tuple[Vector, Vector]:
         """Force of the rope on what it hangs from, and couple of its damper, which turns the jib."""
-        at, load = self.at, self.at.seen.crane.load
+        at, load = self.at, self.at.load
         rope: Any = load.rope_damping, at.below[0], at.rope, at.swing
         if load.elasticity is not None:
             _, rope = rope_seen(load, at.rope, at.swing, at.instant.guards)

@@ -60,7 +60,7 @@ class TiedSight(Sight):
         potential = energy.elastic_energy(self) + stored(self.own, self.taut)
         potential = potential + crane.self_gravity * dot(self.head.rows[2], first)
         for mass, (place, speed) in (
-            (crane.trolley_mass, self.trolley_in_space), (crane.load.mass, self.load_in_space),
+            (crane.trolley_mass, self.trolley_in_space), (self.load.mass, self.load_in_space),
         ):  # fmt: skip
             kinetic = kinetic + 0.5 * mass * dot(speed, speed)
             potential = potential + crane.gravity * mass * place[2]

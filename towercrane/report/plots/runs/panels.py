@@ -52,6 +52,7 @@ def over_time(result: xr.Dataset, title: str, panels: tuple[Panel, ...]) -> Figu
     figure = figure_of(9.0, len(panels) * (2.0 if len(panels) > FEW else 2.8))
     rows = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
     sizes, loads = [_size(result, panel) for panel in panels], json.loads(result.attrs.get("loads", "{}"))
+    released = json.loads(result.attrs.get("release", "null"))
     for axes, panel, size in zip(rows, panels, sizes, strict=True):
         shown = [name for name in panel.lines if name in result]
         for i, name in enumerate(shown):
@@ -64,6 +65,8 @@ def over_time(result: xr.Dataset, title: str, panels: tuple[Panel, ...]) -> Figu
         if size < ROUNDING * max(of_its_unit):
             # A scale of its own would make a motion of what is nothing but rounding.
             axes.set_ylim(-0.05, 0.05)
+        if released:
+            axes.axvline(released["time_s"], color="0.3", ls="--", lw=1.0, label=f"{released['mass_kg']:g} kg let go")
         axes.set_ylabel(panel.label)
         axes.grid(axis="y", color="0.9", lw=0.6)
         legend(axes)

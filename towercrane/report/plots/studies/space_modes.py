@@ -25,7 +25,7 @@ MOST_SHAPES = 8
 LARGEST = 0.12
 """Largest displacement that is drawn, of the longest member."""
 
-MARKS = ("o", "s", "^", "D", "v")
+MARKS = ("o", "s", "^", "D", "v", "P")
 """Of the kinds of modes, for print in grey."""
 
 SWEEPS = {

@@ -138,7 +138,7 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
     state, axes = state_of(y, crane.coordinates, crane.axes), range(crane.axes)
     drives = [polynomial(channel, t) for channel in inputs]
     found = structure(crane, state, drives)
-    hung = hang_load(found.hanging, state, found.rope, crane.load, crane.gravity)
+    hung = hang_load(found.hanging, state, found.rope, crane.load.now(drives[crane.release]), crane.gravity)
     power, torque, beyond = found.power, 0.0, 0.0
     if found.driven is not None:
         torque, beyond = found.driven.torque, found.driven.beyond
@@ -156,9 +156,10 @@ def motion(crane: Constants, t: Any, y: Any, inputs: Any) -> tuple[list[Any], li
 def static_force(crane: Constants, _t: Any, y: Any, inputs: Any) -> tuple[list[Any], list[Any]]:
     """Forces on the coordinates y at rest, with the load that hangs at rest in the wind; inputs at their values."""
     state = State(y, (), [0.0] * crane.coordinates, ())
-    found = structure(crane, state, [(value, 0.0, 0.0) for value in inputs[:, 0]])
+    drives = [(value, 0.0, 0.0) for value in inputs[:, 0]]
+    found = structure(crane, state, drives)
     pull, columns = (
-        load_force(crane.load, crane.gravity, found.hanging.wind),
+        load_force(crane.load.now(drives[crane.release]), crane.gravity, found.hanging.wind),
         zip(*found.hanging.jacobian, strict=True),
     )
     tension = np.sqrt(dot(pull, pull))
