@@ -162,6 +162,9 @@ def integrate_many(
     seen = [numbers_of(run.model.seen) for run in runs]
     looks = written(looked, model.seen, seen, system.size, shape)
     rhs, observe = code.rhs(lanes=True), looks.rhs(lanes=True)
+    if asks(runs[0]):
+        # Events evaluate single states: compiled before threads ask for that at once.
+        code.rhs()
 
     def work(first: int) -> None:
         task = slice(first, first + share)
