@@ -97,6 +97,11 @@ SPEEDING = "shape='speed-trapezoid', speed='0.5 m/s', ramp='2 s', hold='1 s'"
         ),
         (
             "qtz5613/slewing",
+            ["motion.slewing.start_speed=0.05 rad/s"],
+            ["motion.slewing.start_speed", 'a key of shape = "speed-trapezoid" or "smooth"'],
+        ),
+        (
+            "qtz5613/slewing",
             ["motion.slewing={" + TURN + ", start_speed='0.7 m/s'}"],
             ["motion.slewing.start_speed", "rad/s"],
         ),

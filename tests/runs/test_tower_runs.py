@@ -170,3 +170,10 @@ def test_a_segmented_tower_on_the_command_line(tmp_path):
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "modes.png").stat().st_size > 10_000
     assert json.loads((tmp_path / "summary.json").read_text("utf-8"))["outcome"] == "finished"
+
+
+def test_a_load_on_the_ground_is_never_pulled_and_the_note_says_when_it_leaves():
+    case = load_case("qtz5613/lift-off", ["run.duration=5 s"])
+    summary = summarise(case, record_case(case))
+    assert summary["peaks"]["load_ground_force"]["minimum"] == 0.0
+    assert any("lifted off at 3.757 s" in notice for notice in summary["notices"])

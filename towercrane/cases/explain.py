@@ -54,6 +54,18 @@ def _resolve(loc: tuple[int | str, ...], kind: str) -> tuple[str, list[type[Tabl
     return ".".join(parts), owners, field
 
 
+def _shapes_with(loc: tuple[int | str, ...], kind: str) -> list[str]:
+    """Shapes of a motion that have the key of a location, which the shape that is stated has not."""
+    if len(loc) < 3:
+        return []
+    *where, tag, name = loc
+    owners = _resolve((*where, name), kind)[1]
+    tags = {t: get_args(_annotation(t, "shape")) for t in owners}
+    if not any(tag in own for own in tags.values()):
+        return []
+    return [str(shape) for t, own in tags.items() if name in t.named() for shape in own]
+
+
 def _annotation(table: type[Table], name: str) -> Any:
     return table.model_fields[name].annotation if name in table.model_fields else None
 
@@ -63,9 +75,12 @@ def _unknown(key: str, detail: ErrorDetails, kind: str) -> tuple[Fault, str]:
     parent, _, name = key.rpartition(".")
     names = list(dict.fromkeys(n for t in _resolve(detail["loc"], kind)[1] for n in t.named()))
     elsewhere = known_to(plain_key(key))
+    shapes = _shapes_with(detail["loc"], kind)
     meant = closest(name, names) if kind in elsewhere or not elsewhere else None
     if former := now_called(name, names):
         meant, hint = former, f'now called "{former}"'
+    elif shapes:
+        meant, hint = None, f"a key of shape = {' or '.join(shown(shape) for shape in shapes)}"
     elif meant:
         hint = f'closest known key: "{meant}"'
     elif elsewhere and kind not in elsewhere:

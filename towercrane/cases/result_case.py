@@ -84,7 +84,8 @@ def _saved_start(case: Case, model: Model | None, motions: Mapping[str, Motion] 
     try:
         before, end, state = _ended(named)
     except (OSError, ValueError) as failure:
-        said = getattr(failure, "strerror", None) or str(failure)
+        # What HDF5 raises of a file that is none has no number.
+        said = str(failure) if isinstance(failure, ValueError) else failure.strerror or "no HDF5 file"
         raise refuse(f"a result.nc of `towercrane run`, {named}", said) from failure
     if end["outcome"] not in GO_ON:
         raise refuse("a run that finished or was interrupted", f'one that ended as "{end["outcome"]}"')

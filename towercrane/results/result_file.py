@@ -56,7 +56,7 @@ def check_structure(path: Path) -> None:
 
     size = path.stat().st_size
     if not path.is_file():
-        raise ValueError("wanted a regular file, got another kind")
+        raise ValueError(f"wanted a regular file, got {'a folder' if path.is_dir() else 'another kind'}")
     allowed, asked = MOST_EXPANDED * size + FREE, 0
     with h5py.File(path, "r") as file:
         if len(file) > MOST_MEMBERS:

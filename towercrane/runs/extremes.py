@@ -80,9 +80,10 @@ def extremes_of(run: Run) -> Extremes:
         close, seen = _close(run, first, names, looked)
         times, order = np.unique(np.concatenate([times, close]), return_index=True)
         found = {name: np.concatenate([looked[name], seen[name]])[order] for name in names}
+    kinks = np.zeros(0) if run.switches is None else run.switches.times
     return Extremes(
-        {name: highest(times, own, 1.0) for name, own in found.items()},
-        {name: highest(times, own, -1.0) for name, own in found.items()},
+        {name: highest(times, own, 1.0, kinks) for name, own in found.items()},
+        {name: highest(times, own, -1.0, kinks) for name, own in found.items()},
         times,
         found,
     )
@@ -174,10 +175,10 @@ def phases_between(cut: Phases, begin: float, end: float) -> Phases:
     return Phases(np.r_[starts, end] - begin, inputs[:-1], inputs[-1])
 
 
-def highest(times: Floats, values: Floats, sign: float) -> Extreme:
-    """Largest of values times the sign."""
+def highest(times: Floats, values: Floats, sign: float, kinks: Sequence[float] | Floats = ()) -> Extreme:
+    """Largest of values times the sign; no parabola is laid over a time at which the equations switch."""
     at = int(np.argmax(sign * values))
-    if 0 < at < len(times) - 1:
+    if 0 < at < len(times) - 1 and not np.isin(times[at : at + 2], np.asarray(kinks)).any():
         step = np.diff(times[at - 1 : at + 2])
         low, mid, high = sign * values[at - 1 : at + 2]
         slopes = (mid - low) / step[0], (high - mid) / step[1]

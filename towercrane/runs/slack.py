@@ -67,14 +67,21 @@ def _hangs(run: Run, times: Floats) -> NDArray[np.bool_]:
 
 
 def rope_notice(run: Run, found: Extremes) -> list[str]:
-    """The same in a sentence, if it was slack at all, and how hard it was caught."""
-    told, peak = rope_report(run), found.highest[FORCE]
-    if not told or not told["slack_phases"]:
+    """The same in sentences, of what happened after the start, and how hard the rope was caught."""
+    told, peak = rope_report(run), found.highest.get(FORCE)
+    if not told or peak is None or len(run.times) < 2:
         return []
-    weight = run.attrs["payload_mass"] * run.attrs["gravity"]
-    often = "once" if told["slack_phases"] == 1 else f"{told['slack_phases']} times"
-    times = f" ({peak.value / weight:.3g} times the load's weight)" if weight else ""
-    return [
-        f"the rope was slack {often}, first from {told['slack_from_s'][0]:.4g} to {told['slack_to_s'][0]:.4g} s; "
-        f"its largest force is {peak.value:.4g} N{times} at {peak.time:.4g} s"
-    ]
+    said = []
+    if told["slack_phases"]:
+        weight = run.attrs["payload_mass"] * run.attrs["gravity"]
+        often = "once" if told["slack_phases"] == 1 else f"{told['slack_phases']} times"
+        times = f" ({peak.value / weight:.3g} times the load's weight)" if weight else ""
+        said.append(
+            f"the rope was slack {often}, first from {told['slack_from_s'][0]:.4g} to {told['slack_to_s'][0]:.4g} s; "
+            f"its largest force is {peak.value:.4g} N{times} at {peak.time:.4g} s"
+        )
+    for what, when in (("was lifted off", told.get("lifted_off_s")), ("landed", told.get("landed_s"))):
+        if when:
+            again = f", the first of {len(when)} times" if len(when) > 1 else ""
+            said.append(f"the load {what} at {when[0]:.4g} s{again}")
+    return said

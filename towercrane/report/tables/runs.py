@@ -99,7 +99,7 @@ def _loads(console: Console, loads: dict[str, dict[str, Any]]) -> None:
     console.print(table)
     console.print("static: at rest under the load, drives where they are at that time")
     if tips := loads.get("overturning_moment"):
-        towards = degrees(tips[tips["largest"]]["direction_rad"])
+        towards = round(degrees(tips[tips["largest"]]["direction_rad"]), 1) + 0.0
         console.print(f"largest overturning moment: tips towards {towards:.1f} deg from the x axis")
 
 
