@@ -53,7 +53,8 @@ def release_report(case: Case, run: Run, found: Extremes) -> dict[str, Any] | No
     if at_rest:
         at_rest[ALONG] = float(along_jib(run, {name: np.array([own]) for name, own in at_rest.items()})[0])
     told = {}
-    for name in (ALONG, *SWINGS_BACK):
+    # A jib that pivots has no moment at its foot.
+    for name in (ALONG, *(name for name in SWINGS_BACK if name in series)):
         before = float(series[name][earlier][-1])
         most, least = (highest(times[later], series[name][later], sign) for sign in (1.0, -1.0))
         after = at_rest.get(name)

@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from samples import qtz5613, space_crane
 
+from towercrane.cases.case import load_case
 from towercrane.cranes.parts.hoisting.letting_go import letting_go
 from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.tower.equations.small_motions import linear_matrices, plane_matrices, unloaded_frequencies
@@ -15,6 +16,7 @@ from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import Phases, phases, rest
 from towercrane.motions.profiles import speed_trapezoid, trapezoid
 from towercrane.runs.extremes import extremes_of, highest, phases_between
+from towercrane.runs.run import record_case
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.lanes.many import integrate_many
 from towercrane.simulation.lanes.run import LaneRun
@@ -221,6 +223,17 @@ def test_nothing_hangs_once_all_has_gone(rope):
         last, at = run["payload_position"].values[:, 2], run.times
         bends = np.diff(last[at > 2.4], 2) / 0.25**2
         assert_allclose(bends, -9.81, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["luffing/manoeuvre", "hammerhead/manoeuvre"])
+def test_a_jib_that_pivots_and_one_on_ties_keep_the_balance_too(name):
+    few = [f"model.{kind}_modes=1" for kind in ("tower", "jib_lateral", "jib_vertical")]
+    tight = ["solver.rtol=1e-9", "solver.atol=1e-11", "run.duration=5 s"]
+    run = record_case(load_case(name, [*few, *tight, "release.time=4.2 s", "release.fraction=0.4"]))
+    assert run.attrs["outcome"] == "finished"
+    energy, work = (run[key].values for key in ("total_energy", "input_work"))
+    assert abs(work[-1]) > 1e5
+    assert abs(energy - energy[0] - work).max() < 1e-9 * abs(work).max()
 
 
 def test_linear_models_and_frequencies_are_of_what_hangs_then():

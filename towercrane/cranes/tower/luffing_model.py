@@ -151,6 +151,12 @@ class LuffingModel(FlexibleModel):
         """The crane without its load in a state, moved by its drives."""
         return luffing.structure(self.constants, *self.as_driven(state, inputs)).hanging
 
+    def paid_out(self, state: Floats, inputs: Floats) -> float:
+        """Rate at which the crane's motion pays out rope beside the winch [m/s]."""
+        parts, drives = self.as_driven(state, inputs)
+        paid = luffing.structure(self.constants, parts, drives).rope.paid
+        return float(np.dot(np.array(paid, dtype=float), parts.rates))
+
     def rope_at_rest(self, q: Floats, inputs: Floats) -> float:
         """Length of the rope below the jib's head [m]."""
         return float(self._resting(q, inputs).rope.length)

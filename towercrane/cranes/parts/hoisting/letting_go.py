@@ -80,6 +80,7 @@ def carried_in(model: Any, state: Floats, inputs: Floats) -> tuple[Floats, Float
         return along, swing
     crane, (length, _, hauled) = model.suspended(state, inputs), model.below(state, inputs)
     place, velocity = np.array(crane.place, dtype=float), np.array(crane.velocity, dtype=float)
+    hauled += model.paid_out(state, inputs)
     return place + length * along, velocity + hauled * along + length * swing
 
 

@@ -361,6 +361,10 @@ class Equations(Coordinates, OnRope):
         there = self.at_rest(self.undeformed(inputs), inputs)
         return np.concatenate([there.mass_matrix().ravel(), np.ravel(there.jacobian)])
 
+    def paid_out(self, _state: Floats, _inputs: Floats) -> float:
+        """Rate at which the crane's motion pays out rope beside the winch [m/s]."""
+        return 0.0
+
     def rope_at_rest(self, _q: Floats, inputs: Floats) -> float:
         """Length of the rope below what it hangs from [m]."""
         return float(inputs[ROPE, 0])
