@@ -61,7 +61,7 @@ def test_a_push_moves_the_turning_crane_as_its_linear_model_says():
         start = chart.full(chart.at + size * push, drives)
         end = integrate(model.system, cut, start, np.array([SPAN]), rtol=1e-12, atol=1e-14).end_state
         found = Chart.about(model, end, later, "slewing")
-        sways = chart.basis.T @ found.direction
+        sways = chart.bases[0].T @ found.direction
         n = model.coordinates
         places = np.concatenate([found.at[:n], sways]) - chart.at[: n + 2]
         wanted = (expm(SPAN * linear.a) @ (size * push))[: n + 2]

@@ -86,4 +86,4 @@ def poses_of(case: Case, result: xr.Dataset, times: NDArray[np.float64], model: 
     if model is None:
         picked = picked_in(result).items()
         model = model_of(case, **{key: count for key, count in picked if key.endswith("_modes")})
-    return kind.poses(model, case.checked, result, times)
+    return kind.poses(model, case.checked, result, times).below_hook(result)

@@ -7,7 +7,7 @@ from math import pi
 from typing import TYPE_CHECKING, Any
 
 from towercrane.cases.kinds import known_leaves
-from towercrane.cranes.parts.load import check_ground, check_rope, stretched
+from towercrane.cranes.parts.load import check_ground, check_rope, check_slings, stretched
 from towercrane.cranes.registry import KINDS
 from towercrane.schema.faults import Fault, did_you_mean, shown
 from towercrane.schema.ranges import (
@@ -153,6 +153,9 @@ RANGES = (
     Range("release.mass", "kg", 1, 1e6, ("t", "g")),
     Range("release.base_half_width", "m", 0.1, 100, LENGTHS),
     Range("map.payload_masses*", "kg", 1, 1e6, ("t", "g")),
+    Range("hook.mass", "kg", 0.1, 1e5, ("t", "g")),
+    Range("hook.drag_area", "m^2", 1e-4, 1e3, AREAS),
+    Range("slings.length", "m", 0.05, 200, LENGTHS),
     Range("rope.length", "m", 0.1, 1000, LENGTHS),
     Range("ground.height", "m", 1e-3, 1000, LENGTHS, signed=True),
     Range("ground.friction", "1", 1e-3, 2.0, ("%",)),
@@ -221,15 +224,8 @@ def check_values(tree: dict[str, Any], kind: str) -> Iterator[Fault]:
     """Values that do not fit each other, motions and towers apart."""
     yield from _check_from(tree)
     yield from _check_sways(tree, *KINDS[kind].sways)
-    for check in (
-        _check_output,
-        _check_elements,
-        _check_drag,
-        _check_friction,
-        _check_method,
-        check_rope,
-        check_ground,
-    ):
+    hanging = _check_drag, check_rope, check_slings, check_ground
+    for check in (_check_output, _check_elements, *hanging, _check_friction, _check_method):
         yield from check(tree)
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from towercrane.cranes.parts.load import merged
 from towercrane.cranes.registry import KINDS
 
 if TYPE_CHECKING:
@@ -35,9 +36,10 @@ STILL = 0.01
 
 
 def table_notices(case: Case) -> tuple[str, ...]:
-    """Records that end before the run does, and tables whose noise the crane feels as acceleration."""
+    """Light hooks, records that end before the run does, tables whose noise the crane feels as acceleration."""
     # The case of a result has no motions to look at: what was to be said of them stands in the result.
-    return (*_blowing(case), *_ended(case), *_shaken(case), *_noisy(case)) if case.plans else ()
+    told = merged(case.payload, case.checked.hook)
+    return (*told, *_blowing(case), *_ended(case), *_shaken(case), *_noisy(case)) if case.plans else ()
 
 
 def _blowing(case: Case) -> Iterator[str]:

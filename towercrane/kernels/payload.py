@@ -8,11 +8,14 @@ Vectors have ``d`` inertial components, the vertical last: (x, z) in a plane, (x
 ``y = (q, n, q', p, work)``: coordinates, unit vector from D to the load, rates, rate of the unit vector, and the
 work [J] that inputs and dissipation have put into the crane since the start. On an elastic rope n and p are the
 load's place and velocity instead: its tension is known before anything is solved, and a load may fly free.
+
+Under a hook block the load hangs on slings: the rope then carries the hook, and the unit vector of each sling, from
+the body above it to that below, follows n, its rate p.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -34,6 +37,38 @@ AIR_DENSITY = 1.225
 
 SLACK = -1e-6
 """Tension below which a rope is slack [N]: where a whole crane is let fall, rounding decides the sign of none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sling:
+    """A body on the rope, and the rigid link by which the next one hangs below it.
+
+    Parameters
+    ----------
+    mass : float
+        Of the body above the link, such as a hook block [kg].
+    length : float
+        Of the link [m].
+    drag_area : float
+        Drag coefficient times area of that body [m^2].
+
+    Raises
+    ------
+    ValueError
+        If mass or length is not positive, or the drag area is negative.
+    """
+
+    mass: float
+    length: float
+    drag_area: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_fields(self, positive=("mass", "length"), not_negative=("drag_area",))
+
+    @property
+    def drag(self) -> float:
+        """Drag force per squared speed, rho C_d A / 2 [kg/m]."""
+        return 0.5 * AIR_DENSITY * self.drag_area
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,8 +100,8 @@ class Momentary(NamedTuple):
 
     Parameters
     ----------
-    mass, drag, rope_damping, elasticity, ground
-        As of a `Load`; without mass nothing damps, and there is no ground.
+    mass, drag, rope_damping, elasticity, ground, slings
+        As of a `Load`; without mass nothing damps, and there is neither ground nor a hook.
     hangs : number
         1 while there is mass, else 0.
     inertia : number
@@ -83,6 +118,22 @@ class Momentary(NamedTuple):
     inertia: Any
     leaving: Any
     ground: None = None
+    slings: tuple[Sling, ...] = ()
+
+    @property
+    def bodies(self) -> tuple[Momentary]:
+        """All that hang on the rope."""
+        return (self,)
+
+    @property
+    def whole_mass(self) -> Any:
+        """Mass of all that hangs on the rope [kg]."""
+        return self.mass
+
+    @property
+    def whole_drag(self) -> Any:
+        """Drag force of all of it per squared speed [kg/m]."""
+        return self.drag
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +143,7 @@ class Load:
     Parameters
     ----------
     mass : float
-        Mass of the load with hook [kg].
+        Mass of the load, with its hook where that is no body of its own [kg].
     rope_damping : float
         Damping where the rope hangs, a torque per rate of swing [N m s/rad].
     drag_area : float
@@ -103,6 +154,8 @@ class Load:
         Under a load on such a rope.
     release : Release or None
         What of it lets go.
+    slings : tuple of Sling
+        What hangs between rope and load, from above.
 
     Raises
     ------
@@ -116,6 +169,7 @@ class Load:
     elasticity: Elasticity | None = None
     ground: Ground | None = None
     release: Release | None = None
+    slings: tuple[Sling, ...] = ()
 
     def __post_init__(self) -> None:
         check_fields(self, positive=("mass",), not_negative=("rope_damping", "drag_area"))
@@ -127,7 +181,7 @@ class Load:
     @property
     def lightest(self) -> float:
         """Least mass that its rope carries [kg]."""
-        return self.mass - (0.0 if self.release is None else self.release.mass) or self.mass
+        return self.bodies[0].mass - (0.0 if self.release is None else self.release.mass) or self.mass
 
     def now(self, gone: Sequence[Any]) -> Load | Momentary:
         """The load at a time; of what lets go the part that is gone, 0 to 1, and the rate of that."""
@@ -152,12 +206,31 @@ class Load:
         Work steers where nothing else does, as where the load hangs while its rope is let out, and where it is worse
         than the balance of energy allows. Without gravity nothing says which work is small: it then steers no step.
         """
-        return self.mass * gravity * length or np.inf
+        return self.whole_mass * gravity * length or np.inf
 
     @property
     def drag(self) -> float:
         """Drag force per squared speed, rho C_d A / 2 [kg/m]."""
         return 0.5 * AIR_DENSITY * self.drag_area
+
+    @property
+    def bodies(self) -> tuple[Sling | Load, ...]:
+        """All that hang on the rope, from above."""
+        return (*self.slings, self)
+
+    @property
+    def whole_mass(self) -> Any:
+        """Mass of all that hangs on the rope [kg]."""
+        return sum((sling.mass for sling in self.slings), self.mass)
+
+    @property
+    def whole_drag(self) -> Any:
+        """Drag force of all of it per squared speed [kg/m]."""
+        return sum((sling.drag for sling in self.slings), self.drag)
+
+    def under(self, count: int) -> Load:
+        """What hangs below so many of the bodies, on rigid links."""
+        return replace(self, slings=self.slings[count:], elasticity=None) if count else self
 
 
 class Structure(NamedTuple):
@@ -197,12 +270,25 @@ class Structure(NamedTuple):
 
 
 class State(NamedTuple):
-    """Parts of a state: coordinates, rope direction and their rates; of an elastic rope the load's place instead."""
+    """Parts of a state: coordinates, rope direction and their rates; of an elastic rope the load's place instead.
+
+    Directions of slings, one after the other, and their rates stand behind those of the rope.
+    """
 
     coordinates: Row
     direction: Row
     rates: Row
     swing: Row
+    slings: Row = ()
+    slings_swing: Row = ()
+
+    def links(self) -> list[tuple[Row, Row]]:
+        """Direction of each sling, and its rate."""
+        axes = len(self.direction)
+        return [
+            (self.slings[first : first + axes], self.slings_swing[first : first + axes])
+            for first in range(0, len(self.slings), axes)
+        ]
 
 
 class Rope(NamedTuple):
@@ -239,12 +325,13 @@ class Hung(NamedTuple):
         Of winch, drag, hinge, rope and, on the load, ground [W].
     accelerations : list of n
     turning : list of d
-        Second derivative of the rope's direction; of an elastic rope the load's acceleration.
+        Second derivative of the rope's direction; of an elastic rope the acceleration of what it carries. Those of
+        the slings' directions follow.
     direction, hinge, suspension : list of d
         Unit vector from D to the load, hinge force on the load, acceleration of D with that of the ground.
     guards : list
-        Of the ground, if there is any; of an elastic rope: how far it is from slack and from taut, as strains, and
-        energy stored in it [J].
+        Tensions of slings [N]; of the ground, if there is any; of an elastic rope: how far it is from slack and from
+        taut, as strains, and energy stored in it [J].
     """
 
     tension: Any
@@ -263,11 +350,14 @@ class Hung(NamedTuple):
 
 def state_of(y: Row, coordinates: int, axes: int) -> State:
     """Parts of a state with so many coordinates and axes of space."""
-    half = coordinates + axes
+    half, ropes = (len(y) - 1) // 2, coordinates + axes
     places, rates = y[:half], y[half : 2 * half]
-    return State(places[:coordinates], places[coordinates:], rates[:coordinates], rates[coordinates:])
+    return State(
+        places[:coordinates], places[coordinates:ropes], rates[:coordinates], rates[coordinates:ropes],
+        places[ropes:], rates[ropes:],
+    )  # fmt: skip
 
 
 def slopes(state: State, hung: Hung, power: Any) -> list[Any]:
     """Derivative of a state, with the power that inputs put in less what is lost [W]."""
-    return [*state.rates, *state.swing, *hung.accelerations, *hung.turning, power]
+    return [*state.rates, *state.swing, *state.slings_swing, *hung.accelerations, *hung.turning, power]

@@ -3,7 +3,8 @@
 The rope's unit vector n and its rate p have more components than freedom. They give way to sway coordinates s on
 the plane that touches the unit sphere at the operating point: n = E s + sqrt(1 - s.s) n0 with the tangent unit
 vectors E, so s = E' n and s'' = E' p' hold without approximation, and s is the sway angle to first order. On an
-elastic rope the state has the load's place instead, whose departures are coordinates as they are.
+elastic rope the state has the load's place instead, whose departures are coordinates as they are. Slings have sways
+of their own.
 """
 
 from __future__ import annotations
@@ -31,6 +32,9 @@ SWAY, FIXED_SWAY = ("sway_outward", "sway_sideways"), ("sway_x", "sway_y")
 PLACE, FIXED_PLACE = ("load_outward", "load_sideways", "load_up"), ("load_x", "load_y", "load_z")
 """Names of the load's departures on an elastic rope, in the same axes."""
 
+SLING = "sling_"
+"""What comes before the names of the sways of a sling, and of those of further ones a number."""
+
 TURNING = ("platform_angle", "slewing_angle", "slewing", "slew")
 """Coordinates and channels that are the angle of a crane's jib about the vertical."""
 
@@ -45,10 +49,10 @@ class Chart:
         Names and units of the minimal state.
     scale, at : ndarray, shape (size,)
         A large change of each entry, and the operating point.
-    direction : ndarray, shape (axes,)
-        The rope, or the load's place, at the operating point, seen from the turning frame if there is one.
-    basis : ndarray, shape (axes, axes - 1) or (axes, axes)
-        Tangent unit vectors of the rope's direction; of an elastic rope the axes.
+    directions : tuple of ndarray, shape (axes,)
+        The rope, or the load's place, at the operating point, seen from the turning frame if there is one; slings.
+    bases : tuple of ndarray, shape (axes, axes - 1) or (axes, axes)
+        Tangent unit vectors of each; of an elastic rope the axes.
     turning : tuple, optional
         The coordinate or channel that the frame turns with, by index.
     pairs : tuple of pairs of int
@@ -58,8 +62,8 @@ class Chart:
     names: tuple[Signal, ...]
     scale: Floats
     at: Floats
-    direction: Floats
-    basis: Floats
+    directions: tuple[Floats, ...]
+    bases: tuple[Floats, ...]
     turning: Turning | None
     pairs: tuple[tuple[int, int], ...] = ()
 
@@ -80,7 +84,8 @@ class Chart:
             If there is no such angle, or the model's names do not fit its coordinates.
         """
         axes = int(getattr(model, "axes", 3))
-        n, free = (model.system.size - 1) // 2 - axes, axes - 1 if model.system.rope is None else axes
+        slings = len(getattr(getattr(model, "load", None), "slings", ()))
+        n, free = (model.system.size - 1) // 2 - axes * (1 + slings), axes - 1 if model.system.rope is None else axes
         fixed, own = (FIXED_SWAY, SWAY) if free < axes else (FIXED_PLACE, PLACE)
         named: dict[str, str] = dict(getattr(model, "state_names", {f"coordinate_{i + 1}": "" for i in range(n)}))
         if len(named) == n:
@@ -89,66 +94,94 @@ class Chart:
             named |= dict.fromkeys([*of_load[: axes - 1], *of_load[2:]][:free], unit)
         if len(named) != n + free:
             raise ValueError(f"state_names: wanted {n} coordinates, with sways {n + free}, got {len(named)}")
+        below = [name.removeprefix("load_") for name in list(named)[n : n + axes - 1]]
+        for k in range(slings):
+            number = "" if slings == 1 else f"{k + 1}_"
+            named |= {f"{SLING}{number}sway_{name.removeprefix('sway_')}": "rad" for name in below}
         pairs: tuple[tuple[int, int], ...] = ()
         angle = None if turning is None else _find(turning, list(named)[:n], model.channels, axes)
         names = [Signal(*item) for item in named.items()]
         rates = [Signal(f"{name}{RATE}", per_second(units)) for name, units in names]
-        scale, sways = model.system.scale, np.ones(free)
-        scale = np.concatenate([scale[:n], sways, scale[n + axes : 2 * n + axes], sways])
-        q, direction, rate, swing = map(np.array, np.split(state[:-1], [n, n + axes, 2 * n + axes]))
+        scale, half, sways = model.system.scale, len(state) // 2, np.ones(free + slings * (axes - 1))
+        scale = np.concatenate([scale[:n], sways, scale[half : half + n], sways])
+        q, ropes, rate, swings = _parts(state, n, axes)
         if angle is not None:
             phi, spin, _ = _turn(angle, q, rate, rate, drives)
-            direction, swing = _rotation(phi).T @ direction, _rotation(phi).T @ swing
-            swing = swing - _cross(spin, direction)
+            ropes = [_rotation(phi).T @ own for own in ropes]
+            swings = [_rotation(phi).T @ swing - _cross(spin, own) for swing, own in zip(swings, ropes, strict=True)]
             # At rest the axes of the coordinates serve, and their names say which those are.
             group = getattr(model, "turning", None) if spin else None
             pairs = tuple(pair for pair in group.vectors if max(pair) < n) if group is not None else ()
             for pair in map(list, pairs):
                 moved, still = _flat(_rotation(phi).T, rate[pair]), _flat(_rotation(phi).T, q[pair])
                 q[pair], rate[pair] = still, moved - _cross(spin, still)[:2]
-        if free < axes:
-            direction = direction / np.linalg.norm(direction)
-        basis = _tangents(direction) if free < axes else np.eye(axes)
-        at = np.concatenate([q, np.zeros(free), rate, basis.T @ swing])
-        return cls((*names, *rates), np.where(np.isfinite(scale), scale, 1.0), at, direction, basis, angle, pairs)
+        loose = free == axes
+        units = [*ropes[:loose], *(own / np.linalg.norm(own) for own in ropes[loose:])]
+        bases = [*[np.eye(axes)] * loose, *map(_tangents, units[loose:])]
+        moving = [basis.T @ swing for basis, swing in zip(bases, swings, strict=True)]
+        at = np.concatenate([q, 0.0 * sways, rate, *moving])
+        scale = np.where(np.isfinite(scale), scale, 1.0)
+        return cls((*names, *rates), scale, at, tuple(units), tuple(bases), angle, pairs)
+
+    @property
+    def direction(self) -> Floats:
+        """That of the rope."""
+        return self.directions[0]
 
     def full(self, minimal: Floats, drives: Floats) -> Floats:
         """State of the model; its work is zero."""
-        q, direction, rate, swing = self._rope(minimal)
+        q, ropes, rate, swings = self._ropes(minimal)
         if self.turning is not None:
             phi, spin, _ = _turn(self.turning, q, rate, rate, drives)
-            swing = _rotation(phi) @ (swing + _cross(spin, direction))
-            direction = _rotation(phi) @ direction
+            swings = [_rotation(phi) @ (swing + _cross(spin, own)) for swing, own in zip(swings, ropes, strict=True)]
+            ropes = [_rotation(phi) @ own for own in ropes]
             q, rate = np.array(q), np.array(rate)
             for pair in map(list, self.pairs):
                 own, moved = q[pair], rate[pair] + _cross(spin, q[pair])[:2]
                 q[pair], rate[pair] = _flat(_rotation(phi), own), _flat(_rotation(phi), moved)
-        return np.concatenate([q, direction, rate, swing, [0.0]])
+        return np.concatenate([q, *ropes, rate, *swings, [0.0]])
 
     def slope(self, minimal: Floats, slope: Floats, drives: Floats) -> Floats:
         """Slope of the minimal state from that of the model's state."""
-        q, direction, rate, swing = self._rope(minimal)
-        n, axes = len(q), len(direction)
-        velocity, _, acceleration, pull = map(np.array, np.split(slope[:-1], [n, n + axes, 2 * n + axes]))
+        q, ropes, rate, swings = self._ropes(minimal)
+        velocity, _, acceleration, pulls = _parts(slope, len(q), len(self.direction))
         if self.turning is not None:
             phi, spin, spin_up = _turn(self.turning, q, rate, acceleration, drives)
-            pull = _rotation(phi).T @ pull - _cross(spin_up, direction)
-            pull = pull - _cross(spin, 2.0 * swing + _cross(spin, direction))
+            for k, (own, swing) in enumerate(zip(ropes, swings, strict=True)):
+                pull = _rotation(phi).T @ pulls[k] - _cross(spin_up, own)
+                pulls[k] = pull - _cross(spin, 2.0 * swing + _cross(spin, own))
             for pair in map(list, self.pairs):
-                own, moved = q[pair], rate[pair]
-                thrown = _cross(spin, 2.0 * moved + _cross(spin, own)[:2])[:2] + _cross(spin_up, own)[:2]
+                place, moved = q[pair], rate[pair]
+                thrown = _cross(spin, 2.0 * moved + _cross(spin, place)[:2])[:2] + _cross(spin_up, place)[:2]
                 velocity[pair], acceleration[pair] = moved, _flat(_rotation(phi).T, acceleration[pair]) - thrown
-        return np.concatenate([velocity, self.basis.T @ swing, acceleration, self.basis.T @ pull])
+        sways, swayed = (
+            [basis.T @ own for basis, own in zip(self.bases, found, strict=True)] for found in (swings, pulls)
+        )
+        return np.concatenate([velocity, *sways, acceleration, *swayed])
 
-    def _rope(self, minimal: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """Coordinates, rope, rates and rate of the rope, the rope's as the turning frame sees them."""
-        half, sways = len(minimal) // 2, self.basis.shape[1]
-        q, s, rate, s_rate = np.split(minimal, [half - sways, half, 2 * half - sways])
-        if sways == len(self.direction):
-            return q, self.direction + s, rate, s_rate
-        along = np.sqrt(1.0 - s @ s)
-        direction = along * self.direction + self.basis @ s
-        return q, direction, rate, self.basis @ s_rate - (s @ s_rate) / along * self.direction
+    def _ropes(self, minimal: Floats) -> tuple[Floats, list[Floats], Floats, list[Floats]]:
+        """Coordinates, rope and slings, rates and theirs, those of ropes as the turning frame sees them."""
+        half, ends = len(minimal) // 2, np.cumsum([basis.shape[1] for basis in self.bases])
+        n, ropes, swings = half - ends[-1], [], []
+        q, rate = minimal[:n], minimal[half : half + n]
+        for still, basis, end in zip(self.directions, self.bases, ends, strict=True):
+            place = slice(n + end - basis.shape[1], n + end)
+            s, s_rate = minimal[:half][place], minimal[half:][place]
+            if basis.shape[1] == len(still):
+                ropes.append(still + s)
+                swings.append(s_rate)
+                continue
+            along = np.sqrt(1.0 - s @ s)
+            ropes.append(along * still + basis @ s)
+            swings.append(basis @ s_rate - (s @ s_rate) / along * still)
+        return q, ropes, rate, swings
+
+
+def _parts(state: Floats, n: int, axes: int) -> tuple[Floats, list[Floats], Floats, list[Floats]]:
+    """Coordinates of a state, vectors along rope and slings, rates of both."""
+    half = len(state) // 2
+    places, rates = np.array(state[:half]), np.array(state[half : 2 * half])
+    return places[:n], list(places[n:].reshape(-1, axes)), rates[:n], list(rates[n:].reshape(-1, axes))
 
 
 def per_second(units: str) -> str:

@@ -38,7 +38,7 @@ ATTRIBUTES = {
 }
 """What every result states of its run."""
 
-ENTRIES = {"payload_position": (3,), "joint_angle": (3,)}
+ENTRIES = {"payload_position": (3,), "hook_position": (3,), "joint_angle": (3,)}
 """Shape of a row of the variables that are no plain numbers; coordinates of modes have one entry for each."""
 
 

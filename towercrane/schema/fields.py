@@ -199,6 +199,20 @@ class Rope(Table):
         return bool(self.stiffness or self.axial_stiffness)
 
 
+class Hook(Table):
+    """Hook block at the rope's end."""
+
+    mass: Mass
+    drag_area: AreaOrNone = 0.0
+
+
+class Slings(Table):
+    """What the load hangs on below the hook, as one rigid link: a stiffness is refused by name."""
+
+    length: Length
+    stiffness: AxialStiffnessIfAny = None
+
+
 class Run(Table):
     """Span and output."""
 

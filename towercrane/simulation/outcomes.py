@@ -10,6 +10,7 @@ COLLAPSED = "step size collapsed"
 NOT_FINITE = "state not finite"
 
 SLACK_ROPE = "slack rope"
+SLACK_SLING = "slack sling"
 ROPE_SLACK = "rope goes slack"
 ROPE_CAUGHT = "rope is caught"
 LANDS = "load lands"

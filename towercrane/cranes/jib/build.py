@@ -23,6 +23,5 @@ def model_of(tables: JibCase) -> PlannedJibCrane:
     from towercrane.cranes.jib.parameters import JibCrane
 
     crane = JibCrane(**parameters_of(tables.crane))
-    return PlannedJibCrane(
-        crane, load_of(tables.payload, tables.rope, ground_of(tables)), rope_as_rod=tables.rope.slack == "rod"
-    )
+    load = load_of(tables.payload, tables.rope, ground_of(tables), hook=tables.hook, slings=tables.slings)
+    return PlannedJibCrane(crane, load, rope_as_rod=tables.rope.slack == "rod")

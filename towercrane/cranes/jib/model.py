@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.jib import equations
-from towercrane.cranes.jib.outputs import ABOUT, Seen, driven_outputs, planned_outputs
+from towercrane.cranes.jib.outputs import ABOUT, ORIGIN, SWAYS, Seen, driven_outputs, planned_outputs
 from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
 from towercrane.cranes.parts.hoisting.on_rope import OnRope
 from towercrane.cranes.parts.points import rope_about
@@ -72,7 +72,7 @@ class JibModel(OnRope):
     @property
     def about(self) -> dict[str, About]:
         """What the outputs are."""
-        return {**ABOUT, **rope_about(self.load)}
+        return {**ABOUT, **rope_about(self.load, ORIGIN, SWAYS)}
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -138,9 +138,9 @@ class JibModel(OnRope):
         length, rate, _ = polynomial(inputs[equations.ROPE], 0.0)
         return length, length, rate
 
-    def load_at_rest(self, _inputs: Floats) -> Floats:
+    def load_at_rest(self, _inputs: Floats, load: Load) -> Floats:
         """Force on the load at rest [N]; shape (3,)."""
-        return np.array([0.0, 0.0, -self.load.mass * self.crane.gravity])
+        return np.array([0.0, 0.0, -load.whole_mass * self.crane.gravity])
 
     def jib_heading(self, _state: Floats, inputs: Floats) -> float:
         """Slewing angle of the booms [rad]."""
@@ -169,12 +169,18 @@ class PlannedJibCrane(JibModel):
     """
 
     outputs = staticmethod(planned_outputs)
-    turning = Turning(((0, 1), (equations.AXES, equations.AXES + 1)), (), 0)
 
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        return self.make_system(equations.planned, (2 * equations.AXES,), ((0, equations.AXES),))
+        half = equations.AXES * len(self.load.bodies)
+        return self.make_system(equations.planned, (2 * half,), ((0, half),))
+
+    @property
+    def turning(self) -> Turning:
+        """What turns with the post."""
+        ropes = range(0, self.system.size - 1, equations.AXES)
+        return Turning([(first, first + 1) for first in ropes], (), 0)
 
     def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State in which the load hangs at rest in inertial axes.
@@ -196,6 +202,17 @@ class PlannedJibCrane(JibModel):
             If the state is not one of the two.
         """
         return self.hung(np.zeros(self.system.size), inputs, state)
+
+
+def check_bare(model: JibModel) -> None:
+    """Refuse slings where joints move under torques.
+
+    Raises
+    ------
+    ValueError
+    """
+    if model.load.slings:
+        raise ValueError(f"{type(model).__name__}.load: wanted a load on its rope, got one below a hook on slings")
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,6 +259,7 @@ class DrivenJibCrane(JibModel):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
+        check_bare(self)
         return self.make_system(equations.driven, (equations.PLAN - 1,), (DRIVEN_ROPE,))
 
     def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:

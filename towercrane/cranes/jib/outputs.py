@@ -18,7 +18,7 @@ from towercrane.cranes.parts.base import (
     together,
 )
 from towercrane.cranes.parts.points import Point, load_places, load_places_about, turned_back
-from towercrane.kernels.algebra import Vector, cross, dot
+from towercrane.kernels.algebra import Row, Vector, cross, dot
 from towercrane.kernels.payload import state_of
 from towercrane.simulation.observed import About
 
@@ -27,14 +27,9 @@ if TYPE_CHECKING:
     from towercrane.kernels.payload import State
     from towercrane.simulation.observed import Instant
 
-ABOUT = {
-    "joint_angle": About(
-        "rad",
-        "slew about the vertical; elevation of the primary boom; the secondary boom's elevation from it",
-        ("joint",),
-        JOINTS,
-    ),
-    "rope_length": About("m", "rope length"),
+ORIGIN = "the post's foot"
+
+SWAYS = {
     "sway_in_plane": About(
         "rad",
         "swing in the booms' vertical plane, positive outward: atan2(n.e_r, -n_z) of the rope's direction n, "
@@ -45,10 +40,21 @@ ABOUT = {
         "swing out of the booms' vertical plane, positive towards growing slew: atan2(n.e_t, hypot(n.e_r, n_z)) of "
         "the rope's direction n, e_t the horizontal normal of that plane",
     ),
+}
+
+ABOUT = {
+    "joint_angle": About(
+        "rad",
+        "slew about the vertical; elevation of the primary boom; the secondary boom's elevation from it",
+        ("joint",),
+        JOINTS,
+    ),
+    "rope_length": About("m", "rope length"),
+    **SWAYS,
     "joint_torque": About("N m", "torque of each joint's drive; at a jump the right limit", ("joint",), JOINTS),
     "hoist_rope_force": About("N", "rope tension"),
     **base_about(),
-    **load_places_about("the post's foot"),
+    **load_places_about(ORIGIN),
     "total_energy": About("J", "kinetic and potential energy, zero level at the post's foot"),
     "input_work": About("J", "work of joints and winch less what damping and drag took, since the start"),
 }
@@ -105,21 +111,28 @@ def _outputs(own: Constants, instant: Instant, state: State, accelerations: Any,
     crane, angles, (length, hauling, _) = own.crane, state.coordinates, instant.drives[ROPE]
     suspension, energy = survey(crane, angles, state.rates)
     carried = suspension.carry(own.load, state, length, hauling, instant.guards)
-    outward, sideways = turned_back(angles[0], carried.along)
-    down, tension = -carried.along[2], instant.guards[TENSION]
+    tension = instant.guards[TENSION]
+
+    def sways(along: Row) -> dict[str, Any]:
+        (outward, sideways), down = turned_back(angles[0], along), -along[2]
+        return {
+            "sway_in_plane": np.arctan2(outward, down),
+            "sway_lateral": np.arctan2(sideways, np.sqrt(outward * outward + down * down)),
+        }
+
     pull, couple = rope_on_crane(tension, *carried.rope)
     base = base_of(crane, state, accelerations, pull)
     return {
         "joint_angle": [*angles],
         "rope_length": length,
-        "sway_in_plane": np.arctan2(outward, down),
-        "sway_lateral": np.arctan2(sideways, np.sqrt(outward * outward + down * down)),
+        **sways(carried.along),
+        **carried.sling_sways(state, sways),
         "joint_torque": [*instant.guards[TORQUE : TORQUE + JOINTS]],
         "hoist_rope_force": tension,
         **carried.shown,
         **base_outputs(base._replace(moment=added(base.moment, couple))),
         **load_places(carried.load.place, angles[0]),
-        "total_energy": energy + carried.load.energy(own.load.mass, crane.gravity) + carried.stored,
+        "total_energy": energy + carried.energy(own.load, crane.gravity) + carried.stored,
         "input_work": work,
     }
 

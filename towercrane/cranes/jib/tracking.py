@@ -10,7 +10,7 @@ import numpy as np
 
 from modal.checks import check_fields
 from towercrane.cranes.jib import equations
-from towercrane.cranes.jib.model import DRIVEN_ROPE, JibModel
+from towercrane.cranes.jib.model import DRIVEN_ROPE, JibModel, check_bare
 from towercrane.cranes.jib.outputs import TRACKING_ABOUT, tracking_outputs
 from towercrane.simulation.outcomes import SLACK_ROPE
 
@@ -62,6 +62,7 @@ class TrackingJibCrane(JibModel):
         check_fields(self, not_negative=("stiffness", "damping"))
         if self.load.elasticity is not None:
             raise ValueError("TrackingJibCrane.load: wanted a rope that does not stretch, got an elastic one")
+        check_bare(self)
 
     @cached_property
     def constants(self) -> equations.Constants:

@@ -16,9 +16,8 @@ if TYPE_CHECKING:
 def model_of(tables: OverheadCase) -> OverheadModel:
     """Model of an overhead crane's case."""
     crane = OverheadCrane(**flat(tables.crane))
-    return OverheadModel(
-        crane, load_of(tables.payload, tables.rope, ground_of(tables)), rope_as_rod=tables.rope.slack == "rod"
-    )
+    load = load_of(tables.payload, tables.rope, ground_of(tables), hook=tables.hook, slings=tables.slings)
+    return OverheadModel(crane, load, rope_as_rod=tables.rope.slack == "rod")
 
 
 def lengths_of(model: OverheadModel) -> dict[str, float]:

@@ -30,7 +30,7 @@ TENSION, BRIDGE_FORCE, TROLLEY_FORCE, FIRST_RAIL, SECOND_RAIL = range(5)
 """Guards: rope tension; forces of both drives and of the bridge on each rail, only recorded [N]."""
 
 UPLIFT, ROPE_DIRECTION, RATE, SWAY, WORK, SIZE = 0, 1, 4, 5, 8, 9
-"""Where the parts of a state begin, and its size."""
+"""Where the parts of a state without slings begin, and its size."""
 
 AXES = 3
 

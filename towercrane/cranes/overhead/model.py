@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from towercrane.cranes.overhead import equations
-from towercrane.cranes.overhead.outputs import ABOUT, Seen, overhead_outputs
+from towercrane.cranes.overhead.outputs import ABOUT, SWAYS, Seen, overhead_outputs
 from towercrane.cranes.parts.hoisting.elastic import fastest_on, on_its_rope
 from towercrane.cranes.parts.hoisting.on_rope import OnRope
 from towercrane.cranes.parts.points import rope_about
@@ -57,7 +57,7 @@ class OverheadModel(OnRope):
     @property
     def about(self) -> dict[str, About]:
         """What the outputs are."""
-        return {**ABOUT, **rope_about(self.load)}
+        return {**ABOUT, **rope_about(self.load, "the floor where runway and first rail begin", SWAYS)}
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -79,11 +79,12 @@ class OverheadModel(OnRope):
         """The model as the solver sees it."""
         crane, load = self.crane, self.load
         guards = (SLACK_ROPE, "bridge force", "trolley force", "first rail", "second rail")
-        scale = np.ones(equations.SIZE)
-        scale[equations.WORK] = load.work_scale(crane.gravity, crane.bridge_span)
+        half = equations.ROPE_DIRECTION + equations.AXES * len(load.bodies)
+        scale = np.ones(2 * half + 1)
+        scale[-1] = load.work_scale(crane.gravity, crane.bridge_span)
         system = System(
             equations=equations.equations,
-            size=equations.SIZE,
+            size=len(scale),
             guards=guards,
             floors=np.array([-np.inf if self.rope_as_rod else SLACK, *[-np.inf] * (len(guards) - 1)]),
             scale=scale,
@@ -91,7 +92,7 @@ class OverheadModel(OnRope):
                 crane.bridge_span, crane.stiffness, crane.damping, crane.girder_mass, crane.bridge_end_carriage_mass,
                 crane.trolley_mass, crane.gravity, crane.runway_height, load,
             ),
-            directions=np.array([[equations.ROPE_DIRECTION, equations.SWAY, equations.AXES]]),
+            directions=np.array([[equations.ROPE_DIRECTION, half + equations.ROPE_DIRECTION, equations.AXES]]),
             # A trolley on it only adds inertia.
             fastest=lambda: crane.frequency,
         )  # fmt: skip
@@ -100,14 +101,12 @@ class OverheadModel(OnRope):
     def fastest_on(self, length: float) -> float:
         """Highest angular frequency of its small motions on so much elastic rope [rad/s], the trolley at mid-span."""
         middle = np.array([[0.0, 0.0], [0.5 * self.crane.bridge_span, 0.0]])
-        return fastest_on(
-            np.array([[self.crane.stiffness]]), self.suspended(np.zeros(equations.SIZE), middle), self.load, length
-        )
+        return fastest_on(np.array([[self.crane.stiffness]]), self.suspended(np.zeros(3), middle), self.load, length)
 
     def suspended(self, state: Floats, inputs: Floats) -> Structure:
         """Bridge and trolley in a state, as their drives move them."""
         bridge, trolley = (polynomial(inputs[row], 0.0) for row in (equations.BRIDGE, equations.TROLLEY))
-        uplift, rate = state[equations.UPLIFT], state[equations.RATE]
+        uplift, rate = state[equations.UPLIFT], state[len(state) // 2 + equations.UPLIFT]
         return equations.structure(self.system.constants, uplift, rate, bridge, trolley)
 
     def below(self, _state: Floats, inputs: Floats) -> tuple[float, float, float]:
@@ -115,9 +114,9 @@ class OverheadModel(OnRope):
         length, rate, _ = polynomial(inputs[equations.ROPE], 0.0)
         return length, length, rate
 
-    def load_at_rest(self, _inputs: Floats) -> Floats:
-        """Force on the load at rest [N]; shape (3,)."""
-        return np.array([0.0, 0.0, -self.load.mass * self.crane.gravity])
+    def load_at_rest(self, _inputs: Floats, load: Load) -> Floats:
+        """Force on a load at rest [N]; shape (3,)."""
+        return np.array([0.0, 0.0, -load.whole_mass * self.crane.gravity])
 
     def start(self, inputs: Floats, state: str = "equilibrium") -> Floats:
         """State in which bridge and load are at rest.
@@ -139,9 +138,9 @@ class OverheadModel(OnRope):
             If the state is not one of the two.
         """
         check_start(state)
-        y = np.zeros(equations.SIZE)
+        y = np.zeros(self.system.size)
         if state == "equilibrium":
-            y[equations.UPLIFT] = self.crane.uplift_at_rest(inputs[equations.TROLLEY, 0], self.load.mass)
+            y[equations.UPLIFT] = self.crane.uplift_at_rest(inputs[equations.TROLLEY, 0], self.load.whole_mass)
         return self.hung(y, inputs, state)
 
     @property

@@ -15,10 +15,16 @@ from towercrane.simulation.observed import About
 
 if TYPE_CHECKING:
     from towercrane.cranes.overhead.equations import Constants
+    from towercrane.kernels.algebra import Row
     from towercrane.simulation.observed import Instant
 
 RUNWAY = {name: BASE[name] for name in ("base_force_x", "base_force_y", "base_force_z", "base_shear")}
 """Outputs of the base: forces alone, since a runway is nothing that a crane could overturn."""
+
+SWAYS = {
+    "sway_along_runway": About("rad", "sway along the runway, atan2(along, down)"),
+    "sway_along_bridge": About("rad", "sway along the bridge, atan2(along, down)"),
+}
 
 ABOUT = {
     "bridge_position": About("m", "bridge along the runway"),
@@ -30,8 +36,7 @@ ABOUT = {
     ),
     "trolley_drop": About("m", "deflection of the bridge under the trolley, positive down"),
     "rope_length": About("m", "rope length"),
-    "sway_along_runway": About("rad", "sway along the runway, atan2(along, down)"),
-    "sway_along_bridge": About("rad", "sway along the bridge, atan2(along, down)"),
+    **SWAYS,
     "hoist_rope_force": About("N", "rope tension"),
     "bridge_force": About("N", "force of the bridge's drive; at a jump the right limit"),
     "trolley_force": About("N", "force of the trolley's drive; at a jump the right limit"),
@@ -72,7 +77,9 @@ def overhead_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
         [bridge_rate, trolley_rate, shape * rate + tilt * trolley_rate * uplift],
     )
     carried = suspension.carry(crane.load, state, length, hauling, instant.guards)
-    load, direction = carried.load, carried.along
+
+    def sways(along: Row) -> dict[str, Any]:
+        return dict(zip(SWAYS, (np.arctan2(along[k], -along[2]) for k in range(2)), strict=True))
 
     energy = 0.5 * (crane.girder_mass + crane.carriage_mass) * bridge_rate * bridge_rate
     energy = energy + 0.25 * crane.girder_mass * rate * rate + 0.5 * crane.stiffness * uplift * uplift
@@ -88,8 +95,8 @@ def overhead_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
         "bridge_deflection": -uplift,
         "trolley_drop": -shape * uplift,
         "rope_length": length,
-        "sway_along_runway": np.arctan2(direction[0], -direction[2]),
-        "sway_along_bridge": np.arctan2(direction[1], -direction[2]),
+        **sways(carried.along),
+        **carried.sling_sways(state, sways),
         "hoist_rope_force": tension,
         **carried.shown,
         "bridge_force": bridge_force,
@@ -97,7 +104,7 @@ def overhead_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
         "first_rail_load": first_rail,
         "second_rail_load": second_rail,
         **{name: read(Reaction(runway, NONE)) for name, (read, _) in RUNWAY.items()},
-        "payload_position": load.place,
-        "total_energy": energy + load.energy(crane.load.mass, crane.gravity) + carried.stored,
+        "payload_position": carried.load.place,
+        "total_energy": energy + carried.energy(crane.load, crane.gravity) + carried.stored,
         "input_work": instant.state[-1],
     }

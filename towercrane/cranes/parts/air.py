@@ -24,7 +24,7 @@ def air_at(nodes: int, drives: Row) -> list[Vector]:
 
 
 def load_force(load: Load | Momentary, gravity: Any, wind: Row) -> list[Any]:
-    """Force of weight and of a wind along the load's axes on the load at rest [N]."""
+    """Force of weight and of a wind along the load's axes on all that hangs on the rope, at rest [N]."""
     speed = np.sqrt(dot(wind, wind))
-    pull = [load.drag * speed * own for own in wind]
-    return [*pull[:-1], pull[-1] - load.mass * gravity]
+    pull = [load.whole_drag * speed * own for own in wind]
+    return [*pull[:-1], pull[-1] - load.whole_mass * gravity]

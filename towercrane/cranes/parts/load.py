@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from towercrane.cranes.parts.hoisting.release_table import release_of
 from towercrane.kernels.elastic_rope import BY_STRAIN, TAUT, Elasticity
 from towercrane.kernels.ground import Ground
-from towercrane.kernels.payload import AIR_DENSITY, Load
+from towercrane.kernels.payload import AIR_DENSITY, Load, Sling
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.ranges import at, si_at
 
@@ -18,17 +19,36 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.parts.hoisting.release_table import Released
     from towercrane.cranes.parts.tables import CaseTable
-    from towercrane.schema.fields import Payload, Rope
+    from towercrane.schema.fields import Hook, Payload, Rope, Slings
+
+LIGHTEST = 0.01
+"""Mass of a hook over that of the load below which it is merged with the load."""
 
 
 def load_of(
-    payload: Payload, rope: Rope | None = None, ground: Ground | None = None, released: Released | None = None
+    payload: Payload,
+    rope: Rope | None = None,
+    ground: Ground | None = None,
+    released: Released | None = None,
+    *,
+    hook: Hook | None = None,
+    slings: Slings | None = None,
 ) -> Load:
-    """The load, its rope's losses, how it stretches if the rope is told and does, the ground, what of it lets go."""
-    drag_area = payload.drag_area or 2.0 * payload.drag / AIR_DENSITY
-    elasticity = None if rope is None else elasticity_of(payload, rope)
+    """The load, its rope's losses, how it stretches if the rope is told and does, the ground, what of it lets go, and
+    the hook that it hangs below.
+
+    A light hook would swing ever faster for nothing: one that is lighter than a hundredth of the load gets that mass
+    from the load.
+    """
+    drag_area, mass = payload.drag_area or 2.0 * payload.drag / AIR_DENSITY, payload.mass
+    links: tuple[Sling, ...] = ()
+    if hook is not None and slings is not None:
+        whole = payload.mass + hook.mass
+        mass = min(mass, whole / (1.0 + LIGHTEST))
+        links = (Sling(whole - mass, slings.length, hook.drag_area),)
     going = None if released is None else release_of(payload, released)
-    return Load(payload.mass, payload.rope_damping, drag_area, elasticity, ground, going)
+    found = Load(mass, payload.rope_damping, drag_area, None, ground, going, links)
+    return found if rope is None else replace(found, elasticity=elasticity_of(found.whole_mass, rope))
 
 
 def ground_of(tables: CaseTable, foot: float = 0.0) -> Ground | None:
@@ -40,15 +60,25 @@ def ground_of(tables: CaseTable, foot: float = 0.0) -> Ground | None:
     return Ground((tables.ground.height or 0.0) + foot, friction=tables.ground.friction)
 
 
-def elasticity_of(payload: Payload, rope: Rope) -> Elasticity | None:
-    """How a rope stretches, if it does; a damping ratio is of this load on its length at the start."""
+def merged(payload: Payload, hook: Hook | None) -> Iterator[str]:
+    """What is said of a hook that is merged with its load; nothing of others."""
+    if hook is not None and hook.mass < LIGHTEST * payload.mass:
+        share = (payload.mass + hook.mass) * LIGHTEST / (1.0 + LIGHTEST)
+        yield (
+            f"hook.mass: a hook of {hook.mass:g} kg, below {LIGHTEST:g} of the load, would only swing fast: it is "
+            f"merged with the load and takes {share:.4g} kg of both together"
+        )
+
+
+def elasticity_of(mass: float, rope: Rope) -> Elasticity | None:
+    """How a rope stretches, if it does; a damping ratio is of this mass on its length at the start."""
     stiffness = rope.stiffness or rope.falls * (rope.axial_stiffness or 0.0)
     if not stiffness:
         return None
     relaxation = rope.relaxation_time
     if rope.damping_ratio:
         spring = stiffness / (rope.length + rope.extra_length)
-        relaxation = 2.0 * rope.damping_ratio * float(np.sqrt(payload.mass / spring))
+        relaxation = 2.0 * rope.damping_ratio * float(np.sqrt(mass / spring))
     return Elasticity(stiffness, rope.extra_length, relaxation, TAUT if rope.slack == "rod" else BY_STRAIN)
 
 
@@ -62,6 +92,24 @@ OF_STRETCH = ("extra_length", "relaxation_time", "damping_ratio", "falls")
 def stretched(tree: dict[str, Any]) -> bool:
     """Whether the rope of a case as written stretches."""
     return any(at(tree, key) is not None for key in (BASIC, "rope.stiffness", "rope.axial_stiffness"))
+
+
+def check_slings(tree: dict[str, Any]) -> Iterator[Fault]:
+    """A hook without slings, and slings without a hook."""
+    for key, other, hint in (
+        ("hook", "slings", "a hook that the load does not hang below is part of payload.mass"),
+        ("slings", "hook", "slings hang from a hook: [hook] mass"),
+    ):
+        if at(tree, key) is not None and at(tree, other) is None:
+            yield Fault("", key, f"a table [{other}] beside it", "none", hint)
+    if at(tree, "hook") is not None:
+        for key in ("ground", "release"):
+            if at(tree, key) is not None:
+                hint = "a load on slings neither stands on ground nor lets go; leave the hook in payload.mass"
+                yield Fault("", key, "no such table beside [hook]", "one", hint)
+    if (stiffness := at(tree, "slings.stiffness")) is not None:
+        hint = "slings do not stretch: a tension that falls to nothing ends the run; a rope does, rope.stiffness"
+        yield Fault("", "slings.stiffness", "no key here", shown(stiffness), hint)
 
 
 def check_rope(tree: dict[str, Any]) -> Iterator[Fault]:

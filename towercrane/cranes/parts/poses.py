@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -42,6 +42,8 @@ class Poses:
     undeformed : mapping of str to ndarray
         The same without any deformation, its drives where they are at that time.
     load : ndarray, shape (f, 3)
+    hook : ndarray, shape (f, 3), optional
+        What the load hangs below, on slings.
     """
 
     times: Floats
@@ -49,6 +51,19 @@ class Poses:
     members: Mapping[str, Floats]
     undeformed: Mapping[str, Floats]
     load: Floats
+    hook: Floats | None = None
+
+    @property
+    def hanging(self) -> Floats:
+        """What hangs on the rope from above, the load the last; shape (f, bodies, 3)."""
+        return np.stack([self.load] if self.hook is None else [self.hook, self.load], axis=1)
+
+    def below_hook(self, result: xr.Dataset) -> Poses:
+        """The same with the hook of a result that has one."""
+        if "hook_position" not in result:
+            return self
+        hook, load = (sampled(result, name, self.times) for name in ("hook_position", "payload_position"))
+        return replace(self, hook=self.load + (hook - load))
 
     def magnified(self, factor: float) -> dict[str, Floats]:
         """Members whose points are so many times as far from their undeformed places as they really are."""
@@ -69,7 +84,7 @@ class Poses:
     @property
     def planar(self) -> bool:
         """Whether nothing ever leaves the plane of x and the vertical."""
-        lines = [*self.members.values(), self.load[:, None]]
+        lines = [*self.members.values(), self.hanging]
         return max(float(abs(line[..., 1]).max()) for line in lines) == 0.0
 
     def fitting_magnification(self) -> float:

@@ -13,6 +13,7 @@ from towercrane.schema.fields import (
     EitherTurning,
     Expect,
     HingeDamping,
+    Hook,
     Payload,
     PositionIfAny,
     Ratio,
@@ -20,6 +21,7 @@ from towercrane.schema.fields import (
     Rope,
     RotaryStiffness,
     Run,
+    Slings,
     Solver,
     Table,
     TorqueOrNone,
@@ -78,6 +80,8 @@ class CaseTable(Table):
     payload: Payload
     rope: Rope
     ground: GroundTable | None = None
+    hook: Hook | None = None
+    slings: Slings | None = None
     motion: Table
     start: StartTable = Field(default_factory=StartTable)
     run: Run

@@ -35,8 +35,8 @@ def parameters_of(crane: SlewingCrane) -> SlewingParameters:
 
 def builder_of(tables: SlewingCase) -> Callable[[Any], LumpedModel]:
     """Model of a slewing case from a parameter set that may differ from the case's own."""
-    make, load = CRANES[tables.crane.kind], load_of(tables.payload, tables.rope, ground_of(tables))
-    as_rod = tables.rope.slack == "rod"
+    load = load_of(tables.payload, tables.rope, ground_of(tables), hook=tables.hook, slings=tables.slings)
+    make, as_rod = CRANES[tables.crane.kind], tables.rope.slack == "rod"
 
     def build(parameters: Any) -> LumpedModel:
         crane, wind = make(parameters, tables.rope.length), tables.wind

@@ -26,7 +26,7 @@ class LumpedModel(LumpedSystem):
     @cached_property
     def about(self) -> dict[str, About]:
         """What the outputs are, by name."""
-        return about_of(self.crane, wind=bool(self.wind), load=self.carried)
+        return about_of(self.crane, self.carried, wind=bool(self.wind))
 
     @cached_property
     def seen(self) -> Seen:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.parts.points import Carried
     from towercrane.cranes.slewing.description import LumpedCrane
     from towercrane.cranes.slewing.equations import Body, Constants
+    from towercrane.kernels.algebra import Row
     from towercrane.kernels.payload import Load
     from towercrane.simulation.observed import Instant
 
@@ -74,18 +75,25 @@ def seen_of(crane: LumpedCrane, constants: Constants) -> Seen:
 WINDS = {f"wind_{axis}": About("m/s", f"wind along {axis}, at the load") for axis in "xyz"}
 
 
-def about_of(crane: LumpedCrane, *, load: Load, wind: bool = False) -> dict[str, About]:
-    """What the outputs of a crane are, and of wind and rope where one blows and one stretches."""
+ORIGIN = "the slewing axis"
+
+SWAYS = {
+    "sway_tangential": About("rad", "sway across the jib, atan2(across, down), positive in the turning sense"),
+    "sway_radial": About("rad", "sway along the jib, atan2(along, down), positive outward"),
+}
+
+
+def about_of(crane: LumpedCrane, load: Load, *, wind: bool = False) -> dict[str, About]:
+    """What the outputs of a crane and its load are, and of a wind where one blows."""
     return {
-        "sway_tangential": About("rad", "sway across the jib, atan2(across, down), positive in the turning sense"),
-        "sway_radial": About("rad", "sway along the jib, atan2(along, down), positive outward"),
+        **SWAYS,
         "shaft_angle": About("rad", "angle of the drive's shaft, referred to the platform"),
         "shaft_speed": About("rad/s", "speed of the drive's shaft, referred to the platform"),
         "drive_torque": About("N m", "torque through the coupling with its damper, positive driving"),
         "drive_torque_elastic": About("N m", "torque of the coupling's spring alone, positive driving"),
         "rope_length": About("m", "length of the unstretched rope"),
         "hoist_rope_force": About("N", "rope tension"),
-        **rope_about(load),
+        **rope_about(load, ORIGIN, SWAYS),
         **{name: About(output.units, output.long_name) for name, output in crane.linear_outputs.items()},
         **{
             name: About("rad" if name in crane.angles else "m", f"coordinate: {name.replace('_', ' ')}")
@@ -93,7 +101,7 @@ def about_of(crane: LumpedCrane, *, load: Load, wind: bool = False) -> dict[str,
         },
         **(WINDS if wind else {}),
         **base_about(),
-        **load_places_about("the slewing axis"),
+        **load_places_about(ORIGIN),
         "total_energy": About("J", "kinetic and potential energy"),
         "input_work": About(
             "J", "work of shaft, winch and wind less what dampers, friction and drag took, since the start"
@@ -111,14 +119,21 @@ def lumped_outputs(seen: Seen, instant: Instant) -> dict[str, Any]:
     elastic = -coupling_torque(twist, drive.soft, drive.stiff, drive.corner)
     points = [point_of(body, q, rates) for body in crane.bodies]
     carried = points[crane.suspension].carry(crane.load, state, length, hauling, instant.guards)
-    load, along = carried.load, carried.along
-    outward, sideways = turned_back(heading, along)
+    load = carried.load
+
+    def sways(along: Row) -> dict[str, Any]:
+        outward, sideways = turned_back(heading, along)
+        return {
+            "sway_tangential": np.arctan2(sideways, -along[2]),
+            "sway_radial": np.arctan2(outward, -along[2]),
+        }
+
     # What is in the coupling and the rope, and what the load has.
     energy = coupling_energy(twist, drive.soft, drive.stiff, drive.corner)
-    energy = energy + carried.stored + load.energy(crane.load.mass, crane.gravity)
+    energy = energy + carried.stored + carried.energy(crane.load, crane.gravity)
     return {
-        "sway_tangential": np.arctan2(sideways, -along[2]),
-        "sway_radial": np.arctan2(outward, -along[2]),
+        **sways(carried.along),
+        **carried.sling_sways(state, sways),
         "shaft_angle": shaft,
         "shaft_speed": shaft_rate,
         "drive_torque": elastic - drive.damping * (rates[crane.driven] - shaft_rate),

@@ -71,12 +71,13 @@ class LumpedSystem(OnRope):
     @property
     def size(self) -> int:
         """Number of states."""
-        return 2 * (self.coordinates + equations.AXES) + 1
+        return 2 * (self.coordinates + equations.AXES * len(self.load.bodies)) + 1
 
     @property
     def freedoms(self) -> int:
-        """Degrees of freedom of crane and load; an inextensible rope takes one."""
-        return self.coordinates + equations.AXES - (self.carried.elasticity is None)
+        """Degrees of freedom of crane and load; an inextensible rope takes one, as does a sling."""
+        own = equations.AXES - 1
+        return self.coordinates + own * len(self.load.bodies) + (self.carried.elasticity is not None)
 
     @cached_property
     def carried(self) -> Load:
@@ -141,7 +142,7 @@ class LumpedSystem(OnRope):
     @cached_property
     def system(self) -> System:
         """The model as the solver sees it."""
-        crane, rates, scale = self.crane, self.coordinates + equations.AXES, np.ones(self.size)
+        crane, rates, scale = self.crane, self.size // 2, np.ones(self.size)
         reach = sum(abs(link.ahead.get("", 0.0)) for link in crane.points[crane.suspension].links)
         scale[-1] = self.load.work_scale(crane.gravity, reach)
         system = System(
@@ -160,7 +161,7 @@ class LumpedSystem(OnRope):
     @property
     def _switch(self) -> Transitions | None:
         """What its guards do; nothing where the coupling is a straight line and friction has one value."""
-        drive, rates = self.crane.drive, self.coordinates + equations.AXES
+        drive, rates = self.crane.drive, self.size // 2
         corner = Corners(((equations.INSIDE, equations.OUTSIDE),)) if drive.soft != drive.stiff else None
         sticks = drive.friction == "stick-slip"
         if corner is None and not sticks:
@@ -199,7 +200,7 @@ class LumpedSystem(OnRope):
 
     def suspended(self, state: Floats, inputs: Floats) -> Structure:
         """The crane in a state."""
-        q, rates = np.split(state[:-1], [self.rope, self.rope + self.axes, 2 * self.rope + self.axes])[::2]
+        q, rates = (state[first : first + self.rope] for first in (0, self.size // 2))
         winds = equations.winds_of(self.constants, inputs)
         return structure(self.constants, q, rates, inputs[equations.SHAFT], winds)[0]
 
@@ -208,10 +209,10 @@ class LumpedSystem(OnRope):
         length, rate, _ = polynomial(inputs[equations.ROPE], 0.0)
         return length, length, rate
 
-    def load_at_rest(self, inputs: Floats) -> Floats:
-        """Force of weight and wind on the load at rest [N]; shape (3,)."""
+    def load_at_rest(self, inputs: Floats, load: Load) -> Floats:
+        """Force of weight and wind on a load at rest [N]; shape (3,)."""
         *_, wind = equations.winds_of(self.constants, inputs)
-        return np.array(load_force(self.load, self.crane.gravity, wind))
+        return np.array(load_force(load, self.crane.gravity, wind))
 
     def jib_heading(self, state: Floats, _inputs: Floats) -> float:
         """Angle of the jib from the fixed x axis [rad]."""
@@ -222,7 +223,8 @@ class LumpedSystem(OnRope):
         """What turns with the platform."""
         rates = self.size // 2
         angles = [i for i, name in enumerate(self.crane.coordinates) if name in self.crane.angles]
-        vectors = (self.rope, self.rope + 1), (rates + self.rope, rates + self.rope + 1)
+        ropes = range(self.rope, rates, self.axes)
+        vectors = [(half + first, half + first + 1) for half in (0, rates) for first in ropes]
         return Turning(vectors, angles, equations.SHAFT)
 
     def undeformed(self, inputs: Floats) -> Floats:

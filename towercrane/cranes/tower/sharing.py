@@ -15,7 +15,7 @@ def made_of(model: FlexibleModel) -> str:
     coordinates = model.crane.written, model.counts, model.axes, model.heading, model.slewing, model.drive_inertia
     losses = model.damping, model.cap, model.wind, model.ground, model.floors
     said = model.weight_softening, model.self_weight, model.rope_as_rod, model.load.release is None, model.cuts.asked
-    return repr((*coordinates, *losses, *said))
+    return repr((*coordinates, *losses, *said, len(model.load.slings)))
 
 
 def plain(tables: TowerCase) -> bool:
@@ -23,4 +23,5 @@ def plain(tables: TowerCase) -> bool:
     # A hauled rope begins its motion at its length; what a tolerance of frequencies leaves out hangs on the load, and
     # so does what lets go of it.
     differs = tables.rope.stretches or tables.release is not None
-    return tables.motion.hoist is None and tables.accuracy.frequency is None and not differs
+    # A light hook's mass hangs on the load's.
+    return tables.hook is None and tables.motion.hoist is None and tables.accuracy.frequency is None and not differs

@@ -18,11 +18,15 @@ if TYPE_CHECKING:
 TURNS = ("slewing", "shaft")
 """Channels that turn the jib."""
 
-ACROSS = ("lateral", "torsion", "lateral sway")
+ACROSS = ("lateral", "torsion", "lateral sway", "lateral sling")
 """Kinds of mode that turning excites."""
 
 LATERAL_PAIR = 2
-"""Modes that turning excites: torsion of the tower and lateral sway are near each other and share both motions."""
+"""Modes that turning excites: torsion of the tower and lateral sway are near each other and share both motions. Each
+sling has one more."""
+
+ALONG = ("radial sway", "radial sling")
+"""Kinds of mode that a trolley, or a jib that luffs, excites; the second where there are slings."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +42,7 @@ class SwayFrequencies:
     _known: dict[tuple[bool, float, float], tuple[float, ...]] = field(default_factory=dict, init=False, repr=False)
 
     def __call__(self, channel: str, place: float, rope: float) -> tuple[float, ...]:
-        """Frequencies that a drive excites, ascending [Hz]: two across the jib, one along it.
+        """Frequencies that a drive excites, ascending [Hz]: two across the jib, one along it; more with slings.
 
         Parameters
         ----------
@@ -61,8 +65,10 @@ class SwayFrequencies:
         modes = natural_modes(self._scene, place, rope)
         if turns:
             across = [m for m in modes if sum(m.shares[kind] for kind in ACROSS) > 0.5]
-            return tuple(m.frequency_hz for m in across[:LATERAL_PAIR])
-        return (max(modes, key=lambda m: m.shares["radial sway"]).frequency_hz,)
+            return tuple(m.frequency_hz for m in across[: LATERAL_PAIR + len(self.model.load.slings)])
+        kinds = ALONG[: len(self.model.load.bodies)]
+        most = {max(modes, key=lambda m: m.shares[kind]).frequency_hz for kind in kinds}
+        return tuple(sorted(most))
 
     @cached_property
     def _scene(self) -> FlexibleModel:

@@ -59,6 +59,7 @@ OUT_OF_PLANE = (
     "slewing_speed",
     "slewing_torque",
     "sway_tangential",
+    "sling_sway_tangential",
     "tower_tip_displacement_sideways",
     "tower_tip_roll",
     "tower_tip_twist",

@@ -60,7 +60,7 @@ def truncation_error(model: Equations, crane: TowerCrane, trolley_position: floa
     at_trolley, moment = kept(trolley_position), kept.mass_moments()[1] + kept.rotary_moments()
     tilt = slope @ vectors[:tower]
     rise = at_trolley @ vectors[jib] - trolley_position * tilt
-    force = squared * (crane.trolley_mass + model.load.mass) * rise
+    force = squared * (crane.trolley_mass + model.load.whole_mass) * rise
     turning = -squared * tilt
 
     soft = 1.0 / kept.angular_frequencies**2

@@ -118,7 +118,7 @@ def _panels(figure: Figure, planar: bool) -> tuple[Axes, Axes | None, Axes]:
 
 
 def _views(side: Axes, above: Axes | None, poses: Poses, playback: Playback, magnification: float) -> list[View]:
-    cranes, load = (poses.undeformed, poses.members, poses.magnified(magnification)), poses.load[:, None]
+    cranes, load = (poses.undeformed, poses.members, poses.magnified(magnification)), poses.hanging
     look: dict[str, Any] = {"shaded": magnification != 1.0 and poses.deformation > 0.0, "playback": playback}
     seen = [{name: poses.turned_back(line) for name, line in lines.items()} for lines in cranes]
     views = [View(side, ALONG, *seen, load=poses.turned_back(load), **look)]

@@ -46,7 +46,8 @@ class View:
         Coordinates to the right and up in the picture.
     undeformed, true, drawn : mapping of str to ndarray, shapes (frames, points, 3)
         As in :class:`towercrane.cranes.parts.poses.Poses`; ``drawn`` is magnified.
-    load : ndarray, shape (frames, 1, 3)
+    load : ndarray, shape (frames, bodies, 3)
+        What hangs on the rope from above, the load the last.
     shaded : bool
         Whether the true crane is drawn beside the magnified one.
     playback : Playback
@@ -91,8 +92,8 @@ class View:
             (self.crane, _wire(drawn)),
             (hook, drawn["suspension"]),
             (self.rope, np.concatenate([true["suspension"], load], axis=1)),
-            (trolley, true["suspension"]),
-            (block, load),
+            (trolley, np.concatenate([true["suspension"], load[:, :-1]], axis=1)),
+            (block, load[:, -1:]),
         ]
         if "ballast" in true:
             places += [(weight, true["ballast"]), (counterweight, drawn["ballast"])]
@@ -102,7 +103,7 @@ class View:
         if self.held:
             places.append((self.collars, true["collars"]))
         self._places = [(artist, points[..., seen]) for artist, points in places]
-        self._load = load[:, 0][:, seen]
+        self._load = load[:, -1][:, seen]
         self._ages = [round(age * playback.frames_per_second) for age, _ in FADES]
         self._frame(axes, seen)
 

@@ -89,9 +89,8 @@ def swung(model: Model, state: Floats, inputs: Floats, start: Start, spin: float
     moving = np.column_stack([outward, left, [0.0, 0.0, 1.0]]) @ np.array(parts)
     direction, rate = moving.real, moving.imag / TINY
     rate = rate + spin * np.array([-direction[1], direction[0], 0.0])
-    if hasattr(asked, "hang"):
-        return np.asarray(asked.hang(state, inputs, direction, rate))
-    found = np.array(state)
+    found = np.array(asked.hang(state, inputs, direction, rate) if hasattr(asked, "hang") else state)
+    # Slings are held in line with the rope.
     for first, moved, count in model.system.directions:
         kept = [0, 1, 2] if count == 3 else [0, 2]
         found[first : first + count], found[moved : moved + count] = direction[kept], rate[kept]

@@ -51,6 +51,10 @@ def other_states(end: Mapping[str, Any], model: Model) -> str:
         return f"the coordinates {there}, where this run has {here}"
     if len(own["rope"]) != len(end["rope"]) or not np.allclose(own["rope"], end["rope"], rtol=SAME, atol=0.0):
         return f"another rope: stiffness, further length, relaxation time {end['rope']}, here {own['rope']}"
+    if own["slings"] != (hung := end.get("slings", [])):
+        lengths = (" and ".join(f"{length:g} m" for length in found) for found in (hung, own["slings"]))
+        there, here = (said or "no length" for said in lengths)
+        return f"slings of {there}, where this run has such of {here}"
     before, now = (np.array(found["basis"], dtype=float) for found in (end, own))
     if before.shape != now.shape or np.any(abs(before - now) > SAME * abs(now).max(initial=1.0)):
         return "modes of other shapes or signs"
@@ -83,7 +87,8 @@ def lifted(state: Floats, end: Mapping[str, Any], model: Model, heading: float) 
     for first, own in ((0, 0), (before, half)):
         for k, name in enumerate(end["coordinates"]):
             found[own + names.index(name)] = state[first + k]
-        found[own + len(names) : own + len(names) + 3] = state[first + before - 2], 0.0, state[first + before - 1]
+        ropes = state[first + len(end["coordinates"]) : first + before].reshape(-1, 2)
+        found[own + len(names) : own + half] = np.insert(ropes, 1, 0.0, axis=1).ravel()
     found[-1] = state[-1]
     return np.asarray(turning.turned(found, heading))
 
@@ -104,4 +109,5 @@ def _described(model: Model) -> dict[str, Any]:
         "axes": int(getattr(model, "axes", 3)),
         "coordinates": list(getattr(model, "state_names", ())),
         "basis": np.asarray(getattr(model, "basis", ())).tolist(),
+        "slings": [own.length for own in getattr(getattr(model, "load", None), "slings", ())],
     }

@@ -1,9 +1,9 @@
-"""A load on an elastic rope, over ground or not, as the solver sees it; how fast it vibrates."""
+"""Rope and slings as the solver sees them, over ground or not: where they go slack; how fast the load vibrates."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,14 +12,17 @@ from towercrane.cranes.parts.hoisting.contact import Contact
 from towercrane.cranes.parts.hoisting.slackening import Slackening
 from towercrane.kernels.algebra import vibrations
 from towercrane.kernels.elastic_rope import TAUT
+from towercrane.kernels.payload import SLACK
 from towercrane.kernels.straight.leaves import place_of
+from towercrane.simulation.outcomes import SLACK_SLING
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from towercrane.kernels.payload import Load, Structure
+    from towercrane.kernels.algebra import Row
+    from towercrane.kernels.payload import Load, Momentary, Structure
     from towercrane.simulation.system import Switch, System
 
     Floats = NDArray[np.float64]
@@ -28,12 +31,12 @@ if TYPE_CHECKING:
 def on_its_rope(
     system: System, load: Load, rope: int, fastest: Callable[[float], float], rope_as_rod: bool = False
 ) -> System:
-    """A crane's system, with what an elastic rope adds and takes away if it hangs its load on one.
+    """A crane's system, with what slings and an elastic rope add and take away if its load hangs on such.
 
     Parameters
     ----------
     system : System
-        With an inextensible rope, whose tension is its first guard.
+        With an inextensible rope, whose tension is its first guard and whose direction the first of all.
     load : Load
     rope : int
         Row of the inputs that is the rope's length.
@@ -47,6 +50,7 @@ def on_its_rope(
     ValueError
         If it does, and its elasticity does not say so; or if there is ground under a rope that is not elastic.
     """
+    system = _with_slings(system, load)
     if load.elasticity is None:
         if load.ground is not None:
             raise ValueError("Load.ground: wanted None under a rope that does not stretch, got ground")
@@ -63,7 +67,7 @@ def on_its_rope(
         system,
         guards=(*system.guards, *guards),
         floors=floors,
-        directions=system.directions[:0],
+        directions=system.directions[1:],
         switch=system.switch if rod else _switch(system, load),
         rope=rope,
         fastest=fastest,
@@ -92,6 +96,26 @@ def _switch(system: System, load: Load) -> Switch:
         slice(first, first + axes),
         slice(rate, rate + axes),
     )
+
+
+def _with_slings(system: System, load: Load) -> System:
+    """A system with tensions of slings as guards behind all others, and their directions behind that of the rope."""
+    if not (count := len(load.slings)):
+        return system
+    first, rate, axes = system.directions[0]
+    ropes = [(first + axes * k, rate + axes * k, axes) for k in range(count + 1)]
+    names = [SLACK_SLING] if count == 1 else [f"{SLACK_SLING} {k + 1}" for k in range(count)]
+    return replace(
+        system,
+        guards=(*system.guards, *names),
+        floors=np.append(system.floors, np.full(count, SLACK)),
+        directions=np.array(ropes),
+    )
+
+
+def sling_force(load: Load | Momentary, guards: Row) -> Any:
+    """Tension of the lowest sling, from the guards [N]."""
+    return guards[-1 if load.elasticity is None else slackening.SLACKENS - 1]
 
 
 def fastest_on(stiffness: Floats, hanging: Structure, load: Load, length: float) -> float:

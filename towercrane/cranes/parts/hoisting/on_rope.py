@@ -44,8 +44,8 @@ class OnRope(ABC):
         """Rope below what it hangs from, what the winch has given of it and the rate of that [m, m, m/s]."""
 
     @abstractmethod
-    def load_at_rest(self, inputs: Floats) -> Floats:
-        """Force of weight and wind on the load at rest [N]; shape (axes,)."""
+    def load_at_rest(self, inputs: Floats, load: Load) -> Floats:
+        """Force of weight and wind on a load, all of it that hangs or less, at rest [N]; shape (axes,)."""
 
     @property
     def carried(self) -> Load:
@@ -67,18 +67,32 @@ class OnRope(ABC):
         ground = self.carried.ground
         if ground is not None and ground.carries:
             return self._standing(inputs, start, ground.height)
-        direction, tension = -np.eye(self.axes)[-1], 0.0
-        if start == "equilibrium" and (force := self.load_at_rest(inputs)).any():
-            # Without weight and wind any direction will do.
-            tension = float(np.linalg.norm(force))
-            direction = force / tension
-        strain = tension / self.carried.elasticity.stiffness if self.carried.elasticity is not None else 0.0
-        found = self._placed(state, inputs, direction, np.zeros(self.axes), strain)
+        carried, still = self.carried, np.zeros(self.axes)
+        links = [self._hanging(inputs, carried.under(k), start) for k in range(len(carried.bodies))]
+        direction, tension = links[0]
+        strain = tension / carried.elasticity.stiffness if carried.elasticity is not None else 0.0
+        found = self._placed(state, inputs, direction, still, strain)
+        for (first, moved, count), (own, _) in zip(self.slings, links[1:], strict=True):
+            found[first : first + count], found[moved : moved + count] = own, still
         if ground is not None and start == "equilibrium":
             above = float(found[self.rope + self.axes - 1]) - ground.height
             if above < 0.0:
                 raise NoEquilibrium(IN_THE_GROUND, f"the load would hang {-above:.4g} m below the ground")
         return found
+
+    def _hanging(self, inputs: Floats, load: Load, start: str) -> tuple[Floats, float]:
+        """Direction of the link that a load hangs on at rest, and its tension [N]."""
+        force = self.load_at_rest(inputs, load) if start == "equilibrium" else np.zeros(self.axes)
+        if not force.any():
+            # Without weight and wind any direction will do.
+            return -np.eye(self.axes)[-1], 0.0
+        tension = float(np.linalg.norm(force))
+        return force / tension, tension
+
+    @property
+    def slings(self) -> Any:
+        """Rows of the table of directions that are slings."""
+        return self.system.directions[len(self.system.directions) - len(self.carried.slings) :]
 
     @property
     def lifted(self) -> Self:
@@ -128,7 +142,7 @@ class OnRope(ABC):
         own, strain, elasticity = direction[kept], 0.0, self.carried.elasticity
         if elasticity is not None:
             length, wound, _ = self.below(state, inputs)
-            before, force = self._along(state, inputs), self.load_at_rest(inputs)
+            before, force = self._along(state, inputs), self.load_at_rest(inputs, self.carried)
             reach = float(np.linalg.norm(before))
             strain = (reach - length) / (wound + elasticity.extra_length)
             if pulled := float(force @ before):

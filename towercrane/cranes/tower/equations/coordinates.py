@@ -203,8 +203,8 @@ class Coordinates:
 
     @property
     def size(self) -> int:
-        """Number of states: coordinates and rope direction with their rates, and the work done."""
-        return 2 * (self.coordinates + self.axes) + 1
+        """Number of states: coordinates and directions of rope and slings with their rates, and the work done."""
+        return 2 * (self.coordinates + self.axes * len(self.load.bodies)) + 1
 
     @cached_property
     def angular_frequencies(self) -> Floats:

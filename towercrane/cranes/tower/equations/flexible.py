@@ -88,7 +88,7 @@ class Equations(Coordinates, OnRope):
             floors=floors,
             scale=scale(self),
             constants=self.constants,
-            directions=np.array([[n, 2 * n + self.axes, self.axes]]),
+            directions=np.array([[n, self.size // 2 + n, self.axes]]),
             switch=self.switch((motion.INSIDE, motion.OUTSIDE), first),
             fastest=lambda: self.fastest,
             crossings=self.crossings,
@@ -240,7 +240,7 @@ class Equations(Coordinates, OnRope):
             return None
         n, parts, half = self.coordinates, self.parts, self.size // 2
         x, y = (range(parts[kind].start, parts[kind].stop) for kind in ("tower_x", "tower_y"))
-        places = [*zip(x, y, strict=True), (n, n + 1)]
+        places = [*zip(x, y, strict=True), *((first, first + 1) for first in range(n, half, self.axes))]
         rates = [(half + one, half + other) for one, other in places]
         return Turning((*places, *rates), range(parts["slewing"].start, parts["slewing"].stop), SLEWING)
 
@@ -331,11 +331,11 @@ class Equations(Coordinates, OnRope):
         """Where the load's part of the state begins."""
         return self.coordinates
 
-    def load_at_rest(self, inputs: Floats) -> Floats:
-        """Force of weight and wind on the load at rest [N]; shape (axes,)."""
+    def load_at_rest(self, inputs: Floats, load: Load) -> Floats:
+        """Force of weight and wind on a load at rest [N]; shape (axes,)."""
         *_, air = winds_of(self.constants, [[value] for value in inputs[:, 0]])
         own = [air[k] for k in self.constants.fixed_axes]
-        return np.array(load_force(self.load.now(inputs[self.constants.release]), self.constants.gravity, own))
+        return np.array(load_force(load.now(inputs[self.constants.release]), self.constants.gravity, own))
 
     def below(self, state: Floats, inputs: Floats) -> tuple[float, float, float]:
         """Rope below what it hangs from, what the winch has given of it and its rate [m, m, m/s]."""

@@ -17,6 +17,7 @@ import numpy as np
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
 from towercrane.cranes.tower.equations.jib import Section
 from towercrane.cranes.tower.equations.structure import slewing_torque, structure
+from towercrane.kernels.chain import chain_at_rest
 from towercrane.kernels.payload import state_of
 from towercrane.kernels.polynomial import polynomial
 from towercrane.motions.motion import SAME_INSTANT, Phases, shifted
@@ -81,8 +82,8 @@ class Joints:
 
         With dv the jump of the velocity of the rope's upper end D at the rates before, n along the rope and J what
         rates move D, ``(M + m J^T n n^T J) dq' = -J^T (m_c + m n n^T) dv``. The load's velocity across the rope is
-        kept. Each drive that is prescribed puts in its impulse times its rate: the trolley's on trolley and load,
-        along the mean of its two ways; the hoist's in the rope; the slewing's about the tower's axis.
+        kept. With slings m is what the rope feels of them and the hook, see :mod:`towercrane.kernels.chain`. Each
+        drive that is prescribed puts in its impulse times its rate: the trolley's on trolley and load, along the mean of its two ways; the hoist's in the rope; the slewing's about the tower's axis.
 
         Parameters
         ----------
@@ -97,8 +98,12 @@ class Joints:
         velocity = np.array(outer.hanging.velocity) - np.array(inner.hanging.velocity)
         # An elastic rope has no impulse to give in no time.
         parts = state_of(state, crane.coordinates, crane.axes)
-        load = crane.load.now(after[crane.release]).mass * self._carries
+        hangs = crane.load.now(after[crane.release])
         n = np.array(parts.direction) / np.linalg.norm(parts.direction)
+        chain = chain_at_rest(hangs, parts)
+        links, share, _ = chain.solved(n)
+        # What the rope feels: of a load without slings its mass.
+        load = self._carries * chain.masses[0] / (1.0 - share * chain.masses[0])
         jacobian = np.array(outer.hanging.jacobian, dtype=float).reshape(crane.axes, crane.coordinates)
         dragged = crane.trolley_mass * np.eye(crane.axes) + load * np.outer(n, n)
         row = jacobian.T @ n
@@ -106,10 +111,15 @@ class Joints:
         rates = np.linalg.solve(mass, -jacobian.T @ dragged @ velocity) if crane.coordinates else np.empty(0)
         thrown = jacobian @ rates + velocity
         (length, hauling, _), (_, speed, _) = (polynomial(after[row], 0.0) for row in (ROPE, TROLLEY))
-        found, place = state.copy(), crane.coordinates + crane.axes
-        found[place : place + crane.coordinates] += rates
-        found[place + crane.coordinates : 2 * place] -= self._carries * (thrown - n * (n @ thrown)) / length
         way, along = 0.5 * (np.array(inner.path) + np.array(outer.path))[list(crane.fixed_axes)], load * (n @ thrown)
+        pulls, moved = [-along, *chain.tensions(links, -along)], self._carries * thrown
+        if links:
+            moved = moved - pulls[1] / chain.masses[0] * np.array(chain.directions[0])
+        found, half = state.copy(), len(state) // 2
+        rope = half + crane.coordinates
+        found[half:rope] += rates
+        found[rope : rope + crane.axes] -= (moved - n * (n @ moved)) / length
+        found[rope + crane.axes : 2 * half] += chain.turning(n, pulls)
         found[-1] += speed * way @ dragged @ thrown + hauling * along
         if crane.slewing == "prescribed":
             column, _ = outer.share.turning

@@ -25,7 +25,7 @@ def geometric_stiffness(model: Coordinates) -> Floats:
 def _taken(model: Coordinates, own: float) -> Floats:
     """What unit gravity takes from the stiffness of the tower modes, by so much of the structure's own mass."""
     crane = model.crane
-    above = own * crane.turning_mass + crane.trolley_mass + model.load.mass
+    above = own * crane.turning_mass + crane.trolley_mass + model.load.whole_mass
     slopes, weights = crane.tower_softening
     return np.asarray(above * slopes + own * weights)
 
@@ -93,7 +93,7 @@ def scale(model: Coordinates) -> Floats:
             abs(crane.tied.column([crane.tied.bars.head.height]))[:, 0],
             np.ones(model.counts["tie"] + model.counts["tie_sideways"]),
         ]
-    sizes = np.concatenate([1.0 / np.concatenate(largest), np.ones(model.axes)])
+    sizes = np.concatenate([1.0 / np.concatenate(largest), np.ones(model.axes * len(model.load.bodies))])
     return np.concatenate([sizes, sizes, [model.load.work_scale(crane.gravity, crane.jib_length)]])
 
 

@@ -19,9 +19,18 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-MOTION_KINDS = ("radial", "lateral", "torsion", "radial sway", "lateral sway", "rope")
+MOTION_KINDS = (
+    "radial",
+    "lateral",
+    "torsion",
+    "radial sway",
+    "lateral sway",
+    "rope",
+    "radial sling",
+    "lateral sling",
+)
 """What moves in a mode: tower and jib in the jib's vertical plane, tower and jib across it, torsion with slewing, the
-load along and across the jib, and the rope that stretches."""
+rope along and across the jib, the rope that stretches, and slings along and across the jib."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +47,7 @@ class NaturalMode:
         Share of each kind in the elastic and potential energy; they add up to 1.
     shape : ndarray, shape (coordinates + 2,)
         Coordinates, the stretch of a rope that does, then the load's way from the point it hangs from, along the
-        fixed axes x and y [m].
+        fixed axes x and y [m]; under a hook the hook's, then of each body below from the one above.
     """
 
     angular_frequency: float
@@ -66,12 +75,12 @@ def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None
     Returns
     -------
     mass, stiffness : ndarray, shape (coordinates + axes - 1, coordinates + axes - 1)
-        The last coordinates are the load's horizontal way from the point it hangs from [m]; before them, where the
-        rope stretches, its stretch [m].
+        The last coordinates are the load's horizontal way from the point it hangs from [m], under a hook the hook's
+        and then of each body below from the one above; before them, where the rope stretches, its stretch [m].
     """
     inputs = np.zeros((len(model.channels), 3))
     inputs[:, 0] = np.ravel(np.asarray(drives, dtype=float))
-    n, sways, load = model.coordinates, model.axes - 1, model.load.now(inputs[model.constants.release]).mass
+    n, sways, load = model.coordinates, model.axes - 1, model.load.now(inputs[model.constants.release])
     there = np.zeros(n) if about is None else about
     at_rest = model.at_rest(there, inputs)
     columns = np.array(at_rest.jacobian, dtype=float).reshape(model.axes, n)
@@ -81,19 +90,28 @@ def linear_matrices(model: Equations, drives: ArrayLike, *, about: Floats | None
     own[:sways, -sways:] = np.eye(sways)
     if elasticity is not None:
         own[-1, 0] = -1.0
-    moved, whole = np.hstack([columns, own]), n + own.shape[1]
-    mass, stiffness = load * moved.T @ moved, np.zeros((whole, whole))
+    moved = np.hstack([columns, own, *[np.zeros((model.axes, sways))] * len(load.slings)])
+    mass, stiffness = np.zeros((2, moved.shape[1], moved.shape[1]))
+    for k, body in enumerate(load.bodies):
+        below = slice(n + own.shape[1] + (k - 1) * sways, n + own.shape[1] + k * sways)
+        if k:
+            moved[:sways, below] = np.eye(sways)
+            held = model.load.under(k).whole_mass * model.crane.gravity / load.slings[k - 1].length
+            stiffness[below, below] = held * np.eye(sways)
+        mass += body.mass * moved.T @ moved
     mass[:n, :n] += at_rest.mass_matrix()
+    weight = load.whole_mass * model.crane.gravity
     if elasticity is not None:
         wound = float(inputs[1, 0])
         stiffness[n, n] = elasticity.spring(wound)
-        length += load * model.crane.gravity / stiffness[n, n]
+        length += weight / stiffness[n, n]
     if about is None:
         stiffness[:n, :n] = model.constants.stiffness
     elif n:
         slope, _ = jacobian(lambda q: -model.static_forces(q, inputs), about, model.system.scale[:n])
         stiffness[:n, :n] = 0.5 * (slope + slope.T) + model.contact(about, inputs)[1]
-    stiffness[-sways:, -sways:] = load * model.crane.gravity / length * np.eye(sways)
+    rope = slice(n + own.shape[1] - sways, n + own.shape[1])
+    stiffness[rope, rope] = weight / length * np.eye(sways)
     return mass, stiffness
 
 
@@ -127,9 +145,9 @@ def plane_modes(model: Equations, place: float, rope_length: float, gone: float 
     Returns
     -------
     frequencies : ndarray, shape (coordinates + 1,)
-        Angular frequencies, ascending [rad/s].
+        Angular frequencies, ascending [rad/s]; with slings one more for each.
     swing : int
-        Index of the mode in which the load swings most: the one with the largest share of its elastic and potential
+        Index of the mode in which the rope swings most: the one with the largest share of its elastic and potential
         energy in the pendulum.
 
     Raises
@@ -139,7 +157,8 @@ def plane_modes(model: Equations, place: float, rope_length: float, gone: float 
     """
     mass, stiffness = plane_matrices(model, place, rope_length, gone)
     frequencies, vectors = reciprocal_modes(model, mass, stiffness)
-    return frequencies, int(np.argmax(stiffness[-1, -1] * vectors[-1] ** 2))
+    rope = -len(model.load.bodies)
+    return frequencies, int(np.argmax(stiffness[rope, rope] * vectors[rope] ** 2))
 
 
 def plane_matrices(model: Equations, place: float, rope_length: float, gone: float = 0.0) -> tuple[Floats, Floats]:
@@ -233,9 +252,9 @@ def _standing(model: Equations, place: float, rope_length: float, slewing_angle:
 def _head_frame(model: Equations, heading: float) -> Floats:
     """Orthogonal matrix that turns what is given along x and y into along and across the jib."""
     n, parts = model.coordinates, model.parts
-    rope = n + (model.load.elasticity is not None)
-    frame = np.eye(rope + 2)
-    pairs = [(rope, rope + 1)]
+    rope, links = n + (model.load.elasticity is not None), len(model.load.bodies)
+    frame = np.eye(rope + 2 * links)
+    pairs = [(rope + 2 * k, rope + 2 * k + 1) for k in range(links)]
     if model.counts["tower_y"]:
         pairs += zip(
             range(*parts["tower_x"].indices(n)),
@@ -258,5 +277,6 @@ def _rows(model: Equations) -> dict[str, list[int]]:
         [rope],
         [rope + 1],
         list(range(n, rope)),
+        *(list(range(rope + 2 + side, rope + 2 * len(model.load.bodies), 2)) for side in range(2)),
     )
     return dict(zip(MOTION_KINDS, groups, strict=True))

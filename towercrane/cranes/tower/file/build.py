@@ -161,7 +161,14 @@ def described_scene(tables: TowerCase, built: TowerCrane | None = None) -> dict[
     made = built or crane_of(tables)
     return {
         "crane": made,
-        "load": load_of(tables.payload, tables.rope, ground_of(tables, -made.tower.length), tables.release),
+        "load": load_of(
+            tables.payload,
+            tables.rope,
+            ground_of(tables, -made.tower.length),
+            tables.release,
+            hook=tables.hook,
+            slings=tables.slings,
+        ),
         "self_weight": tables.start.state != "zero-no-self-weight",
         "rope_as_rod": tables.rope.slack == "rod",
         "damping": ModalDamping(

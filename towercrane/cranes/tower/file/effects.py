@@ -96,7 +96,8 @@ def effects_in(tables: TowerCase) -> Effects:
     """
     model, tolerance = tables.model, tables.accuracy.frequency
     asked = "weight_softening" in model.model_fields_set
-    return _effects(tables.crane, tables.payload.mass, tables.modes.count, model.weight_softening, asked, tolerance)
+    hung = tables.payload.mass + (0.0 if tables.hook is None else tables.hook.mass)
+    return _effects(tables.crane, hung, tables.modes.count, model.weight_softening, asked, tolerance)
 
 
 @lru_cache(maxsize=8)

@@ -28,7 +28,7 @@ def kinetic_energy(at: Kinematics) -> Any:
     """Kinetic energy of crane and load [J]."""
     crane = at.seen.crane
     energy = own_energy(at) + turning_energy(at, at.head, crane.straight)
-    for mass, (_, speed) in ((crane.trolley_mass, at.trolley_in_space), (at.load.mass, at.load_in_space)):
+    for mass, (_, speed) in ((crane.trolley_mass, at.trolley_in_space), *at.hung):
         energy = energy + 0.5 * mass * dot(speed, speed)
     return energy
 
@@ -38,7 +38,7 @@ def potential_energy(at: Kinematics) -> Any:
     crane, q = at.seen.crane, at.state.coordinates
     moment = crane.static_moment, *at.deflection(crane.jib_mass[crane.movers :], q)
     energy = elastic_energy(at) + crane.self_gravity * dot(at.head.rows[2], moment)
-    for mass, (place, _) in ((crane.trolley_mass, at.trolley_in_space), (at.load.mass, at.load_in_space)):
+    for mass, (place, _) in ((crane.trolley_mass, at.trolley_in_space), *at.hung):
         energy = energy + crane.gravity * mass * place[2]
     return energy
 

@@ -187,8 +187,32 @@ class Kinematics:
         return length, hauling
 
     @cached_property
+    def hung(self) -> list[tuple[Any, tuple[Vector, Vector]]]:
+        """Mass of each body that hangs, from above, its position from the undeformed tower top, and its velocity."""
+        load, moving = self.load, self.on_rope
+        found = [(load.bodies[0].mass, moving)]
+        for sling, own, (direction, swing) in zip(load.slings, load.bodies[1:], self.state.links(), strict=True):
+            place, velocity = (
+                tuple(at + sling.length * n for at, n in zip(above, in_space(link), strict=True))
+                for above, link in zip(moving, (direction, swing), strict=True)
+            )
+            moving = place, velocity
+            found.append((own.mass, moving))
+        return found
+
+    @cached_property
     def load_in_space(self) -> tuple[Vector, Vector]:
         """Position of the load from the undeformed tower top, and its velocity."""
+        return self.hung[-1][1]
+
+    @cached_property
+    def sling(self) -> Vector:
+        """Direction of the sling that carries the load."""
+        return in_space(self.state.links()[-1][0])
+
+    @cached_property
+    def on_rope(self) -> tuple[Vector, Vector]:
+        """Position of what hangs on the rope from the undeformed tower top, and its velocity."""
         if self.seen.crane.load.elasticity is not None:
             return in_space(self.state.direction), in_space(self.state.swing)
         (place, velocity), (length, hauling) = self.trolley_in_space, self.below

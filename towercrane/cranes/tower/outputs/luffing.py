@@ -95,8 +95,9 @@ class LuffingSight(Sight):
         swept = cross(self.head.spin, (x, 0.0, z))
         kinetic = kinetic + 0.5 * own.rest_mass * dot(self.head.top, self.head.top) + dot(self.head.top, swept)
         kinetic = kinetic + 0.5 * (ixx * wx * wx + iyy * wy * wy + izz * wz * wz) + ixz * wx * wz
-        place, velocity = self.load_in_space
-        kinetic = kinetic + energy.own_energy(self) + 0.5 * self.load.mass * dot(velocity, velocity)
+        kinetic = kinetic + energy.own_energy(self)
+        for own_mass, (_, velocity) in self.hung:
+            kinetic = kinetic + 0.5 * own_mass * dot(velocity, velocity)
 
         modes, _ = jib_part(crane, self.state)
         bent = moment, *self.deflection(crane.jib_mass[crane.movers :], q)
@@ -104,7 +105,9 @@ class LuffingSight(Sight):
         first = [first[0] + x, first[1], first[2] + z]
         sagged = 0.5 * self.pivot.s * form(modes, own.weighted, modes)
         weight = dot(self.head.rows[2], first) - sagged
-        potential = crane.self_gravity * weight + crane.gravity * self.load.mass * place[2]
+        potential = crane.self_gravity * weight
+        for own_mass, (place, _) in self.hung:
+            potential = potential + crane.gravity * own_mass * place[2]
         return kinetic + potential + energy.elastic_energy(self) + self.held.energy
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from towercrane.cranes.parts.base import BASE, Reaction, length
 from towercrane.cranes.parts.hoisting.contact import REACTION
+from towercrane.cranes.parts.hoisting.elastic import sling_force
 from towercrane.cranes.parts.points import GROUND_FORCE, ROPE_STRETCH
 from towercrane.cranes.tower.equations.constants import ROPE, SLEWING, TROLLEY
 from towercrane.cranes.tower.equations.coordinates import ANGLES, BOWS
@@ -154,6 +155,21 @@ OUTPUTS: dict[str, tuple[Callable[[Sight], Any], About]] = {
         lambda at: np.arctan2(at.sways[0], at.sways[2]),
         About("rad", "sway along the jib's root, atan2(along, down), positive outward"),
     ),
+    "sling_sway_tangential": (
+        lambda at: np.arctan2(at.by_jib(*at.sling[:2])[1], -at.sling[2]),
+        About("rad", "sway of the load below the hook across the jib's root, atan2(across, down)"),
+    ),
+    "sling_sway_radial": (
+        lambda at: np.arctan2(at.by_jib(*at.sling[:2])[0], -at.sling[2]),
+        About("rad", "sway of the load below the hook along the jib's root, atan2(along, down), positive outward"),
+    ),
+    "sling_force": (
+        lambda at: sling_force(at.seen.crane.load, at.instant.guards), About("N", "tension of the sling"),
+    ),
+    "hook_position": (
+        lambda at: (*at.from_plane(*at.on_rope[0][:2]), at.on_rope[0][2]),
+        About("m", f"hook from {ORIGIN} in fixed axes: x, y, up", ("fixed_axis",), 3),
+    ),
     "swing_rate": (
         lambda at: at.swing_rate,
         About("rad/s", "rate of the swing along the direction that the jib's root has at that time"),
@@ -262,6 +278,8 @@ def about(
         "counter": model.crane.counter_bends,
         "rope_stretch": crane.load.elasticity is not None,
         "load_ground_force": crane.load.ground is not None,
+        "sling": bool(crane.load.slings),
+        "hook": bool(crane.load.slings),
     }
     found = {
         name: shown

@@ -60,7 +60,7 @@ class TiedSight(Sight):
         potential = energy.elastic_energy(self) + stored(self.own, self.taut)
         potential = potential + crane.self_gravity * dot(self.head.rows[2], first)
         for mass, (place, speed) in (
-            (crane.trolley_mass, self.trolley_in_space), (self.load.mass, self.load_in_space),
+            (crane.trolley_mass, self.trolley_in_space), *self.hung,
         ):  # fmt: skip
             kinetic = kinetic + 0.5 * mass * dot(speed, speed)
             potential = potential + crane.gravity * mass * place[2]
@@ -117,9 +117,10 @@ def tensions(jib: int, counter_jib: int) -> Read:
     """Tensions of so many ties, from the tower's axis outward."""
 
     def read(k: int, side: str) -> Callable[[Any], Any]:
-        # They are the last of the guards but for those of rope and ground, those of the jib first.
+        # Those of the jib first; behind them are guards of slings, rope and ground.
         def tension(at: TiedSight) -> Any:
-            last = len(at.own.lengths) + len(guards_of(at.seen.crane.load))
+            load = at.seen.crane.load
+            last = len(at.own.lengths) + len(load.slings) + len(guards_of(load))
             return at.instant.guards[k + (at.own.ahead if side == "counter_jib" else 0) - last]
 
         return tension

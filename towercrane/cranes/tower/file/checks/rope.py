@@ -1,4 +1,4 @@
-"""What a tower crane's rope that stretches leaves no room for."""
+"""What a tower crane's rope that stretches, or slings below a hook, leave no room for."""
 
 from __future__ import annotations
 
@@ -24,15 +24,20 @@ IN_PLANE = f"beside exact modes in the plane {RIGID}; in space it knows the rope
 
 def refused(tables: TowerCase) -> dict[str, str]:
     """Uses that a checked case cannot serve, and why."""
-    if not tables.rope.stretches:
+    if not tables.rope.stretches and tables.hook is None:
         return {}
     more = {"modes": IN_PLANE} if stays_in_plane(tables) and tables.crane.jib.luffing is None else {}
+    if tables.hook is not None:
+        return dict.fromkeys(REFUSED | more, "the load hangs below a hook: it knows the load on its rope alone")
     return {use: f"the rope stretches: {why}" for use, why in (REFUSED | more).items()}
 
 
 def check_elastic(tree: dict[str, Any]) -> Iterator[Fault]:
-    """An error that is asked for of a run on an elastic rope."""
+    """An error that is asked for of a run on an elastic rope, or with a hook and slings."""
     target = at(tree, "accuracy.target")
     if target is not None and stretched(tree):
         hint = "a rope that slackens and is caught makes small motions silent; state modes and solver.rtol instead"
         yield Fault("", "accuracy.target", "no error to ask for with an elastic rope", shown(target), hint)
+    elif target is not None and at(tree, "hook") is not None:
+        hint = "errors are foretold of one swing alone; state modes and solver.rtol instead"
+        yield Fault("", "accuracy.target", "no error to ask for with a load below a hook", shown(target), hint)
