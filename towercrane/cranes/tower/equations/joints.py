@@ -83,7 +83,8 @@ class Joints:
         With dv the jump of the velocity of the rope's upper end D at the rates before, n along the rope and J what
         rates move D, ``(M + m J^T n n^T J) dq' = -J^T (m_c + m n n^T) dv``. The load's velocity across the rope is
         kept. With slings m is what the rope feels of them and the hook, see :mod:`towercrane.kernels.chain`. Each
-        drive that is prescribed puts in its impulse times its rate: the trolley's on trolley and load, along the mean of its two ways; the hoist's in the rope; the slewing's about the tower's axis.
+        drive that is prescribed puts in its impulse times its rate: the trolley's on trolley and load, along the mean
+        of its two ways; the hoist's in the rope; the slewing's about the tower's axis.
 
         Parameters
         ----------
