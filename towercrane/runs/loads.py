@@ -30,7 +30,7 @@ DRIVES = ("trolley_force", "slewing_torque", "drive_torque", "drive_torque_elast
 GROUND = ("ground_", "floor_")
 """Beginnings of the channels of an earthquake: at rest there is none."""
 
-RESTS = 1e-3
+RESTS = 1e-2
 """Static value, beside the extreme, below which there is no dynamic factor."""
 
 DIGITS = 6

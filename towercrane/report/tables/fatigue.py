@@ -20,7 +20,7 @@ def fatigue_tables(report: dict[str, Any]) -> None:
     console.print(table)
     reference = f"{report['reference_cycles']:g}"
     lines = [f"m = {exponent:g}" for exponent in report["exponents"]]
-    title = f"Cycles in {report['days']:g} days, and the range that does their damage in {reference} cycles"
+    title = f"Cycles in {_days(report['days'])}, and the range that does their damage in {reference} cycles"
     ranges = report_table(title, "output", "cycles", "largest", *lines)
     classes = report_table("Spectrum factors s and their classes", "output", *lines)
     for name, found in report["outputs"].items():
@@ -44,3 +44,7 @@ def fatigue_tables(report: dict[str, Any]) -> None:
 
 def _kilo(value: float) -> str:
     return f"{1e-3 * value:.3g}"
+
+
+def _days(count: float) -> str:
+    return "one day" if count == 1.0 else f"{count:g} days"

@@ -67,7 +67,10 @@ def _figure(found: Fatigue, title: str) -> Figure:
     left_out = len(found.cycles) - shown
     more = f"; {left_out} more outputs in the files" if left_out else ""
     crane = found.report["operations"][0]["crane"]
-    figure.suptitle(f"{title}, {crane}, {found.report['days']:g} days{more}", fontsize=10)
+    figure.suptitle(
+        f"{title}, {crane}, {found.report['days']:g} {'day' if found.report['days'] == 1.0 else 'days'}{more}",
+        fontsize=10,
+    )
     footnote(figure, [(own["key"], own["value"], own["why"]) for own in found.report["assumed"]])
     return figure
 
