@@ -10,10 +10,11 @@ from towercrane.commands.animate import animate
 from towercrane.commands.bench import bench
 from towercrane.commands.cases import cases_app
 from towercrane.commands.compare import compare
-from towercrane.commands.fatigue import fatigue
 from towercrane.commands.figures import figures
 from towercrane.commands.lattice import lattice
 from towercrane.commands.linearise import linearise
+from towercrane.commands.loads.fatigue import fatigue
+from towercrane.commands.loads.lift import lift
 from towercrane.commands.map import frequency_map
 from towercrane.commands.modes import modes
 from towercrane.commands.run import run
@@ -43,6 +44,7 @@ app.command()(compare)
 app.command()(sensitivity)
 app.command()(sweep)
 app.command()(fatigue)
+app.command()(lift)
 app.command()(bench)
 app.command()(shape)
 

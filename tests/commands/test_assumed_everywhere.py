@@ -37,6 +37,10 @@ COMMANDS = {
     "linearise to .npz": (RADIAL, (), (LOAD,), "payload.mass"),
     "shape": (RADIAL, (), (LOAD, "model.tower_modes=1", "model.jib_vertical_modes=1"), "payload.mass"),
     "sensitivity": ("slewing/basic/example-1", ("--vary", "stiffness_*", "--step", "50"), SHORT, "payload.mass"),
+    "lift": (
+        "qtz5613/lift-off", ("--speeds", "0.5", "--positions", "40", "--window", "2"),
+        (LOAD, "model.tower_modes=1", "model.jib_vertical_modes=1"), "payload.mass",
+    ),
     "compare": ("qtz5613/slewing", (), ("run.duration=1 s", "model.torsion_modes=0", TWIST), TWISTED),
 }  # fmt: skip
 

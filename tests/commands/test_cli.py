@@ -21,6 +21,8 @@ def test_help_and_version_name_every_command():
         "map",
         "lattice",
         "compare",
+        "fatigue",
+        "lift",
         "figures",
         "bench",
         "cases",
@@ -32,7 +34,7 @@ def test_help_and_version_name_every_command():
 def test_help_has_a_whole_sentence_for_each_command_in_80_columns():
     _, _, listed = towercrane("--help").stdout.partition("Commands:\n")
     commands = listed.partition("\n\n")[0].splitlines()
-    assert len(commands) == 13
+    assert len(commands) == 15
     assert all(line.endswith(".") and not line.endswith("...") and len(line) <= 80 for line in commands)
 
 

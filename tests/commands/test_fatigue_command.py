@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from towercrane import load_case
-from towercrane.commands.fatigue import fatigue as command
+from towercrane.commands.loads.fatigue import fatigue as command
 from towercrane.results.files import save
 from towercrane.runs.run import record_case
 from towercrane.schema.faults import CaseError

@@ -145,7 +145,7 @@ class Kind:
         Outputs that show the load's swing, and which way each is: shown in films, and where models are compared.
     serves : frozenset of str
         What it can be used for besides what every kind can: the studies "modes", "map", "lattice", "compare",
-        "verify" and "shape"; "members" for pictures of its members' modes beside those of a run.
+        "verify", "shape" and "lift"; "members" for pictures of its members' modes beside those of a run.
     wind_places : callable, optional
         Where a wind that differs from place to place blows, of its tables.
     refuses : callable, optional

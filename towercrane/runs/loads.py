@@ -12,8 +12,9 @@ from towercrane.simulation.integrate import evaluate
 from towercrane.simulation.system import NoEquilibrium, start_inputs
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
+    from towercrane.motions.motion import Motion
     from towercrane.runs.extremes import Extreme, Extremes
     from towercrane.simulation.run import Run
 
@@ -78,7 +79,7 @@ def loads_of(run: Run, found: Extremes) -> dict[str, dict[str, Any]]:
             for channel in run.model.channels
         )
         if places not in at_rest:
-            at_rest[places] = static(run, places)
+            at_rest[places] = static(run.model, run.motions, places)
         resting = at_rest[places].get(name)
         factor = peak / resting if resting is not None and abs(resting) > RESTS * abs(peak) else 0.0
         loads[name] = {
@@ -96,16 +97,16 @@ def tipped(moment_x: float, moment_y: float) -> float:
     return float(np.arctan2(-moment_x, moment_y))
 
 
-def static(run: Run, values: Sequence[float]) -> dict[str, float]:
+def static(model: Any, motions: Mapping[str, Motion], values: Sequence[float]) -> dict[str, float]:
     """Outputs of the crane at rest under its load, its drives at these values and a wind at its mean; none if it
     falls."""
     # Under its load it hangs, whatever that stands on now and then.
-    model = getattr(run.model, "lifted", run.model)
+    model = getattr(model, "lifted", model)
     # As wide as those of the run: for others the equations would be written anew.
-    width = max(3, *(run.motions[channel].coefficients.shape[1] for channel in model.channels))
+    width = max(3, *(motions[channel].coefficients.shape[1] for channel in model.channels))
     inputs = np.zeros((len(values), width))
     inputs[:, 0] = values
-    inputs = start_inputs(model, run.motions, inputs)
+    inputs = start_inputs(model, motions, inputs)
     try:
         state = model.start(inputs)
     except NoEquilibrium:

@@ -63,5 +63,5 @@ TOWER = Kind(
         refused_on_elastic(tables) | refused(tables) | refused_on_ties(tables) | refused_free(tables)
         | no_release(tables.release)
     ),
-    serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members"}),
+    serves=frozenset({"modes", "map", "lattice", "compare", "verify", "shape", "members", "lift"}),
 )  # fmt: skip

@@ -17,6 +17,7 @@ REFUSED = {
     "compare": "models are compared in motions that a drive prescribes",
     "verify": "--verify is for heads that are driven; choose [model] and [solver] and compare two runs",
     "shape": "a head that is free follows no motion that leaves the load at rest",
+    "lift": "a load is lifted off below a head that is held",
 }
 """What a crane cannot be used for whose head is free, and why."""
 

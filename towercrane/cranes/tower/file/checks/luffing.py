@@ -53,6 +53,7 @@ WITHOUT = {
 
 REFUSED = {
     "members": "modes of its members alone are not drawn",
+    "lift": "a load is lifted off over places of a trolley",
 }
 """What a crane whose jib pivots cannot be used for, and why."""
 

@@ -1,0 +1,1 @@
+"""Commands about the loads that a crane is designed for."""

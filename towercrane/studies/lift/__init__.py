@@ -1,0 +1,1 @@
+"""How hard a load pulls as it leaves the ground. Never imports reports."""
