@@ -62,6 +62,8 @@ def test_a_study_in_files_and_tables(tmp_path, capsys):
     ("luffing/manoeuvre", {"changes": ["rope.stiffness=14 MN"]}, "the jib pivots"),
     ("qtz5613/weathervane", {"changes": ["rope.stiffness=14 MN"]}, "the head is free to turn"),
     ("qtz5613/turbulence", {"changes": ["rope.stiffness=14 MN"]}, "wind: wanted still air"),
+    ("qtz5613/release", {"speeds": "0.5"}, "release: wanted a load that stays whole"),
+    ("qtz5613/hook-and-slings", {"changes": ["rope.stiffness=14 MN"], "speeds": "0.5"}, "hook: wanted a load on"),
     ("overhead-crane/hoist", {}, "a crane of kind 'overhead' has no trolley on a jib"),
 ])  # fmt: skip
 def test_what_cannot_be_lifted_is_refused(case, options, words, tmp_path, capsys):

@@ -25,7 +25,7 @@ MOST_SHAPES = 8
 LARGEST = 0.12
 """Largest displacement that is drawn, of the longest member."""
 
-MARKS = ("o", "s", "^", "D", "v", "P")
+MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 """Of the kinds of modes, for print in grey."""
 
 SWEEPS = {
@@ -54,7 +54,7 @@ def shapes(
         unit = crane_lines(model, mode, place, counter_jib, 1.0)
         largest = max(float(np.abs(unit[name] - still[name]).max()) for name in still)
         moved = crane_lines(model, mode, place, counter_jib, LARGEST * size / largest)
-        colour = COLOURS[MOTION_KINDS.index(mode.kind)]
+        colour = COLOURS[MOTION_KINDS.index(mode.kind) % len(COLOURS)]
         side, above = panels.ravel()[2 * k : 2 * k + 2]
         for axes, rows, label in ((side, (0, 2), "height [m]"), (above, (0, 1), "across [m]")):
             for name, line in still.items():
@@ -91,7 +91,7 @@ def frequencies(sweeps: dict[str, list[dict[str, Any]]], title: str, notes: Note
         for row, x in zip(rows, at, strict=True):
             for kind, frequency in zip(row["kinds"], row["frequencies_hz"], strict=True):
                 number = MOTION_KINDS.index(kind)
-                axes.plot(x, frequency, MARKS[number], color=COLOURS[number], ms=3)
+                axes.plot(x, frequency, MARKS[number], color=COLOURS[number % len(COLOURS)], ms=3)
         axes.set(xlabel=label, yscale="log")
         axes.grid(which="both", color="0.92", lw=0.6)
         if not rows:
@@ -101,7 +101,8 @@ def frequencies(sweeps: dict[str, list[dict[str, Any]]], title: str, notes: Note
     panels[0].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     panels[0].yaxis.set_minor_formatter(NullFormatter())
     handles = [
-        Line2D([], [], color=COLOURS[i], marker=MARKS[i], ls="", label=kind) for i, kind in enumerate(MOTION_KINDS)
+        Line2D([], [], color=COLOURS[i % len(COLOURS)], marker=MARKS[i], ls="", label=kind)
+        for i, kind in enumerate(MOTION_KINDS)
     ]
     figure.legend(handles=handles, loc="outside right upper", fontsize=8, frameon=False)
     figure.suptitle(title, fontsize=10)
