@@ -49,7 +49,7 @@ def release_report(case: Case, run: Run, found: Extremes) -> dict[str, Any] | No
     earlier, later = times < released.time - SAME_INSTANT, times >= released.time - SAME_INSTANT
     places = [float(run.motions[channel](released.time)) for channel in run.model.channels]
     places[run.model.channels.index(CHANNEL)] = 1.0
-    at_rest = static(run, places)
+    at_rest = static(run.model, run.motions, places)
     if at_rest:
         at_rest[ALONG] = float(along_jib(run, {name: np.array([own]) for name, own in at_rest.items()})[0])
     told = {}
