@@ -165,8 +165,8 @@ def study(
     """
     crane = _studied(model)
     plans = {channel: plans[channel] for channel in crane.channels}
-    sway = SwayFrequencies(model)
-    tried = candidates(plans, sway, PendulumFrequencies(crane.crane.gravity, crane.crane))
+    sway, below = SwayFrequencies(model), sum(sling.length for sling in model.load.slings)
+    tried = candidates(plans, sway, PendulumFrequencies(crane.crane.gravity, crane.crane, below))
     torsions = TORSIONS if crane.crane.torsion.count else ()
     trials, rows = len(ROPES) + len(torsions), []
     for number, candidate in enumerate(tried):

@@ -86,13 +86,16 @@ class PendulumFrequencies:
         [m/s^2]
     crane : FlexibleCrane, optional
         One whose jib pivots: as it luffs the rope that hangs from its head changes.
+    below : float
+        From the rope's end to the load, of slings below a hook that is taken for massless [m].
     """
 
     gravity: float
     crane: FlexibleCrane | None = None
+    below: float = 0.0
 
     def __call__(self, channel: str, place: float, rope: float) -> tuple[float, ...]:
         """The pendulum's frequency [Hz], whatever is driven and wherever the trolley is."""
         if self.crane is not None and self.crane.luffing is not None:
             rope = self.crane.luffing.below(self.crane.jib_length, place, rope)
-        return (float(np.sqrt(self.gravity / rope) / (2.0 * np.pi)),)
+        return (float(np.sqrt(self.gravity / (rope + self.below)) / (2.0 * np.pi)),)
