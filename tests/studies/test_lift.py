@@ -77,6 +77,16 @@ def test_a_study_says_what_single_runs_say():
     assert root == pytest.approx(800.0 * G * 40.0, rel=1e-3)
 
 
+def test_a_case_that_knows_no_ground_is_lifted_off_all_the_same():
+    rope = ["rope.axial_stiffness=7 MN", "rope.falls=2", "rope.extra_length=32.5 m", "rope.relaxation_time=3 ms"]
+    hangs = load_case("qtz5613/condition-3", [*SMALL, *rope, "rope.length=18 m", "payload.mass=800 kg"])
+    found, known = (
+        lift(case, [0.5], [40.0], hoisting=Hoisting(0.05, 1.0), window=3.0)["runs"][0]["dynamic_factor"]
+        for case in (hangs, load_case("qtz5613/lift-off", SMALL))
+    )
+    assert found == known
+
+
 def test_a_moment_is_that_in_the_plane_of_a_jib_that_is_turned():
     case = load_case("qtz5613/lift-off", [*SMALL, "motion.slewing.shape=rest", "motion.slewing.start=90 deg"])
     place = stand(case, model_of(case), 40.0, 0.05)

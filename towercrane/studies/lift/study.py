@@ -68,6 +68,8 @@ OUTPUTS = {
 """What has a dynamic factor, and its short name; the overturning moment is that in the jib's plane, positive where it
 tips the crane forward."""
 
+WATCHED = ROPE, CARRIED, "base_moment_x", "base_moment_y", "jib_root_moment"
+
 
 def lift(
     case: Case,
@@ -128,7 +130,8 @@ def lift(
             raise ValueError(f"{name}: wanted a number {'from' if zero else 'above'} 0, got {value:g}")
     places = [stand(case, model, position, way.slack) for position in positions]
     runs, ends = _runs(case, places, speeds, way, window)
-    names = [name for name in _watched(model) if name in scalars(model)]
+    shown = scalars(runs[0].model)
+    names = [name for name in WATCHED if name in shown]
     times = np.arange(0.0, max(ends) + LOOK, LOOK)
     lanes = [LaneRun(run.model, phases(run.motions, float(times[-1]))) for run in runs]
     answers = integrate_many(
@@ -205,10 +208,6 @@ def _runs(
             runs.append(_Run(place, speed, place.model, tuple(drives[channel] for channel in place.model.channels)))
             ends.append(end)
     return runs, ends
-
-
-def _watched(model: Any) -> list[str]:
-    return [ROPE, CARRIED, "base_moment_x", "base_moment_y", *(name for name in OUTPUTS if name != ROPE)]
 
 
 def _in_the_plane(place: Place, looked: Mapping[str, Any]) -> dict[str, Any]:
