@@ -34,6 +34,8 @@ from towercrane.runs.run import record_case
 from towercrane.simulation.simulate import record
 from towercrane.simulation.starts.begin import begin
 from towercrane.simulation.starts.start import Start
+from towercrane.studies.space_modes import Place
+from towercrane.studies.space_shapes import crane_lines
 
 G = 9.81
 SWUNG = Start(along=0.7, across=0.2, across_rate=0.3)
@@ -70,6 +72,14 @@ def test_under_a_tower_crane_both_swings_are_among_its_frequencies():
     assert_allclose([mode.frequency_hz for mode in modes], exact, rtol=1e-6)
     kinds = [mode.kind for mode in modes]
     assert {"radial sway", "radial sling", "lateral sling"} <= {*kinds}
+    # Pictures of a mode have the hook between rope and load, each as far from the other as it is in the mode.
+    stretched = replace(space, load=replace(HOOKED, elasticity=Elasticity(14e8, 32.5)))
+    for model in (space, stretched):
+        place = Place(30.0, 14.0, 0.0)
+        mode = next(mode for mode in natural_modes(model, 30.0, 14.0) if mode.kind == "radial sling")
+        rope = crane_lines(model, mode, place, 10.0, 1e-3)["rope"]
+        assert_allclose(np.diff(rope, axis=0)[:, :2].ravel(), 1e-3 * mode.shape[-4:], atol=1e-15)
+        assert_allclose(rope[1:, 2] - rope[0, 2], [-14.0, -18.0], atol=1e-2)
     sways = SwayFrequencies(space)
     by_kind = {mode.kind: mode.frequency_hz for mode in modes}
     assert sways("trolley", 30.0, 14.0) == pytest.approx((by_kind["radial sway"], by_kind["radial sling"]))

@@ -166,7 +166,9 @@ def beside_a_richer(
     for kind, part in model.parts.items():
         first = richer.parts[kind].start
         own[first : first + model.counts[kind]] = np.transpose([mode.shape[part] for mode in modes])
-    own[-2:] = np.transpose([mode.shape[-2:] for mode in modes])
+    # Rope and slings have the same coordinates in both.
+    hung = modes[0].shape[model.coordinates :].size
+    own[-hung:] = np.transpose([mode.shape[-hung:] for mode in modes])
     entries = np.linalg.solve(np.transpose([mode.shape for mode in theirs]), own)
     criteria = (entries**2 / (entries**2).sum(axis=0)).T
     held = (np.linalg.qr(entries)[0] ** 2).sum(axis=1)

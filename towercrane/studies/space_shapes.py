@@ -40,8 +40,8 @@ def crane_lines(
     Returns
     -------
     dict of str to ndarray, shape (points, 3)
-        "tower", "jib", "counter-jib" and "rope" down to the load, of a jib that pivots or hangs on ties also what
-        holds it; along the jib, across it in the turning sense,
+        "tower", "jib", "counter-jib" and "rope" down to the load, past a hook; of jibs that pivot or hang on ties
+        also what holds them; along the jib, across it in the turning sense,
         and up from the ground [m].
     """
     crane, parts = model.crane, model.parts
@@ -98,6 +98,10 @@ def crane_lines(
     if crane.tied is not None:
         for name, (moved, still) in crane.tied.lines(scale * jib[None]).items():
             found[name] = swayed(moved[0], still[0])
-    load = hung - [0.0, 0.0, place.rope_length]
-    load[:2] += scale * (turn @ mode.shape[n:])
-    return {"tower": tower, **found, "rope": np.stack([hung, load])}
+    # The stretch of a rope that does stands before the ways of what hangs on rope and slings.
+    links, drops = [hung], [place.rope_length, *(sling.length for sling in model.load.slings)]
+    if model.load.elasticity is not None:
+        drops[0] += scale * mode.shape[n]
+    for drop, way in zip(drops, mode.shape[-2 * len(drops) :].reshape(-1, 2), strict=True):
+        links.append(links[-1] + [*(scale * (turn @ way)), -drop])
+    return {"tower": tower, **found, "rope": np.stack(links)}
