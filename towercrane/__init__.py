@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.modes.modal_crane import flexible_crane
     from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
     from towercrane.runs.run import run_case
     from towercrane.runs.sweep import sweep
 

@@ -15,7 +15,7 @@ from towercrane.accuracy.instants import OUTPUTS, RICHEST, nodes_of
 from towercrane.accuracy.scene import Scene
 from towercrane.cranes.tower.equations.small_motions import plane_matrices, plane_modes
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.profiles import s_curve, smooth_ramps
 from towercrane.schema.targets import Tolerance
 from towercrane.simulation.starts.start import Start

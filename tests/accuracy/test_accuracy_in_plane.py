@@ -20,7 +20,7 @@ from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.tower.equations.small_motions import linear_matrices
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.targets import ALL, FORETOLD, absent
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.results.measures import gap, peak
 from towercrane.runs.run import record_case

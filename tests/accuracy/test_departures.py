@@ -18,7 +18,7 @@ from towercrane.accuracy.setting import Setting
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.tower.crane_model import moving
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.results.measures import gap, peak
 from towercrane.schema.targets import Tolerance

@@ -15,7 +15,7 @@ from towercrane.accuracy.setting import Setting
 from towercrane.cases.models import model_of, poses_of
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.targets import ALL, ANY_MOTION
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid
 from towercrane.results.measures import gap, peak

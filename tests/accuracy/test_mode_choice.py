@@ -19,7 +19,7 @@ from towercrane.cli import app
 from towercrane.cranes.parts.wind import WindAreas, gusts
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.targets import MOTIONS
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.profiles import trapezoid
 from towercrane.report.tables.runs import run_tables, verification_tables
 from towercrane.results.measures import gap, peak

@@ -36,7 +36,7 @@ from towercrane.cli import app
 from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.parameters import TowerCrane
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import smooth_ramps, trapezoid
 from towercrane.motions.shaping import minimum_jerk

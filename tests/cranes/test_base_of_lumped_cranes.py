@@ -11,7 +11,8 @@ from samples import jib_cranes, lab_crane, overhead_crane
 
 from towercrane.cranes.jib.model import TORQUES, DrivenJibCrane
 from towercrane.cranes.overhead.model import OverheadModel
-from towercrane.kernels.payload import Load, state_of
+from towercrane.kernels.load import Load
+from towercrane.kernels.payload import state_of
 from towercrane.motions.motion import Motion
 
 LOAD = Load(1500.0, rope_damping=300.0, drag_area=2.0)

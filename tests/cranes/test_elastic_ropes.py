@@ -14,7 +14,8 @@ from towercrane.cranes.jib.model import PlannedJibCrane
 from towercrane.cranes.overhead.model import OverheadModel
 from towercrane.kernels.elastic_rope import SLACK_MODE, TAUT, Elasticity
 from towercrane.kernels.hanging import hang_load
-from towercrane.kernels.payload import Load, Rope, State, Structure
+from towercrane.kernels.load import Load
+from towercrane.kernels.payload import Rope, State, Structure
 from towercrane.motions.motion import phases, rest, sequence
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import evaluate, integrate

@@ -11,7 +11,7 @@ from scipy.linalg import eigh, expm
 from towercrane.cranes.parts.hoisting.contact import LEFT
 from towercrane.kernels.elastic_rope import Elasticity
 from towercrane.kernels.ground import Ground
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import phases, rest, sequence
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import evaluate, integrate

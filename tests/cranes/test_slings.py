@@ -26,7 +26,7 @@ from towercrane.cranes.overhead.model import OverheadModel
 from towercrane.cranes.tower.equations.small_motions import natural_modes, plane_modes
 from towercrane.cranes.tower.sway_frequencies import SwayFrequencies
 from towercrane.kernels.elastic_rope import Elasticity
-from towercrane.kernels.payload import Load, Sling
+from towercrane.kernels.load import Load, Sling
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid

@@ -8,7 +8,8 @@ from numpy.testing import assert_allclose
 
 from towercrane.kernels.elastic_rope import TAUT, Elasticity
 from towercrane.kernels.hanging import hang_load
-from towercrane.kernels.payload import Load, Rope, Sling, State, Structure
+from towercrane.kernels.load import Load, Sling
+from towercrane.kernels.payload import Rope, State, Structure
 
 G = 9.81
 

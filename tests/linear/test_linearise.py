@@ -9,7 +9,7 @@ from samples.qtz5613 import CRANE, in_plane, model, standing
 from scipy.linalg import expm
 
 from towercrane.cranes.tower.equations.small_motions import plane_matrices, plane_modes
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid

@@ -8,7 +8,7 @@ from samples.overhead_crane import SMALL
 
 from towercrane.cranes.overhead.equations import BRIDGE_FORCE
 from towercrane.cranes.overhead.model import OverheadModel
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid
 from towercrane.runs.extremes import extremes_of

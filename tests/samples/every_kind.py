@@ -12,7 +12,7 @@ from towercrane.cranes.overhead.model import OverheadModel
 from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import Motion, phases, rest, sequence
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import evaluate, integrate

@@ -8,7 +8,7 @@ from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.modes.parameters import TowerCrane
 from towercrane.cranes.tower.modes.tied.bars import CatHead, Tie, TieBars
 from towercrane.cranes.tower.tied_model import TiedModel
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 
 HEAD = CatHead(height=8.5, mass_per_length=220.0, bending_stiffness=1.6e9, axial_stiffness=2e9)
 JIB_TIES = (Tie(18.0, 1.2, 5.8e8, 23.0), Tie(44.0, 1.2, 5.8e8, 23.0))

@@ -4,7 +4,7 @@ import numpy as np
 
 from towercrane.cranes.jib.model import PlannedJibCrane
 from towercrane.cranes.jib.parameters import JibCrane
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import smooth_ramps, trapezoid
 

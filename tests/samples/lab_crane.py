@@ -8,7 +8,7 @@ import numpy as np
 
 from towercrane.cranes.slewing import models as slewing
 from towercrane.cranes.slewing.model import LumpedModel
-from towercrane.kernels.payload import AIR_DENSITY, Load
+from towercrane.kernels.load import AIR_DENSITY, Load
 from towercrane.motions.motion import phases, rest
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import evaluate, integrate

@@ -10,7 +10,7 @@ from towercrane.cranes.tower.modes.luffing_crane import luffing_crane
 from towercrane.cranes.tower.modes.luffing_jib import HeadBody, LuffingJib
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.modes.parameters import TowerCrane
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 
 PIVOTING = LuffingJib(
     foot=(1.5, 1.2),

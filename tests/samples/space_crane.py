@@ -11,7 +11,7 @@ from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.modal_crane import flexible_crane
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.outputs.kinematics import Kinematics
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import speed_trapezoid, trapezoid
 from towercrane.simulation.observed import Instant

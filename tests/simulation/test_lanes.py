@@ -10,7 +10,7 @@ from samples.qtz5613 import CRANE, in_plane, model, motions
 from modal import Chain, Foundation, Segment
 from modal.compiler.lanes import LANES
 from towercrane.cranes.parts.ground import earthquake
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import phases, rest, sequence
 from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.simulation.lanes.many import integrate_many

@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 from modal import Chain, EndBody, Foundation, Segment
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.small_motions import linear_matrices
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.motions.profiles import smooth_ramps, trapezoid

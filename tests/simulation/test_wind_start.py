@@ -17,7 +17,7 @@ from towercrane.cases.models import model_of, motions_of
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import Motion, phases, rest
 from towercrane.motions.profiles import trapezoid

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.model import FlexibleModel
     from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.cranes.tower.outputs.cut_sums import Section
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
     from towercrane.motions.motion import Motion
     from towercrane.simulation.run import Run
     from towercrane.simulation.trajectory import Progress

@@ -22,7 +22,8 @@ from towercrane.kernels.algebra import Row, dot
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from towercrane.kernels.payload import Load, Momentary, State
+    from towercrane.kernels.load import Load, Momentary
+    from towercrane.kernels.payload import State
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,14 +11,16 @@ from towercrane.kernels.algebra import Row, dot, solve
 from towercrane.kernels.chain import chain_of
 from towercrane.kernels.elastic_rope import stretch
 from towercrane.kernels.ground import stand
-from towercrane.kernels.payload import Hung, Load, Momentary
+from towercrane.kernels.load import Load, Momentary
+from towercrane.kernels.payload import Hung
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from towercrane.kernels.chain import Chain
     from towercrane.kernels.elastic_rope import Elasticity
-    from towercrane.kernels.payload import Rope, Sling, State, Structure
+    from towercrane.kernels.load import Sling
+    from towercrane.kernels.payload import Rope, State, Structure
 
 
 def hang_load(structure: Structure, state: State, rope: Rope, load: Load | Momentary, gravity: Any) -> Hung:

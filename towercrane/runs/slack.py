@@ -11,7 +11,7 @@ from towercrane.cranes.parts.hoisting.letting_go import CHANNEL
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
     from towercrane.runs.extremes import Extremes
     from towercrane.simulation.run import Run
 

@@ -19,7 +19,7 @@ from samples.jib_cranes import (
 
 from towercrane.cranes.jib.linear import static_matrices
 from towercrane.cranes.jib.model import TORQUES, DrivenJibCrane
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import Motion, phases, rest
 from towercrane.simulation.integrate import integrate
 from towercrane.simulation.simulate import simulate

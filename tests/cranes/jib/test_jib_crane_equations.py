@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 from towercrane.cranes.jib.equations import PLANNED_TENSION, TENSION, TORQUE, structure
 from towercrane.cranes.jib.model import DrivenJibCrane, PlannedJibCrane
 from towercrane.cranes.jib.tracking import TrackingJibCrane
-from towercrane.kernels.payload import AIR_DENSITY, Load
+from towercrane.kernels.load import AIR_DENSITY, Load
 from towercrane.motions.motion import Motion
 from towercrane.simulation.simulate import simulate
 

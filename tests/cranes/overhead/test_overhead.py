@@ -10,7 +10,7 @@ from oracles.pendulums import Pendulum
 
 from towercrane.cases.case import load_case
 from towercrane.cases.models import model_of
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import Motion, rest
 from towercrane.runs.run import run_case

@@ -9,7 +9,7 @@ from samples.overhead_crane import SMALL as CRANE
 from towercrane.cranes.overhead import equations
 from towercrane.cranes.overhead.model import OverheadModel
 from towercrane.cranes.overhead.parameters import OverheadCrane
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 
 LOADS = {"lossless": Load(900.0), "lossy": Load(900.0, rope_damping=250.0, drag_area=3.0)}
 

@@ -22,7 +22,7 @@ from samples.lab_crane import (
 
 from towercrane.cranes.slewing.model import LumpedModel
 from towercrane.cranes.slewing.outputs import point_of
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.starts.begin import begin

@@ -12,7 +12,7 @@ from scipy.special import ellipj, ellipk
 from towercrane.cranes.slewing import equations
 from towercrane.cranes.slewing.description import Drive, Link, LumpedCrane, Point
 from towercrane.cranes.slewing.model import LumpedModel
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import phases, rest
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.starts.begin import begin

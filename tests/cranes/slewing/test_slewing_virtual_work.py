@@ -14,7 +14,7 @@ from samples.lab_crane import BUILDERS, PARAMETERS
 
 from towercrane.cranes.slewing import equations
 from towercrane.cranes.slewing.model import LumpedModel
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 
 ORDER = {
     "multi-mass": ("z4", "phi3", "y3", "x3", "phi2", "phi1", "phi4", "z6"),

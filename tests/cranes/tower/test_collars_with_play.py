@@ -17,7 +17,7 @@ from towercrane.cranes.tower.equations.play import contact_stiffness
 from towercrane.cranes.tower.modes.collars import TowerCollar
 from towercrane.cranes.tower.modes.gap_shapes import gap_shapes
 from towercrane.cranes.tower.modes.parameters import TowerCrane
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest
 from towercrane.simulation.simulate import simulate
 

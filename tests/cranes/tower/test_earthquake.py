@@ -14,7 +14,7 @@ from towercrane.cranes.parts.ground import earthquake, floor
 from towercrane.cranes.parts.wind import WindAreas, steady
 from towercrane.cranes.tower.modes.left_out.effective_mass import effective_mass
 from towercrane.cranes.tower.modes.parameters import TowerCrane
-from towercrane.kernels.payload import AIR_DENSITY, Load
+from towercrane.kernels.load import AIR_DENSITY, Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.simulation.simulate import simulate

@@ -18,7 +18,7 @@ from towercrane.cranes.tower.equations.constants import SLIDE_X, SLIDE_Y
 from towercrane.cranes.tower.equations.motion import SLEWING_TORQUE, TENSION, TROLLEY_FORCE
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.outputs.cut_sums import Section, cuts_of
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import Motion
 
 AREAS = WindAreas(tower=3.0, jib=1.2, counter_jib=1.5, counterweight=8.0)

@@ -14,7 +14,7 @@ from towercrane.cranes.tower.crane_model import tower_crane_model
 from towercrane.cranes.tower.equations.small_motions import MOTION_KINDS, linear_matrices, natural_modes, plane_modes
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.modes.parameters import TowerCrane
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import rest
 from towercrane.simulation.system import NoEquilibrium

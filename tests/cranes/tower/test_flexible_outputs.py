@@ -11,7 +11,7 @@ from towercrane.cranes.parts.wind import WindAreas, gusts
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.motion import motion
 from towercrane.cranes.tower.outputs.energy import kinetic_energy
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.kernels.straight.leaves import numbers_of, table_of
 from towercrane.kernels.straight.written import written
 from towercrane.motions.motion import phases

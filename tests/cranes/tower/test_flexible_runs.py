@@ -18,7 +18,7 @@ from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.equations.constants import SLEWING
 from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.kernels.algebra import cross
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import phases, rest, sequence
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.integrate import evaluate, integrate

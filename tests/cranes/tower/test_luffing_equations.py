@@ -20,7 +20,8 @@ from towercrane.cranes.tower.equations.luffing.ropes import tied_at, way_to
 from towercrane.cranes.tower.equations.structure import structure
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.kernels.payload import Load, State
+from towercrane.kernels.load import Load
+from towercrane.kernels.payload import State
 from towercrane.motions.motion import Motion
 from towercrane.motions.profiles import speed_trapezoid, trapezoid
 from towercrane.simulation.simulate import simulate

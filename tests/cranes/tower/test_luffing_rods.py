@@ -20,7 +20,7 @@ from towercrane.cranes.tower.file.case_tables import TowerCase
 from towercrane.cranes.tower.luffing_model import LuffingModel
 from towercrane.cranes.tower.modes.luffing_crane import luffing_crane
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.simulation.simulate import simulate
 
 LOAD, DURATION, EVERY = 5000.0, 8.0, 0.25

@@ -9,7 +9,7 @@ from oracles.balance import imbalance
 from samples.qtz5613 import CONDITIONS, CRANE, in_plane, model, motions, standing
 from scipy.integrate import solve_ivp
 
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import s_curve, trapezoid
 from towercrane.simulation.methods.method import EnergyDriftWarning

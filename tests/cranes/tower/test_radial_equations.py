@@ -11,7 +11,7 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 from samples.qtz5613 import CRANE, in_plane
 
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 
 GAUSS = leggauss(32)
 

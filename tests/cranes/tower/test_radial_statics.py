@@ -9,7 +9,7 @@ from modal import crane_structure, finite_element_structure_frequencies
 from tests.samples.qtz5613 import in_plane
 from towercrane.cranes.tower.equations.small_motions import plane_modes
 from towercrane.cranes.tower.file.build import frame_of
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.simulation.simulate import simulate
 from towercrane.simulation.starts.start import Start
 from towercrane.simulation.system import NoEquilibrium

@@ -11,7 +11,7 @@ from towercrane.cranes.parts.wind import WindAreas
 from towercrane.cranes.tower.equations.small_motions import linear_matrices, plane_matrices, unloaded_frequencies
 from towercrane.cranes.tower.model import FlexibleModel
 from towercrane.kernels.elastic_rope import Elasticity
-from towercrane.kernels.payload import Load, Release
+from towercrane.kernels.load import Load, Release
 from towercrane.linear.linearise import linearise
 from towercrane.motions.motion import Phases, phases, rest
 from towercrane.motions.profiles import speed_trapezoid, trapezoid

@@ -20,7 +20,8 @@ from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.modal_crane import flexible_crane
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.modes.tied.head import sums_on_axis
-from towercrane.kernels.payload import Load, State
+from towercrane.kernels.load import Load
+from towercrane.kernels.payload import State
 from towercrane.motions.motion import Motion
 
 DRIVE = Drive("slewing", 4e6, 3e7, 0.02, 2e5, "none", 0.0, 1.0)

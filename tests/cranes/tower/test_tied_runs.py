@@ -8,7 +8,7 @@ from towercrane.cranes.tower.modes.damping import ModalDamping
 from towercrane.cranes.tower.modes.modal_crane import flexible_crane
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
 from towercrane.cranes.tower.tied_model import TiedModel
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest
 from towercrane.motions.profiles import trapezoid
 from towercrane.simulation.outcomes import SLACK_TIE

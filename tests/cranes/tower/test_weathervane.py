@@ -17,7 +17,7 @@ from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.crane_model import tower_crane_model
 from towercrane.cranes.tower.equations.actions.wind import panel_pressures
 from towercrane.cranes.tower.modes.mode_counts import ModeCounts
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest
 from towercrane.runs.run import record_case
 from towercrane.runs.summary import peaks

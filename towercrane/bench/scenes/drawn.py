@@ -13,7 +13,7 @@ from towercrane.bench.scenes.drawn_cranes import any_crane, familiar_crane, in_s
 from towercrane.cranes.parts.wind import WindAreas, gusts, steady
 from towercrane.cranes.slewing.description import Drive
 from towercrane.cranes.tower.modes.damping import ModalDamping
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import s_curve, smooth_ramps, table, trapezoid
 from towercrane.motions.shaping import minimum_jerk

@@ -24,7 +24,7 @@ from towercrane.cranes.slewing.kind import SLEWING
 from towercrane.cranes.slewing.tables import SlewingCase
 from towercrane.cranes.tower.file.build import tower_model
 from towercrane.cranes.tower.file.case_tables import TowerCase
-from towercrane.kernels.payload import Load
+from towercrane.kernels.load import Load
 from towercrane.motions.motion import rest, sequence
 from towercrane.motions.profiles import speed_trapezoid
 from towercrane.simulation.starts.start import Start

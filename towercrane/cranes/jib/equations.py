@@ -18,13 +18,14 @@ import numpy as np
 
 from towercrane.kernels.algebra import dot
 from towercrane.kernels.hanging import hang_load
-from towercrane.kernels.payload import Load, Rope, Structure, slopes, state_of
+from towercrane.kernels.payload import Rope, Structure, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from towercrane.cranes.jib.parameters import JibCrane
+    from towercrane.kernels.load import Load
 
 JOINTS = 3
 AXES = 3

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cranes.jib.parameters import JibCrane
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
     from towercrane.simulation.observed import About
 
     Floats = NDArray[np.float64]

@@ -15,13 +15,16 @@ Bridge and trolley follow their motions; what their drives must do for it is rea
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from towercrane.kernels.hanging import hang_load
-from towercrane.kernels.payload import Load, Rope, Structure, slopes, state_of
+from towercrane.kernels.payload import Rope, Structure, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
+
+if TYPE_CHECKING:
+    from towercrane.kernels.load import Load
 
 BRIDGE, TROLLEY, ROPE = range(3)
 """Rows of ``inputs``."""

@@ -9,7 +9,7 @@ import numpy as np
 from towercrane.kernels.algebra import Row, Vector, dot
 
 if TYPE_CHECKING:
-    from towercrane.kernels.payload import Load, Momentary
+    from towercrane.kernels.load import Load, Momentary
 
 
 def air_at(nodes: int, drives: Row) -> list[Vector]:

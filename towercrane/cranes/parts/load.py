@@ -10,7 +10,7 @@ import numpy as np
 from towercrane.cranes.parts.hoisting.release_table import release_of
 from towercrane.kernels.elastic_rope import BY_STRAIN, TAUT, Elasticity
 from towercrane.kernels.ground import Ground
-from towercrane.kernels.payload import AIR_DENSITY, Load, Sling
+from towercrane.kernels.load import AIR_DENSITY, Load, Sling
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.ranges import at, si_at
 

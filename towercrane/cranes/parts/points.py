@@ -21,7 +21,8 @@ from towercrane.simulation.observed import About
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from towercrane.kernels.payload import Load, Momentary, State
+    from towercrane.kernels.load import Load, Momentary
+    from towercrane.kernels.payload import State
 
 
 class Point(NamedTuple):

@@ -9,7 +9,7 @@ import numpy as np
 
 from modal.checks import check_fields
 from towercrane.cranes.parts.turbulence.profile import Profile
-from towercrane.kernels.payload import AIR_DENSITY
+from towercrane.kernels.load import AIR_DENSITY
 from towercrane.motions.motion import Motion, rest
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from towercrane.cranes.parts.coupling import coupling_torque
 from towercrane.cranes.parts.friction import BY_RATE, held, holding, slip
 from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.hanging import hang_load
-from towercrane.kernels.payload import Load, Rope, Structure, slopes, state_of
+from towercrane.kernels.payload import Rope, Structure, slopes, state_of
 from towercrane.kernels.polynomial import polynomial
 from towercrane.kernels.straight.leaves import CHANGING
 
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cranes.slewing.description import Drive
+    from towercrane.kernels.load import Load
 
     Floats = NDArray[np.float64]
     Pair = tuple[Any, Any]

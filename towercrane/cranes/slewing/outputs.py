@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.slewing.description import LumpedCrane
     from towercrane.cranes.slewing.equations import Body, Constants
     from towercrane.kernels.algebra import Row
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
     from towercrane.simulation.observed import Instant
 
     Floats = NDArray[np.float64]

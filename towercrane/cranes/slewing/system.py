@@ -17,7 +17,7 @@ from towercrane.cranes.parts.wind import wind_channels
 from towercrane.cranes.slewing import equations
 from towercrane.cranes.slewing.equations import Arm, Body, Constants, structure
 from towercrane.kernels.elastic_rope import TAUT
-from towercrane.kernels.payload import SLACK, Load, Structure
+from towercrane.kernels.payload import SLACK, Structure
 from towercrane.kernels.polynomial import polynomial
 from towercrane.kernels.straight.leaves import place_of
 from towercrane.kernels.straight.written import written
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cranes.slewing.description import Link, LumpedCrane, Point
+    from towercrane.kernels.load import Load
 
     Floats = NDArray[np.float64]
 

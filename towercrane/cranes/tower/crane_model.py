@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.modes.mode_counts import ModeCounts
     from towercrane.cranes.tower.modes.parameters import TowerCrane
     from towercrane.cranes.tower.outputs.cut_sums import Section
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
 
 
 MODE_KINDS = {

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
     from towercrane.motions.motion import Motion
     from towercrane.results.recording import Quantity
     from towercrane.simulation.observed import About, Instant

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.cranes.parts.hoisting.slackening import Slackening
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
 
     Floats = NDArray[np.float64]
 

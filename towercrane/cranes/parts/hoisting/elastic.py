@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from towercrane.kernels.algebra import Row
-    from towercrane.kernels.payload import Load, Momentary, Structure
+    from towercrane.kernels.load import Load, Momentary
+    from towercrane.kernels.payload import Structure
     from towercrane.simulation.system import Switch, System
 
     Floats = NDArray[np.float64]

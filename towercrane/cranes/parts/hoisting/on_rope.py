@@ -14,7 +14,8 @@ from towercrane.simulation.system import NoEquilibrium, check_start
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from towercrane.kernels.payload import Load, Structure
+    from towercrane.kernels.load import Load
+    from towercrane.kernels.payload import Structure
 
     Floats = NDArray[np.float64]
 

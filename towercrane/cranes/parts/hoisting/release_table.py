@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from towercrane.kernels.payload import AIR_DENSITY, Release
+from towercrane.kernels.load import AIR_DENSITY, Release
 from towercrane.schema.faults import Fault, shown
 from towercrane.schema.fields import AreaIfAny, LengthIfAny, MassIfAny, Quantity, Ratio, Table, Time, Wait
 from towercrane.schema.ranges import at, si_at

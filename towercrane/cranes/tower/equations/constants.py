@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from towercrane.cranes.tower.equations.luffing.constants import Luffing
     from towercrane.cranes.tower.equations.play import Play
     from towercrane.cranes.tower.equations.tied.constants import Tied
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
 
     Floats = NDArray[np.float64]
     Table = Floats

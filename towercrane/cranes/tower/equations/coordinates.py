@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from towercrane.cranes.slewing.description import Drive
     from towercrane.cranes.tower.modes.modal_crane import FlexibleCrane
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
 
     Floats = NDArray[np.float64]
 

@@ -23,7 +23,7 @@ from towercrane.cranes.tower.equations.matrices import scale, softening, stiffne
 from towercrane.cranes.tower.equations.play import contact_stiffness
 from towercrane.cranes.tower.equations.rest import Resting
 from towercrane.cranes.tower.equations.structure import structure
-from towercrane.kernels.payload import SLACK, Load, State, Structure, state_of
+from towercrane.kernels.payload import SLACK, State, Structure, state_of
 from towercrane.kernels.polynomial import polynomial
 from towercrane.kernels.straight.leaves import place_of
 from towercrane.simulation.outcomes import SLACK_ROPE, TOWER_BUCKLED, TROLLEY_OFF_JIB
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from towercrane.kernels.load import Load
     from towercrane.motions.motion import Motion
     from towercrane.simulation.system import Crossings
 

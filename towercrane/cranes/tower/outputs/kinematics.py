@@ -20,11 +20,12 @@ from towercrane.cranes.tower.equations.jib import Path, Section, Trolley, path_o
 from towercrane.cranes.tower.equations.motion import GUARDS
 from towercrane.kernels.algebra import Row, Vector, dot
 from towercrane.kernels.choices import choose
-from towercrane.kernels.payload import Momentary, State, state_of
+from towercrane.kernels.load import Momentary
+from towercrane.kernels.payload import State, state_of
 
 if TYPE_CHECKING:
     from towercrane.cranes.tower.outputs.seen import Seen
-    from towercrane.kernels.payload import Load
+    from towercrane.kernels.load import Load
     from towercrane.simulation.observed import Instant
 
 Pair = tuple[Any, Any]
