@@ -38,7 +38,7 @@ def test_a_run_is_drawn_summed_up_and_filmed_from_its_file(tmp_path):
     assert len(summary["natural_frequencies_hz"]) == 3
     assert len(summary["assumed"]) == 24
     files = {path.name for path in tmp_path.iterdir()}
-    assert files == {"result.nc", "summary.json", "overview.png", "forces.png", "path.png"}
+    assert files == {"result.nc", "summary.json", "overview.png", "forces.png", "path.png", "base.png"}
     filmed = done("animate", tmp_path / "result.nc", "--out", tmp_path / "film.gif", "--frames-per-second", 3)
     assert filmed.exit_code == 0, filmed.output
     assert (tmp_path / "film.gif").read_bytes()[:6] == b"GIF89a"
