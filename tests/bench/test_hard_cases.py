@@ -22,6 +22,7 @@ ENDS = {
     "hard/buckled": "tower buckled",
     "hard/slack-above-the-horizontal": "slack rope",
     "hard/slack-while-lowering": "slack rope",
+    "hard/slings-slack-below-the-hook": "slack sling",
     "hard/space-gust-slackens-the-rope": "slack rope",
     "hard/zero-start-slack": "slack rope",
 }

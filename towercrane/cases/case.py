@@ -10,6 +10,7 @@ from towercrane.cases.shipped import case_folder, case_name, find_case, list_cas
 from towercrane.schema.faults import CaseError, Fault
 from towercrane.schema.provenance import Assumption, split_provenance
 from towercrane.schema.text import in_utf8, read_case
+from towercrane.schema.toml_files import is_file
 
 if TYPE_CHECKING:
     import os
@@ -152,7 +153,7 @@ def load_case(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Ca
         tree["crane"]["kind"] = kind
     if isinstance(start := tree.get("start"), dict) and isinstance(start.get("from"), str):
         beside = found.parent / start["from"]
-        start["from"] = str(beside) if beside.is_file() else start["from"]
+        start["from"] = str(beside) if is_file(beside) else start["from"]
     checked = None
     try:
         checked = KINDS[kind].tables.model_validate(tree)

@@ -18,8 +18,11 @@ if TYPE_CHECKING:
 
 MOST_STEPS = 50
 
-SHORTEST = 1.0 / 128.0
+SHORTEST = 1.0 / 1024.0
 """Share of the forces by which they grow at least, where they do not act all at once."""
+
+FAR = 0.5
+"""Distance from where the stiffness leads, beside the way there, beyond which a place is another one."""
 
 SETTLED = 1e-8
 """Change of the coordinates, relative to their scale, below which no further progress is rounding."""
@@ -59,23 +62,24 @@ def stable_equilibrium(
     q = np.zeros(len(scale))
     if not len(scale):
         return q
-    try:
-        return _settled(residual, scale, contact, q)
-    except Unstable:
-        _check(_tangent(residual, scale, contact, q)[0])
-    # A long step can lead astray where a way in short ones, all of them stable, leads on.
-    first, share, step = _tangent(residual, scale, contact, q)[1][:, None], 0.0, 0.5
+    tangent, force = _tangent(residual, scale, contact, q)
+    first, share, step = force[:, None], 0.0, 1.0
     while share < 1.0:
         grown = min(share + step, 1.0)
-        missing = (1.0 - grown) * first
+        _check(tangent)
+        expected = np.linalg.solve(tangent, (grown - share) * first[:, 0])
         try:
-            q = _settled(partial(_less, residual, missing), scale, contact, q)
+            found = _settled(partial(_less, residual, (1.0 - grown) * first), scale, contact, q)
+            # A place far from the expected one is another: beyond a load that buckles, a crane may stand somewhere.
+            if np.max(abs(found - q - expected) / scale) > FAR * np.max(abs(expected) / scale) + SETTLED:
+                raise Unstable("no equilibrium is near as the forces grow")
         except Unstable:
             step = 0.5 * step
             if step < SHORTEST:
                 raise
         else:
-            share, step = grown, 2.0 * step
+            q, share, step = found, grown, 2.0 * step
+            tangent, _ = _tangent(residual, scale, contact, q)
     return q
 
 

@@ -121,9 +121,11 @@ class Coordinates:
             raise ValueError("FlexibleModel.weight_softening: wanted False for a load that lets go, got True")
         if self.drive is None and self.drive_inertia:
             raise ValueError(f"FlexibleModel.drive_inertia: wanted 0 without a drive, got {self.drive_inertia!r}")
-        if self.drive is not None and (self.drive.friction == "stick-slip") != self.drive.free:
-            wanted = "'stick-slip' of a brake without a coupling, else 'none' or 'tanh'"
-            raise ValueError(f"FlexibleModel.slewing: wanted friction {wanted}, got {self.drive.friction!r}")
+        if self.drive is not None and self.drive.friction == "stick-slip" and not self.drive.free:
+            raise ValueError(
+                "FlexibleModel.slewing: wanted friction 'none' or 'tanh', got 'stick-slip', which is of a brake "
+                "without a coupling"
+            )
         if self.drive is not None and self.drive.free and crane.luffing is not None:
             raise ValueError(
                 "FlexibleModel.slewing: wanted a motion or a drive with a coupling for a jib that pivots"
