@@ -38,7 +38,7 @@ __all__ = [
 
 _HOME = {
     "FlexibleModel": "cranes.tower.model",
-    "Load": "kernels.payload",
+    "Load": "kernels.load",
     "ModeCounts": "cranes.tower.modes.mode_counts",
     "TowerCrane": "cranes.tower.modes.parameters",
     "flexible_crane": "cranes.tower.modes.modal_crane",
