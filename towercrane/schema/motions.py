@@ -280,20 +280,7 @@ TrolleyMotion = Annotated[
     | Points,
     Field(discriminator="shape"),
 ]
-JointMotion = Annotated[
-    JointRest
-    | JointTrapezoid
-    | JointSCurve
-    | JointSpeedTrapezoid
-    | JointSmoothRamps
-    | JointShaped
-    | JointMinimumJerk
-    | JointSequence
-    | TurnPoints,
-    Field(discriminator="shape"),
-]
-
-SlewingMotion = Annotated[
+_Joint = (
     JointRest
     | JointTrapezoid
     | JointSCurve
@@ -303,9 +290,11 @@ SlewingMotion = Annotated[
     | JointMinimumJerk
     | JointSequence
     | TurnPoints
-    | FreeTurn,
-    Field(discriminator="shape"),
-]
+)
+
+JointMotion = Annotated[_Joint, Field(discriminator="shape")]
+
+SlewingMotion = Annotated[_Joint | FreeTurn, Field(discriminator="shape")]
 
 
 @cache
