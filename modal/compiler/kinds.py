@@ -17,7 +17,6 @@ Whole = Annotated[NDArray[np.int64], "whole", 2]
 
 LaneRow = Annotated[Any, "lanes", 1]
 LaneTable = Annotated[Any, "lanes", 2]
-LaneStack = Annotated[Any, "lanes", 3]
 """Contiguous arrays of lane vectors, see `modal.compiler.lanes`."""
 
 Number = Annotated[Any, "number", 0]

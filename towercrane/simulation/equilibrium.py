@@ -62,11 +62,12 @@ def stable_equilibrium(
     q = np.zeros(len(scale))
     if not len(scale):
         return q
-    tangent, force = _tangent(residual, scale, contact, q)
-    first, share, step = force[:, None], 0.0, 1.0
+    first, share, step = None, 0.0, 1.0
     while share < 1.0:
         grown = min(share + step, 1.0)
+        tangent, force = _tangent(residual, scale, contact, q)
         _check(tangent)
+        first = force[:, None] if first is None else first
         expected = np.linalg.solve(tangent, (grown - share) * first[:, 0])
         try:
             found = _settled(partial(_less, residual, (1.0 - grown) * first), scale, contact, q)
@@ -79,7 +80,6 @@ def stable_equilibrium(
                 raise
         else:
             q, share, step = found, grown, 2.0 * step
-            tangent, _ = _tangent(residual, scale, contact, q)
     return q
 
 

@@ -82,9 +82,7 @@ def _model(modes: tuple[int, int]) -> FlexibleModel:
 
 
 def _run(modes: tuple[int, int], span: float) -> Callable[[], Any]:
-    model = tower_model(
-        load_case("qtz5613/condition-3").tables(TowerCase), tower_modes=modes[0], jib_vertical_modes=modes[1]
-    )
+    model = _model(modes)
     cut = phases((rest(23.0), rest(18.0)), span)
     start, grid = begin(model, cut.inputs[0], Start("zero", along=0.1)), np.linspace(0.0, span, round(20 * span) + 1)
     return lambda: whole(integrate(unwatched(model.system), cut, start, grid, rtol=RTOL, atol=1e-2 * RTOL))
