@@ -95,7 +95,7 @@ def test_buckled_tower_ends_with_its_own_code_and_keeps_what_stands(tmp_path):
     [
         (("--positions", "0"), "--positions 0: wanted 1 to 1000"),
         (("--modes", "21"), "--modes 21: wanted 1 to 20"),
-        (("--payload", "400"), '--payload 400: wanted a mass, such as "800 kg"'),
+        (("--payload", "400 kN"), '--payload 400 kN: wanted a mass, such as "800 kg"'),
         (("--payload", "400 kg,"), '--payload : wanted a mass, such as "800 kg"'),
         (("--payload", "3 m"), "which is a length"),
         (("--payload", "0 kg"), "--payload 0 kg: wanted a mass above 0"),

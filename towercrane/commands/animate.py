@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import replace
 from math import pi, sqrt
 from pathlib import Path
@@ -19,6 +18,7 @@ from towercrane.commands.shared.terminal import (
     held_interrupts,
     load_run,
     out_option,
+    quantity,
     say,
     suggest,
     tell,
@@ -128,7 +128,7 @@ def _playback(duration: float, start: str, end: str | None, speed: float | None,
     """What is asked for, judged before anything is run."""
     from towercrane.report.film.playback import Playback, fitting_speed
 
-    first, last = _seconds("--from", start), duration if end is None else _seconds("--to", end)
+    first, last = quantity("--from", start, "s"), duration if end is None else quantity("--to", end, "s")
     if first >= duration:
         fail(f"--from: wanted less than {duration:g} s, where the run ends, got {first:g} s")
     if last > duration * (1.0 + 1e-9):
@@ -138,19 +138,6 @@ def _playback(duration: float, start: str, end: str | None, speed: float | None,
     except ValueError as error:
         name, _, wrong = str(error).removeprefix("Playback.").partition(":")
         fail(f"{OPTIONS[name]}:{wrong}")
-
-
-def _seconds(option: str, text: str) -> float:
-    """A time with its unit, or a plain number of seconds."""
-    from towercrane.schema.units import UnitError, to_si
-
-    value: str | float = text
-    with suppress(ValueError):
-        value = float(text)
-    try:
-        return to_si(value, "s")
-    except UnitError as error:
-        fail(f"{option}: {error}")
 
 
 def _run(case: Case) -> Run:

@@ -17,6 +17,7 @@ from towercrane.commands.shared.terminal import (
     Out,
     Pictures,
     fail,
+    quantity,
     say,
     with_bar,
 )
@@ -124,14 +125,9 @@ def frequency_map(
 
 def _masses(asked: MapRequest, written: list[str] | None) -> list[float]:
     """Payloads [kg], ascending, each once."""
-    from towercrane.schema.units import UnitError, to_si
-
     masses = set() if written else set(asked.payload_masses)
     for text in (part.strip() for option in written or () for part in option.split(",")):
-        try:
-            mass = to_si(text, "kg")
-        except UnitError as error:
-            fail(f"--payload {text}: {error}")
+        mass = quantity(f"--payload {text}", text, "kg")
         if not 0.0 < mass <= 1e6:
             fail(f"--payload {text}: wanted a mass above 0 and up to 1000 t; without a load the hook's own")
         masses.add(mass)
@@ -140,12 +136,7 @@ def _masses(asked: MapRequest, written: list[str] | None) -> list[float]:
 
 def _position(written: str, reach: float) -> float:
     """Place of the trolley [m]."""
-    from towercrane.schema.units import UnitError, to_si
-
-    try:
-        position = to_si(written, "m")
-    except UnitError as error:
-        fail(f"--shapes {written}: {error}")
+    position = quantity(f"--shapes {written}", written, "m")
     if not 0.0 <= position <= reach:
         fail(f"--shapes {written}: wanted a place on the jib, 0 to {reach:g} m")
     return position

@@ -18,6 +18,7 @@ from towercrane.commands.shared.terminal import (
     Pictures,
     fail,
     options_of,
+    quantity,
     say,
     with_bar,
 )
@@ -107,18 +108,7 @@ def _numbers(option: str, text: str | None, unit: str) -> list[float] | None:
     """Numbers with commas between them, in SI."""
     if text is None:
         return None
-    from towercrane.schema.units import UnitError, to_si
-
-    found = []
-    for part in text.split(","):
-        try:
-            found.append(to_si(float(part), unit))
-        except ValueError:
-            try:
-                found.append(to_si(part.strip(), unit))
-            except UnitError as error:
-                fail(f"{option} {text}: {error}")
-    return found
+    return [quantity(f"{option} {text}", part.strip(), unit) for part in text.split(",")]
 
 
 def _classes(given: list[str] | None, standard: str | None) -> Classes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 import threading
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeVar
 
@@ -190,6 +190,19 @@ def suggest(*arguments: str) -> None:
     import shlex
 
     tell(f"next: {shlex.join(['towercrane', *arguments])}")
+
+
+def quantity(option: str, text: str, unit: str) -> float:
+    """A quantity at an option with its unit, or a plain number in SI."""
+    from towercrane.schema.units import UnitError, to_si
+
+    value: str | float = text
+    with suppress(ValueError):
+        value = float(text)
+    try:
+        return to_si(value, unit)
+    except UnitError as error:
+        fail(f"{option}: {error}")
 
 
 def fail(message: str) -> NoReturn:

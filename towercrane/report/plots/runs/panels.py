@@ -60,7 +60,7 @@ def over_time(result: xr.Dataset, title: str, panels: tuple[Panel, ...]) -> Figu
                 result["time"], panel.factor * result[name], color=COLOURS[i], ls=DASHES[i], lw=1.2,
                 label=panel.lines[name],
             )  # fmt: skip
-            _mark(axes, loads.get(name), panel.factor, COLOURS[i])
+            _mark(axes, loads.get(name), panel, name, COLOURS[i])
         of_its_unit = (other for other, beside in zip(sizes, panels, strict=True) if _unit(beside) == _unit(panel))
         if size < ROUNDING * max(of_its_unit):
             # A scale of its own would make a motion of what is nothing but rounding.
@@ -76,14 +76,14 @@ def over_time(result: xr.Dataset, title: str, panels: tuple[Panel, ...]) -> Figu
     return figure
 
 
-def _mark(axes: Axes, load: dict[str, Any] | None, factor: float, colour: str) -> None:
+def _mark(axes: Axes, load: dict[str, Any] | None, panel: Panel, name: str, colour: str) -> None:
     """Mark the largest value of a load, and draw what it is at rest where it has a dynamic factor."""
     if load is None:
         return
-    most = load[load["largest"]]
+    factor, most = panel.factor, load[load["largest"]]
     axes.plot(most["time_s"], factor * most["value"], "o", ms=4, color=colour)
     if load["dynamic_factor"]:
-        label = f"at rest there; factor {load['dynamic_factor']:.3g}"
+        label = f"{panel.lines[name]}, at rest there; factor {load['dynamic_factor']:.3g}"
         axes.axhline(factor * load["static"], color=colour, ls=(0, (1, 3)), lw=1.0, label=label)
 
 
