@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,8 +25,9 @@ def factors(report: dict[str, Any]) -> Figure:
     """A panel for each output: a line for each place of the trolley, formulas by hand, classes as steps of grey."""
     known = [name for name in SECTIONS if any(name in row["dynamic_factor"] for row in report["runs"])]
     figure = figure_of(3.6 * max(len(known), 1) + 2.2, 4.8)
-    words = "; ".join(stated(report).values())
-    figure.suptitle(f"Lift-off of {report['payload_kg']:g} kg, {report['crane']}\n{words}", fontsize=9)
+    # Narrower than the panels, so that it ends before the legend.
+    words = wrap("; ".join(stated(report).values()), 40 * max(len(known), 1))
+    figure.suptitle("\n".join([f"Lift-off of {report['payload_kg']:g} kg, {report['crane']}", *words]), fontsize=9)
     drawn: Any = np.atleast_1d(figure.subplots(1, max(len(known), 1), sharex=True))
     for axes, name in zip(drawn, known, strict=False):
         _panel(axes, report, name)
