@@ -200,3 +200,12 @@ def test_collars_are_drawn_at_rest_and_named(plane):
     assert any(np.array_equal(places, [[0.0, 30.0], [0.0, 55.0]]) for places in drawn)
     assert "collars at rest" in [text.get_text() for text in held.figure.legends[0].get_texts()]
     assert "collars at rest" not in [text.get_text() for text in plane.figure.legends[0].get_texts()]
+
+
+def test_ground_is_drawn_where_the_load_stands():
+    film = filmed("qtz5613/lift-off", "run.duration=2 s", playback=Playback(0.0, 2.0, 2.0, 2.0), magnification=1.0)
+    side = film.figure.axes[0]
+    (label,) = [text for text in side.texts if text.get_text() == "ground under the load"]
+    assert label.xy[1] == pytest.approx(film.poses.load[0, 2])
+    assert label.xy[1] > 1.0
+    assert any(list(line.get_ydata()) == [label.xy[1]] * 2 for line in side.lines)

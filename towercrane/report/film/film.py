@@ -15,6 +15,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.lines import Line2D
 
+from towercrane.cranes.parts.poses import sampled
 from towercrane.report.film.panels import ABOVE, ALONG, LOAD, Sway, View
 from towercrane.report.plots.style import figure_of, footnote, run_title
 from towercrane.runs.summary import assumed
@@ -56,6 +57,7 @@ class Film:
         self._background: Any = None
         side, above, below = _panels(self.figure, poses.planar)
         self._views = _views(side, above, poses, playback, magnification)
+        _put_ground(side, result, poses)
         self._sway = Sway(below, result, playback)
         corner: dict[str, Any] = {"transform": side.transAxes, "ha": "right", "va": "top", "animated": True}
         self._clock = side.text(0.985, 0.96, "", fontsize=12, family="monospace", **corner)
@@ -130,6 +132,18 @@ def _views(side: Axes, above: Axes | None, poses: Poses, playback: Playback, mag
         above.set_title("from above", fontsize=9, loc="left")
         above.set(xlabel="x [m]", ylabel="y [m]")
     return views
+
+
+def _put_ground(side: Axes, result: xr.Dataset, poses: Poses) -> None:
+    """Draw the ground that the load stands on in some frame: it need not be where the crane stands."""
+    if "load_ground_force" not in result:
+        return
+    stands = np.flatnonzero(sampled(result, "load_ground_force", poses.times) > 0.0)
+    if len(stands):
+        height = float(poses.load[stands[0], 2])
+        side.axhline(height, color="0.45", ls=(0, (6, 2)), lw=0.8, zorder=0.5)
+        where: Any = {"xy": (0.0, height), "xycoords": ("axes fraction", "data"), "textcoords": "offset points"}
+        side.annotate("ground under the load", xytext=(4, 2), fontsize=7, color="0.35", **where)
 
 
 def _legend(figure: Figure, view: View, title: str, magnification: float | None) -> None:
